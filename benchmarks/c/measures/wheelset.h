@@ -1,0 +1,64 @@
+#ifndef WHEELSET_H
+#define WHEELSET_H
+
+#include "../physics/arithmetic.h"
+#include "records.h"
+
+#define SPEED_CLASSES 21
+
+static inline void begin_wheelset(WheelsetMeasures *m)
+{
+    m->maximum_slide = 0.0;
+    for (int k = 0; k < SPEED_CLASSES; k++)
+        m->maximum_slide_above[k] = NAN;
+    m->first_sliding_time = NAN;
+    m->sliding_duration = m->locked_time = m->longest_lock = m->lock = 0.0;
+    m->valve_actuations = m->venting = m->maximum_clamping_force = 0.0;
+    m->air_vented = NAN;
+}
+
+static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Parameters *p, int place, double time,
+                                 double speed, double slip)
+{
+    double slide = slip / speed;
+    m->maximum_slide = maximum(m->maximum_slide, slide);
+    for (int k = 0; k < SPEED_CLASSES; k++)
+        if (speed * (3.6 / 10.0) > k && !(m->maximum_slide_above[k] >= slide))
+            m->maximum_slide_above[k] = slide;
+    if (!(slide > p->sliding_slide && slip > p->sliding_slip))
+        return;
+    m->sliding_duration += time - train->end_time;
+    if (!(m->first_sliding_time <= time))
+        m->first_sliding_time = time;
+    if (!(train->sliding_time <= time)) {
+        train->sliding_time = time;
+        train->sliding_wheelset = place;
+    }
+}
+
+static inline void observe_lock(WheelsetMeasures *m, const Parameters *p, double interval, double wheel_speed)
+{
+    if (wheel_speed < p->locked_speed) {
+        m->locked_time += interval;
+        m->lock += interval;
+        m->longest_lock = maximum(m->longest_lock, m->lock);
+    } else {
+        m->lock = 0.0;
+    }
+}
+
+static inline void observe_wheelset(WheelsetMeasures *m, Measures *train, const Parameters *p, int place,
+                                    double time, double speed, double wheel_speed, double venting,
+                                    double clamping_force)
+{
+    if (venting > m->venting)
+        m->valve_actuations += 1.0;
+    m->venting = venting;
+    m->maximum_clamping_force = maximum(m->maximum_clamping_force, clamping_force);
+    if (speed > p->moving_speed) {
+        observe_slide(m, train, p, place, time, speed, speed - wheel_speed);
+        observe_lock(m, p, time - train->end_time, wheel_speed);
+    }
+}
+
+#endif

@@ -1,0 +1,74 @@
+#ifndef BALANCE_H
+#define BALANCE_H
+
+#include "../physics/vehicle.h"
+#include "records.h"
+
+#define FRAME_ENERGY(frame, mass, inertia, p)                                                            \
+    (kinetic_energy((mass), (frame)->speed) + kinetic_energy((mass), (frame)->vertical_speed) +          \
+     kinetic_energy((inertia), (frame)->pitch_rate) + (mass) * (p)->gravity * (p)->gradient * (frame)->position)
+
+static inline double joint_shift(const Car *car, const Bogie *bogie, double height, const Parameters *p)
+{
+    return longitudinal(car->position, car->pitch, height - p->body_height) -
+           longitudinal(bogie->position, bogie->pitch, height - p->bogie_height);
+}
+
+static inline double secondary_energy(const Car *car, const Bogie *bogie, const Parameters *p)
+{
+    double rise = vertical(car->height, car->pitch, bogie->ahead) - bogie->height;
+    double energy = spring_energy(p->secondary_vertical_stiffness, rise);
+    energy += spring_energy(p->secondary_longitudinal_stiffness, joint_shift(car, bogie, p->secondary_height, p));
+    return energy + spring_energy(p->link_stiffness, joint_shift(car, bogie, p->link_height, p));
+}
+
+static inline double wheelset_energy(const Wheelset *wheelset, const Bogie *bogie, const Parameters *p)
+{
+    double shift = wheelset->position - longitudinal(bogie->position, bogie->pitch, p->wheel_radius - p->bogie_height);
+    double rise = vertical(bogie->height, bogie->pitch, wheelset->ahead);
+    double springs = spring_energy(p->primary_longitudinal_stiffness, shift) +
+                     spring_energy(p->primary_vertical_stiffness, rise);
+    double motion =
+        kinetic_energy(p->wheelset_mass, wheelset->speed) + kinetic_energy(p->wheelset_inertia, wheelset->rotation);
+    return springs + motion + p->wheelset_mass * p->gravity * p->gradient * wheelset->position;
+}
+
+static inline double stored_energy(const Car *car, const Bogie *bogies, const Wheelset *wheelsets, const Parameters *p)
+{
+    double energy = FRAME_ENERGY(car, p->body_mass, p->body_inertia, p);
+    for (int j = 0; j < 2; j++) {
+        energy += FRAME_ENERGY(&bogies[j], p->bogie_mass, p->bogie_inertia, p);
+        energy += secondary_energy(car, &bogies[j], p);
+    }
+    for (int i = 0; i < 4; i++)
+        energy += wheelset_energy(&wheelsets[i], &bogies[i / 2], p);
+    return energy;
+}
+
+static inline double energy_residual(const Car *car, const Bogie *bogies, const Wheelset *wheelsets,
+                                     const Parameters *p)
+{
+    double lost = car->damper_loss + car->resistance_loss;
+    for (int i = 0; i < 4; i++)
+        lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss;
+    return (stored_energy(car, bogies, wheelsets, p) + lost - car->initial_energy) / car->initial_energy;
+}
+
+static inline double stored_air(const Car *car, const Wheelset *wheelsets)
+{
+    double air = car->reservoir_mass + car->line_mass;
+    for (int i = 0; i < 4; i++)
+        air += wheelsets[i].air_mass;
+    return air;
+}
+
+static inline double air_residual(const Car *car, const Wheelset *wheelsets)
+{
+    double released = car->exhausted_air;
+    for (int i = 0; i < 4; i++)
+        released += wheelsets[i].vented_air;
+    double balance = stored_air(car, wheelsets) + released - car->compressor_air - car->initial_air;
+    return balance / car->consumed_air;
+}
+
+#endif

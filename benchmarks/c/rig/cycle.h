@@ -1,0 +1,69 @@
+/* Once per controller cycle: sensors are read, the controller decides, the valves are told. */
+#ifndef CYCLE_H
+#define CYCLE_H
+
+#include "../controllers/slip_band.h"
+#include "../controllers/threshold.h"
+#include "../physics/once_per_cycle.h"
+#include "records.h"
+
+enum { SPEED = 0, PRESSURE = 1, LOADCELL = 2, CHANNELS = 16 };
+
+/* Friction laws: places, friction coefficients there, times, factors then; `width` numbers each. */
+typedef struct {
+    const double *rows;
+    int64_t width;
+} Rail;
+
+static inline double noise(const Parameters *p, int64_t cycle, int channel)
+{
+    uint32_t word_0 = (uint32_t)cycle, word_1 = (uint32_t)channel;
+    threefry((uint32_t)p->seed, (uint32_t)p->case_key, &word_0, &word_1);
+    return bell(word_0, word_1);
+}
+
+static inline void read_sensors(Wheelset *wheelset, const Parameters *p, int64_t cycle, int place)
+{
+    int channel = place * CHANNELS;
+    wheelset->pressure_error = p->pressure_noise * noise(p, cycle, channel + PRESSURE);
+    wheelset->loadcell_error = p->loadcell_noise * noise(p, cycle, channel + LOADCELL);
+    wheelset->measured_speed =
+        speed_reading(wheelset->rotation * p->wheel_radius, p->tooth_pitch, p->timer_resolution, p->cycle_time,
+                      p->slowest_measured_speed, p->speed_noise * noise(p, cycle, channel + SPEED));
+}
+
+static inline void command_valve(Wheelset *wheelset, const Parameters *p)
+{
+    if (p->wsp_active == 0)
+        wheelset->command = FILL;
+    wheelset->command_register = remember(wheelset->command_register, wheelset->command);
+    int64_t before = command_before(wheelset->command_register, p->valve_delay_cycles + 1);
+    int64_t after = command_before(wheelset->command_register, p->valve_delay_cycles);
+    wheelset->fill_before = before == FILL;
+    wheelset->fill_after = after == FILL;
+    wheelset->vent_before = before == VENT;
+    wheelset->vent_after = after == VENT;
+    wheelset->venting = wheelset->command == VENT;
+    wheelset->filling_cycles = wheelset->command == FILL ? wheelset->filling_cycles + 1 : 0;
+    wheelset->wsp_acting = wheelset->filling_cycles < p->wsp_acting_cycles;
+}
+
+static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail, int64_t cycle)
+{
+    const double *places = rail.rows, *frictions = places + rail.width;
+    const double *times = frictions + rail.width, *factors = times + rail.width;
+    for (int i = 0; i < 4; i++) {
+        read_sensors(&wheelsets[i], p, cycle, i);
+        double along = interpolated(car->position - wheelsets[i].behind, places, frictions, p->friction_points);
+        wheelsets[i].friction = along * interpolated(car->time, times, factors, p->friction_times);
+    }
+    if (p->algorithm == 1)
+        decide_by_slip_band(car, wheelsets, p);
+    else
+        decide_by_threshold(car, wheelsets, p);
+    for (int i = 0; i < 4; i++)
+        command_valve(&wheelsets[i], p);
+    car->substep = 0.0;
+}
+
+#endif

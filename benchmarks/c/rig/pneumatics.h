@@ -1,0 +1,63 @@
+#ifndef PNEUMATICS_H
+#define PNEUMATICS_H
+
+#include "../physics/air.h"
+#include "records.h"
+
+OURS real orifice(real pressure_1, real pressure_2, real conductance, const Parameters *p)
+{
+    return mass_flow(pressure_1, pressure_2, conductance, p->flow_density, p->critical_ratio, p->subsonic_scale,
+                     p->laminar_ratio, p->laminar_scale);
+}
+
+OURS real pressure_gain(real pressure, real volume, real gained, real growth, const Parameters *p)
+{
+    return pressure_change(pressure, volume, gained, growth, p->polytropic_exponent, p->gas_constant,
+                           p->air_temperature);
+}
+
+OURS void step_supply(Car *car, real drawn, const Parameters *p)
+{
+    real gauge = car->line_pressure - p->atmospheric_pressure;
+    car->demand = demand(car->time, p->demanded_pressure, p->dead_time, p->fill_time);
+    real opening = relay_opening(car->demand, gauge, p->relay_band);
+    real filled = p->step * orifice(car->reservoir_pressure, car->line_pressure,
+                                    p->relay_conductance * maximum(opening, number(0.0)), p);
+    real exhausted = p->step * orifice(car->line_pressure, p->atmospheric_pressure,
+                                       p->relay_conductance * maximum(-opening, number(0.0)), p);
+    car->compressor_running = compressor_running(car->reservoir_pressure, car->compressor_running,
+                                                 p->compressor_cut_in, p->compressor_cut_out);
+    real delivered = p->step * p->compressor_delivery * car->compressor_running;
+    car->reservoir_mass += delivered - filled;
+    car->reservoir_pressure =
+        isothermal_pressure(car->reservoir_mass, p->reservoir_volume, p->gas_constant, p->air_temperature);
+    real gained = filled - exhausted - drawn;
+    car->line_mass += gained;
+    car->line_pressure += pressure_gain(car->line_pressure, p->line_volume, gained, number(0.0), p);
+    car->compressor_air += delivered;
+    car->consumed_air += filled;
+    car->exhausted_air += exhausted;
+}
+
+OURS real step_tank(Wheelset *wheelset, const Car *car, const Parameters *p)
+{
+    mask switched = car->substep >= p->valve_delay_steps;
+    real fill_target = choose(switched, wheelset->fill_after, wheelset->fill_before);
+    real vent_target = choose(switched, wheelset->vent_after, wheelset->vent_before);
+    wheelset->fill_opening = travel(wheelset->fill_opening, fill_target, p->valve_travel_per_step);
+    wheelset->vent_opening = travel(wheelset->vent_opening, vent_target, p->valve_travel_per_step);
+    real drawn =
+        p->step * orifice(car->line_pressure, wheelset->pressure, p->fill_conductance * wheelset->fill_opening, p);
+    real vented = p->step * orifice(wheelset->pressure, p->atmospheric_pressure,
+                                    p->vent_conductance * wheelset->vent_opening, p);
+    real swept = wheelset->has_caliper * p->piston_area;
+    real fixed = choose(wheelset->has_caliper > 0.0, p->caliper_tank_volume, p->tank_volume);
+    real volume = fixed + swept * wheelset->stroke;
+    real growth = swept * wheelset->stroke_change;
+    wheelset->air_mass += drawn - vented;
+    wheelset->vented_air += vented;
+    wheelset->pressure += pressure_gain(wheelset->pressure, volume, drawn - vented, growth, p);
+    return drawn;
+}
+
+#endif

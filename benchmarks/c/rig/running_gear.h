@@ -1,0 +1,149 @@
+#ifndef RUNNING_GEAR_H
+#define RUNNING_GEAR_H
+
+#include "../physics/clamping_force.h"
+#include "../physics/contact.h"
+#include "../physics/vehicle.h"
+#include "records.h"
+
+#define LOWEST_LOAD 0.2
+#define HIGHEST_LOAD 2.5
+
+/* A force, a moment and the motions they advance stand in the same fields of a car body and of a bogie. */
+#define CLEAR_FORCES(frame)                       \
+    do {                                          \
+        (frame)->longitudinal_force = number(0.0); \
+        (frame)->vertical_force = number(0.0);    \
+        (frame)->moment = number(0.0);            \
+    } while (0)
+
+#define STEP_FRAME(frame, mass, inertia, resistance, p)                                  \
+    do {                                                                                 \
+        real drag_ = (resistance) + gradient_force((mass), (p)->gradient, (p)->gravity); \
+        (frame)->speed += (p)->step * ((frame)->longitudinal_force - drag_) / (mass);    \
+        (frame)->vertical_speed += (p)->step * (frame)->vertical_force / (mass);         \
+        (frame)->pitch_rate += (p)->step * (frame)->moment / (inertia);                  \
+        (frame)->position += (p)->step * (frame)->speed;                                 \
+        (frame)->height += (p)->step * (frame)->vertical_speed;                          \
+        (frame)->pitch += (p)->step * (frame)->pitch_rate;                               \
+    } while (0)
+
+OURS void couple_longitudinally(Car *car, Bogie *bogie, real stiffness, real damping, real height, const Parameters *p)
+{
+    real above_body = height - p->body_height;
+    real above_bogie = height - p->bogie_height;
+    real shift =
+        longitudinal(car->position, car->pitch, above_body) - longitudinal(bogie->position, bogie->pitch, above_bogie);
+    real rate = longitudinal(car->speed, car->pitch_rate, above_body) -
+                longitudinal(bogie->speed, bogie->pitch_rate, above_bogie);
+    real pull = suspension_force(stiffness, damping, shift, rate);
+    bogie->longitudinal_force += pull;
+    bogie->moment -= above_bogie * pull;
+    car->longitudinal_force -= pull;
+    car->moment += above_body * pull;
+    car->damper_loss += p->step * damping * rate * rate;
+}
+
+OURS void couple_body(Car *car, Bogie *bogie, const Parameters *p)
+{
+    couple_longitudinally(car, bogie, p->secondary_longitudinal_stiffness, p->secondary_longitudinal_damping,
+                          p->secondary_height, p);
+    couple_longitudinally(car, bogie, p->link_stiffness, p->link_damping, p->link_height, p);
+    real rise = vertical(car->height, car->pitch, bogie->ahead) - bogie->height;
+    real rate = vertical(car->vertical_speed, car->pitch_rate, bogie->ahead) - bogie->vertical_speed;
+    real lift = suspension_force(p->secondary_vertical_stiffness, p->secondary_vertical_damping, rise, rate);
+    bogie->vertical_force += lift;
+    car->vertical_force -= lift;
+    car->moment -= bogie->ahead * lift;
+    car->damper_loss += p->step * p->secondary_vertical_damping * rate * rate;
+}
+
+OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Parameters *p)
+{
+    real above = p->wheel_radius - p->bogie_height;
+    real shift = wheelset->position - longitudinal(bogie->position, bogie->pitch, above);
+    real rate = wheelset->speed - longitudinal(bogie->speed, bogie->pitch_rate, above);
+    real pull = suspension_force(p->primary_longitudinal_stiffness, p->primary_longitudinal_damping, shift, rate);
+    real rise = vertical(bogie->height, bogie->pitch, wheelset->ahead);
+    real rise_rate = vertical(bogie->vertical_speed, bogie->pitch_rate, wheelset->ahead);
+    real lift = suspension_force(p->primary_vertical_stiffness, p->primary_vertical_damping, rise, rise_rate);
+    bogie->longitudinal_force += pull;
+    bogie->vertical_force -= lift;
+    bogie->moment -= above * pull + wheelset->ahead * lift;
+    car->damper_loss += p->step * (p->primary_longitudinal_damping * rate * rate +
+                                   p->primary_vertical_damping * rise_rate * rise_rate);
+    wheelset->thrust = -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
+    wheelset->wheel_load = maximum(p->static_wheel_load - 0.5 * lift, LOWEST_LOAD * p->reference_load);
+    wheelset->torque = brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
+                                    p->pad_friction, p->disc_radius);
+}
+
+/* One Newton step towards the slip speed; returns the creep force of both wheels before it. */
+OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
+{
+    real slope;
+    real force = creep_force(wheelset->slip_estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
+                             wheelset->wheel_load, wheelset->contact_stiffness, wheelset->friction, p->friction_ratio,
+                             p->friction_decay, p->reduction_adhesion, p->reduction_slip, &slope);
+    wheelset->slip_estimate = refined_slip(wheelset->slip_estimate, &wheelset->lowest_slip, &wheelset->highest_slip,
+                                           wheelset->free_slip, p->slip_response, force, slope);
+    return 2.0 * force;
+}
+
+OURS void begin_slip(Wheelset *wheelset, const Parameters *p)
+{
+    real load_ratio = minimum(wheelset->wheel_load * p->load_scale, number(HIGHEST_LOAD));
+    wheelset->contact_stiffness = contact_stiffness(p->creep_stiffness, load_ratio);
+    real slip = wheelset->speed - p->wheel_radius * wheelset->rotation;
+    real braking = turning_direction(wheelset->rotation, wheelset->speed) * wheelset->torque;
+    real free_slip = slip + p->mass_response * wheelset->thrust + p->inertia_response * p->wheel_radius * braking;
+    real direction = choose(free_slip < 0.0, number(-1.0), number(1.0));
+    wheelset->slip_direction = direction;
+    wheelset->free_slip = direction * free_slip;
+    wheelset->highest_slip = wheelset->free_slip;
+    wheelset->lowest_slip =
+        lowest_slip(wheelset->free_slip, p->slip_response, wheelset->wheel_load, wheelset->friction);
+    wheelset->slip_estimate = maximum(direction * slip, number(0.0));
+    wheelset->sliding_force = refine_slip(wheelset, p);
+}
+
+OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
+{
+    real speed = wheelset->speed;
+    real rotation = wheelset->rotation;
+    real sense = turning_direction(rotation, speed);
+    real slip_change = wheelset->free_slip - wheelset->slip_estimate;
+    real turning_creep = wheelset->slip_direction * slip_change * p->slip_stiffness;
+    real turned = rotation + p->inertia_response * (p->wheel_radius * turning_creep - sense * wheelset->torque);
+    mask locked = turned * sense <= 0.0;
+    real free_speed = speed + p->mass_response * wheelset->thrust;
+    real sliding_creep = locked_force(speed, free_speed, wheelset->sliding_force, p->mass_response);
+    real holding = p->wheel_radius * sliding_creep + rotation * p->inertia_stiffness;
+    real creep = choose(locked, sliding_creep, turning_creep);
+    real braking = choose(locked, holding, sense * wheelset->torque);
+    wheelset->creep_force = creep;
+    wheelset->speed = free_speed - p->mass_response * creep;
+    wheelset->rotation = choose(locked, number(0.0), turned);
+    wheelset->position += p->step * wheelset->speed;
+    wheelset->slip_speed = wheelset->speed - p->wheel_radius * wheelset->rotation;
+    real turning = 0.5 * (rotation + wheelset->rotation);
+    wheelset->brake_heat += p->step * braking * (turning + bogie->pitch_rate);
+    wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - p->wheel_radius * turning);
+    bogie->moment -= braking;
+}
+
+OURS void step_body(Car *car, const Parameters *p)
+{
+    real speed = car->speed;
+    real position = car->position;
+    real drag = running_resistance(speed, p->resistance_constant, p->resistance_linear, p->resistance_quadratic);
+    STEP_FRAME(car, p->body_mass, p->body_inertia, drag, p);
+    car->resistance_loss += p->step * drag * 0.5 * (speed + car->speed);
+    mask stops = (1.0 - car->stopped) * choose(car->speed <= 0.0, number(1.0), number(0.0)) > 0.0;
+    real share = speed / choose(stops, speed - car->speed, number(1.0));
+    car->stop_time = choose(stops, car->time + share * p->step, car->stop_time);
+    car->stop_position = choose(stops, position + 0.5 * share * p->step * speed, car->stop_position);
+    car->stopped = choose(stops, number(1.0), car->stopped);
+}
+
+#endif

@@ -1,0 +1,50 @@
+#ifndef START_H
+#define START_H
+
+#include "../controllers/slip_band.h"
+#include "../controllers/threshold.h"
+#include "balance.h"
+#include "records.h"
+
+static inline void start_supply(Car *car, const Parameters *p)
+{
+    car->reservoir_pressure = p->reservoir_pressure;
+    car->line_pressure = p->atmospheric_pressure;
+    car->reservoir_mass = p->reservoir_pressure * p->reservoir_volume / (p->gas_constant * p->air_temperature);
+    car->line_mass = p->atmospheric_pressure * p->line_volume / (p->gas_constant * p->air_temperature);
+}
+
+static inline void start_wheelset(Wheelset *wheelset, const Parameters *p)
+{
+    wheelset->speed = p->initial_speed;
+    wheelset->rotation = p->initial_speed / p->wheel_radius;
+    wheelset->wheel_load = p->static_wheel_load;
+    wheelset->filling_cycles = 1000000;
+    wheelset->fill_opening = 1.0;
+    wheelset->pressure = p->atmospheric_pressure;
+}
+
+static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
+{
+    car->speed = p->initial_speed;
+    start_supply(car, p);
+    for (int j = 0; j < 2; j++) {
+        bogies[j].speed = p->initial_speed;
+        bogies[j].ahead = p->half_pivot_distance * (1.0 - 2.0 * j);
+    }
+    for (int i = 0; i < 4; i++) {
+        double side = 1.0 - 2.0 * (i % 2);
+        double volume = i < p->calipers ? p->caliper_tank_volume : p->tank_volume;
+        start_wheelset(&wheelsets[i], p);
+        wheelsets[i].has_caliper = i < p->calipers ? 1.0 : 0.0;
+        wheelsets[i].ahead = side * p->half_wheelbase;
+        wheelsets[i].behind = p->half_pivot_distance - bogies[i / 2].ahead + p->half_wheelbase * (1.0 - side);
+        wheelsets[i].air_mass = p->atmospheric_pressure * volume / (p->gas_constant * p->air_temperature);
+    }
+    begin_threshold(car, wheelsets, p->initial_speed);
+    begin_slip_band(car, p->initial_speed);
+    car->initial_energy = stored_energy(car, bogies, wheelsets, p);
+    car->initial_air = stored_air(car, wheelsets);
+}
+
+#endif

@@ -1,0 +1,43 @@
+/* One base step of the whole rig. */
+#ifndef STEP_H
+#define STEP_H
+
+#include "clamping.h"
+#include "pneumatics.h"
+#include "running_gear.h"
+
+OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
+{
+    CLEAR_FORCES(car);
+    CLEAR_FORCES(&bogies[0]);
+    CLEAR_FORCES(&bogies[1]);
+    couple_body(car, &bogies[0], p);
+    couple_body(car, &bogies[1], p);
+    for (int i = 0; i < 4; i++)
+        couple_wheelset(&wheelsets[i], &bogies[i / 2], car, p);
+    for (int i = 0; i < 4; i++)
+        begin_slip(&wheelsets[i], p);
+    for (int i = 0; i < 4; i++)
+        refine_slip(&wheelsets[i], p);
+    for (int i = 0; i < 4; i++)
+        step_wheelset(&wheelsets[i], &bogies[i / 2], p);
+    for (int j = 0; j < 2; j++)
+        STEP_FRAME(&bogies[j], p->bogie_mass, p->bogie_inertia, number(0.0), p);
+    step_body(car, p);
+}
+
+OURS void step(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
+{
+    real drawn = step_tank(&wheelsets[0], car, p);
+    for (int i = 1; i < 4; i++)
+        drawn += step_tank(&wheelsets[i], car, p);
+    step_supply(car, drawn, p);
+    for (int i = 0; i < 4; i++)
+        step_clamping(&wheelsets[i], p);
+    step_vehicle(car, bogies, wheelsets, p);
+    car->steps += 1.0;
+    car->substep += 1.0;
+    car->time = car->steps * p->step;
+}
+
+#endif

@@ -1,0 +1,180 @@
+"""The C rig as a shared library: its records' header written from our dtypes, compiled, called by ctypes.
+
+The library is kept in a temporary folder named after its sources, header, flags, compiler and processor.
+"""
+
+import ctypes
+import hashlib
+import os
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from machine import processor
+from numpy.typing import NDArray
+
+from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.rig.records import BOGIE, CAR, PARAMETERS, WHEELSET
+
+SOURCES = Path(__file__).parent / "c"
+PLAIN = ("-O3", "-march=native")
+"""Flags of the scalar C rig; gcc contracts multiplications and additions by default."""
+STRICT = (*PLAIN, "-ffp-contract=off")
+"""Flags that keep the operations as they are written, as our own build does."""
+
+RECORDS = {
+    "Parameters": PARAMETERS,
+    "Car": CAR,
+    "Bogie": BOGIE,
+    "Wheelset": WHEELSET,
+    "Measures": MEASURES,
+    "WheelsetMeasures": WHEELSET_MEASURES,
+}
+_C_TYPES = {"f": "real", "i": "integer"}
+
+
+class NoCompilerError(RuntimeError):
+    """No C compiler was found."""
+
+
+def records_header() -> str:
+    """Return records.h: the struct of each record, field by field in the order of its dtype."""
+    structs = (_struct(name, dtype) for name, dtype in RECORDS.items())
+    return "\n".join(["#pragma once", '#include "number.h"', *structs])
+
+
+def _struct(name: str, dtype: np.dtype[Any]) -> str:
+    fields = (_field(field, dtype[field]) for field in dtype.names or ())
+    return f"typedef struct {{\n{''.join(fields)}}} {name};\n"
+
+
+def _field(name: str, dtype: np.dtype[Any]) -> str:
+    length = f"[{dtype.shape[0]}]" if dtype.shape else ""
+    if dtype.base.itemsize != 8:
+        raise AssertionError(f"{name}: the C rig knows numbers of eight bytes only")
+    return f"    {_C_TYPES[dtype.base.kind]} {name}{length};\n"
+
+
+def compiler() -> str:
+    """Return the C compiler: ``$CC``, else gcc.
+
+    Raises:
+        NoCompilerError: when there is none.
+    """
+    found = shutil.which(os.environ.get("CC", "gcc"))
+    if found is None:
+        raise NoCompilerError("no C compiler: install gcc or set CC")
+    return found
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One source file of the C rig and the flags that it is compiled with."""
+
+    source: str
+    flags: tuple[str, ...]
+
+
+def library(*units: Unit) -> ctypes.CDLL:
+    """Return the shared library of these units, compiled unless it lies there already."""
+    folder = _folder(units)
+    linked = folder / "rig.so"
+    if not linked.exists():
+        with tempfile.TemporaryDirectory(dir=folder) as workplace:
+            _link(units, Path(workplace)).replace(linked)
+    return ctypes.CDLL(str(linked))
+
+
+def _link(units: tuple[Unit, ...], folder: Path) -> Path:
+    """Compile the units and link them in ``folder``."""
+    (folder / "records.h").write_text(records_header())
+    objects = [folder / f"{Path(unit.source).stem}.o" for unit in units]
+    for unit, compiled in zip(units, objects, strict=True):
+        paths = [f"-I{folder}", f"-I{SOURCES}", "-c", str(SOURCES / unit.source), "-o", str(compiled)]
+        subprocess.run([compiler(), *unit.flags, "-Wall", "-fPIC", *paths], check=True)
+    linked = folder / "rig.so"
+    subprocess.run([compiler(), "-shared", *map(str, objects), "-o", str(linked), "-lm"], check=True)
+    return linked
+
+
+def _folder(units: tuple[Unit, ...]) -> Path:
+    digest = hashlib.sha256(repr((units, compiler(), processor())).encode())
+    digest.update(records_header().encode())
+    for file in sorted(SOURCES.rglob("*.[ch]")):
+        digest.update(file.read_bytes())
+    user = os.getuid() if hasattr(os, "getuid") else 0
+    folder = Path(tempfile.gettempdir()) / f"uictest-benchmarks-{user}" / digest.hexdigest()[:20]
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    return folder
+
+
+class CLanes:
+    """Many stops of the C rig in lanes of the processor's vectors; contraction and reassociation allowed."""
+
+    def __init__(self, width: int = 8) -> None:
+        vectors = (*PLAIN, "-ffast-math", f"-DLANES={width}", "-x", "c++", "-Wno-psabi")
+        # The measures compare with NaN, which -ffast-math assumes away: only the steps get it.
+        self._stops = library(
+            Unit("lanes.c", (*PLAIN, f"-DWIDTH={width}")), Unit("lanes_step.c", vectors)
+        ).stops
+        self._stops.restype = None
+        # number of stops, parameters, friction laws, measures, wheelsets' measures
+        self._stops.argtypes = [ctypes.c_int64] + [ctypes.c_void_p] * 4
+
+    def __call__(
+        self, parameters: Any, rails: NDArray[np.float64], measures: Any, wheelset_measures: Any
+    ) -> None:
+        """Run a stop for each parameter record and its row of ``rails``: place, friction, time, factor."""
+        self._stops(
+            len(parameters),
+            _address(parameters),
+            _address(rails),
+            _address(measures),
+            _address(wheelset_measures),
+        )
+
+
+class CStop:
+    """The stop of the C rig, called as :func:`uictest.rig.stop.stop` is; nothing is recorded."""
+
+    def __init__(self, flags: tuple[str, ...]) -> None:
+        self._stop = library(Unit("rig.c", flags)).stop
+        self._stop.restype = None
+        # car, bogies, wheelsets, parameters, friction laws, their number of points, both measures
+        pointer = ctypes.c_void_p
+        self._stop.argtypes = [pointer] * 5 + [ctypes.c_int64] + [pointer] * 2
+
+    def __call__(
+        self,
+        car: Any,
+        bogies: Any,
+        wheelsets: Any,
+        parameters: Any,
+        rail: NDArray[np.float64],
+        measures: Any,
+        wheelset_measures: Any,
+        trace: NDArray[np.float64],
+        steps_per_sample: int,
+    ) -> int:
+        """Run one stop on zeroed records; return the number of rows recorded, which is none."""
+        if steps_per_sample:
+            raise ValueError("the C rig records nothing")
+        self._stop(
+            _address(car),
+            _address(bogies),
+            _address(wheelsets),
+            _address(parameters),
+            _address(rail),
+            rail.shape[1],
+            _address(measures),
+            _address(wheelset_measures),
+        )
+        return 0
+
+
+def _address(values: Any) -> int:
+    return int(values.__array_interface__["data"][0])

@@ -1,0 +1,68 @@
+"""The rig's records as plain objects, whose attributes may be floats, arrays or traced values."""
+
+from collections.abc import Callable, Iterator, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from stops import Stop
+
+from uictest.physics import arithmetic
+from uictest.rig.compiled import translate
+from uictest.rig.cycle import begin_cycle
+from uictest.rig.records import BOGIE, CAR, WHEELSET
+from uictest.rig.start import start
+from uictest.rig.step import step
+
+
+class Rig:
+    """Car, two bogies and four wheelsets."""
+
+    def __init__(
+        self, car: SimpleNamespace, bogies: list[SimpleNamespace], wheelsets: list[SimpleNamespace]
+    ) -> None:
+        self.car, self.bogies, self.wheelsets = car, bogies, wheelsets
+
+    def numbers(self) -> Iterator[Any]:
+        """Yield every field of every record, in one fixed order."""
+        for record in (self.car, *self.bogies, *self.wheelsets):
+            yield from vars(record).values()
+
+    def filled(self, numbers: Sequence[Any]) -> "Rig":
+        """Return a rig of the same fields holding other numbers."""
+        left = iter(numbers)
+        records = [
+            SimpleNamespace(**{name: next(left) for name in vars(record)})
+            for record in (self.car, *self.bogies, *self.wheelsets)
+        ]
+        return Rig(records[0], records[1:3], records[3:])
+
+
+def opened(record: Any) -> SimpleNamespace:
+    """Return the fields of a record as attributes holding Python numbers."""
+    return SimpleNamespace(**{name: record[name].item() for name in record.dtype.names})
+
+
+def rolling(stop: Stop) -> Rig:
+    """Return the rig at the brake command, its valves told to fill."""
+    parameters, rail = stop
+    car: Any = np.zeros(1, CAR)
+    bogies: Any = np.zeros(2, BOGIE)
+    wheelsets: Any = np.zeros(4, WHEELSET)
+    start(car[0], bogies, wheelsets, parameters)
+    begin_cycle(car[0], wheelsets, parameters, rail, 0)
+    return Rig(
+        opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]
+    )
+
+
+def step_in(select: Any, minimum: Any, maximum: Any, sqrt: Any) -> Callable[..., None]:
+    """Return the rig's step with the four operations of another number system."""
+    operations: dict[Callable[..., Any], Any] = {
+        arithmetic.select: select,
+        arithmetic.minimum: minimum,
+        arithmetic.maximum: maximum,
+        arithmetic.sqrt: sqrt,
+    }
+    translated: Callable[..., None] = translate(step, lambda function: function, operations)
+    return translated

@@ -1,0 +1,197 @@
+"""The rig stepped by other means, side by side: `python benchmarks/peers.py`.
+
+All but solve_ivp run the rig's own base step: C a transcription, the others its source on other numbers.
+C and our own builds run whole stops with sensors, controller and measures; the others only the step, in the
+first seconds of a stop, which favours them.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib.util import find_spec
+from statistics import median
+from typing import Any
+
+import machine
+import numpy as np
+from c_library import PLAIN, CLanes, CStop
+from numpy.typing import NDArray
+from open_records import opened, rolling, step_in
+from reduced_model import integrated_seconds
+from stops import Stop, shipped
+
+from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.rig.lanes import run_batch
+from uictest.rig.native import compiled_stop
+from uictest.rig.run import run
+from uictest.rig.step import step
+
+CASE = "slide-80[compensation=full]"
+STOPS = 64
+"""Stops run by those that run many."""
+TURNS = 5
+_WHEELSETS = 4
+
+Peer = tuple[str, Callable[[], float]]
+"""A name, and a call that does some work and returns the number of wheelset-steps in it."""
+
+
+class Column(np.ndarray):
+    """One number for each run, never changed in place: the step keeps old values under other names."""
+
+    def __iadd__(self, other: Any) -> Any:  # type: ignore[misc]
+        """Add into a new array."""
+        return self + other
+
+    def __isub__(self, other: Any) -> Any:  # type: ignore[misc]
+        """Subtract into a new array."""
+        return self - other
+
+
+def different_stops(stop: Stop) -> tuple[Any, NDArray[np.float64]]:
+    """Return parameters and friction laws of stops on rails from slippery to good."""
+    parameters = np.repeat(stop[0].reshape(1), STOPS).view(stop[0].dtype)
+    parameters["case_key"] = np.arange(STOPS)
+    rails = np.tile(stop[1][:, :1], (STOPS, 1, 1))
+    rails[:, 1, 0] = np.linspace(0.10, 0.30, STOPS)
+    return parameters, rails
+
+
+def c_scalar(stop: Stop) -> float:
+    """Run stops one by one in C."""
+    return float(run(CStop(PLAIN), *stop, 0).car.steps * _WHEELSETS)
+
+
+def ours_scalar(stop: Stop) -> float:
+    """Run a stop on the compiled rig."""
+    return float(run(compiled_stop(), *stop, 0).car.steps * _WHEELSETS)
+
+
+def c_lanes(stop: Stop, width: int) -> float:
+    """Run stops in C in lanes."""
+    parameters, rails = different_stops(stop)
+    measures, wheelset_measures = np.zeros(STOPS, MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
+    CLanes(width)(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
+    return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
+
+
+def ours_in_lanes(stop: Stop) -> float:
+    """Run stops on the rig compiled in lanes."""
+    measures = run_batch(*different_stops(stop)).measures
+    return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
+
+
+def plain_python(stop: Stop, steps: int) -> float:
+    """Step the rig as the interpreter reads it."""
+    rig, parameters = rolling(stop), opened(stop[0])
+    for _ in range(steps):
+        step(rig.car, rig.bogies, rig.wheelsets, parameters)
+    return steps * _WHEELSETS
+
+
+@cache
+def step_in_columns() -> Callable[..., None]:
+    """Return the rig's step on columns."""
+    return step_in(
+        lambda c, a, b: np.asarray(np.where(c, a, b)).view(Column), np.minimum, np.maximum, np.sqrt
+    )
+
+
+def numpy_columns(stop: Stop, runs: int, steps: int) -> float:
+    """Step many runs at once, each number an array."""
+    in_columns = step_in_columns()
+    one, parameters = rolling(stop), opened(stop[0])
+    rig = one.filled([np.full(runs, number, float).view(Column) for number in one.numbers()])
+    for _ in range(steps):
+        in_columns(rig.car, rig.bogies, rig.wheelsets, parameters)
+    return runs * steps * _WHEELSETS
+
+
+def python_control(stop: Stop, steps: int) -> float:
+    """Step the rig as the update function of a discrete nonlinear system of python-control."""
+    import control
+
+    one, parameters = rolling(stop), opened(stop[0])
+    start = np.array(list(one.numbers()), float)
+
+    def update(_time: float, x: Any, _input: Any, _parameters: Any) -> list[Any]:
+        rig = one.filled(x)
+        step(rig.car, rig.bogies, rig.wheelsets, parameters)
+        return list(rig.numbers())
+
+    system = control.nlsys(update, None, inputs=1, states=start.size, dt=parameters.step)
+    times = np.arange(steps) * parameters.step
+    control.input_output_response(system, times, np.zeros(steps), start)
+    return steps * _WHEELSETS
+
+
+class JaxColumns:
+    """The step traced by JAX over columns and compiled; one controller cycle per call."""
+
+    def __init__(self, stop: Stop, runs: int) -> None:
+        import jax
+        import jax.numpy as jnp
+
+        jax.config.update("jax_enable_x64", True)
+        one, parameters = rolling(stop), opened(stop[0])
+        traced = step_in(jnp.where, jnp.minimum, jnp.maximum, jnp.sqrt)
+
+        def advance(numbers: Any, _: None) -> tuple[Any, None]:
+            rig = one.filled(numbers)
+            traced(rig.car, rig.bogies, rig.wheelsets, parameters)
+            return [jnp.broadcast_to(number, (runs,)).astype(float) for number in rig.numbers()], None
+
+        self._cycle = jax.jit(
+            lambda numbers: jax.lax.scan(advance, numbers, None, parameters.steps_per_cycle)[0]
+        )
+        self._start = [jnp.full(runs, number, float) for number in one.numbers()]
+        self._work = runs * parameters.steps_per_cycle * _WHEELSETS
+
+    def __call__(self, cycles: int) -> float:
+        """Run some controller cycles."""
+        numbers = self._start
+        for _ in range(cycles):
+            numbers = self._cycle(numbers)
+        numbers[0].block_until_ready()
+        return float(cycles * self._work)
+
+
+def peers(stop: Stop) -> Iterator[Peer]:
+    """Yield the peers, the one that all are compared with first."""
+    yield "C, scalar, gcc -O3 -march=native", lambda: c_scalar(stop)
+    yield "uictest, scalar, strict", lambda: ours_scalar(stop)
+    yield "uictest, lanes, strict", lambda: ours_in_lanes(stop)
+    yield "C, 8 lanes, -ffast-math", lambda: c_lanes(stop, 8)
+    yield "C, 16 lanes, -ffast-math", lambda: c_lanes(stop, 16)
+    yield "numpy over 256 runs", lambda: numpy_columns(stop, 256, 50)
+    yield "numpy over 4096 runs", lambda: numpy_columns(stop, 4096, 10)
+    if find_spec("jax"):
+        one, many = JaxColumns(stop, 1), JaxColumns(stop, 1024)
+        yield "JAX scan, 1 run", lambda: one(50)
+        yield "JAX scan, 1024 runs", lambda: many(2)
+    yield "plain Python", lambda: plain_python(stop, 400)
+    yield "python-control, discrete nlsys", lambda: python_control(stop, 100)
+    yield "scipy solve_ivp, reduced model", lambda: integrated_seconds(stop, 4.0) / stop[0].step * _WHEELSETS
+
+
+def main() -> None:
+    """Run all peers in turns and print a table."""
+    everyone = list(peers(shipped()[CASE]))
+    times: dict[str, list[float]] = {name: [] for name, _ in everyone}
+    for _, work in everyone:
+        work()
+    for _ in range(TURNS):
+        for name, work in everyone:
+            begin = time.process_time()
+            wheelset_steps = work()
+            times[name].append((time.process_time() - begin) / wheelset_steps)
+    reference = times[everyone[0][0]]
+    print(machine.description("numba", "numpy", "scipy", "control", "jax"))
+    print(f"\n{'processor time per wheelset and 0.5 ms':40} {'ns':>12} {'times C, scalar':>16}")
+    for name, measured in times.items():
+        ratio = median(a / b for a, b in zip(measured, reference, strict=True))
+        print(f"{name:40} {1e9 * median(measured):12.1f} {ratio:16.3g}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""A reduced rig as a right-hand side for scipy's solve_ivp, made of the rig's own physics.
+
+Train speed; for each wheelset the tank pressure, the cylinder pressure (a first-order lag) and the rotation:
+thirteen states. Left out: suspensions, brake line and reservoir, piston, hysteresis, sensors and controller.
+LSODA, relative tolerance 1e-6.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from open_records import opened
+from stops import Stop
+
+from uictest.physics.disc_brake import torque
+from uictest.physics.flow import mass_flow
+from uictest.physics.hysteresis import line
+from uictest.physics.polach import creep_force
+from uictest.physics.tank import pressure_change
+from uictest.physics.wheelset import SLOWEST_CREEP
+
+_CYLINDER_LAG = 0.02
+"""Time constant of the cylinder, s."""
+
+
+def integrated_seconds(stop: Stop, duration: float) -> float:
+    """Integrate the beginning of a stop; return the simulated time, s."""
+    from scipy.integrate import solve_ivp
+
+    p = opened(stop[0])
+    friction = float(stop[1][1, 0])
+    start = np.concatenate(
+        [
+            [p.initial_speed],
+            np.tile([p.atmospheric_pressure, p.atmospheric_pressure, p.initial_speed / p.wheel_radius], 4),
+        ]
+    )
+    solution = solve_ivp(
+        lambda _, x: right_hand_side(x, p, friction),
+        (0.0, duration),
+        start,
+        method="LSODA",
+        rtol=1e-6,
+        atol=1e-6,
+    )
+    return float(solution.t[-1])
+
+
+def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[float]:
+    """Rates of the train speed (m/s) and each wheelset's two pressures (Pa) and rotation (rad/s)."""
+    speed = max(float(x[0]), SLOWEST_CREEP)
+    rates, braking = [0.0], 0.0
+    for i in range(4):
+        tank, cylinder, rotation = (float(value) for value in x[1 + 3 * i : 4 + 3 * i])
+        slip = speed - p.wheel_radius * rotation
+        force, _ = creep_force(
+            abs(slip),
+            speed,
+            p.static_wheel_load,
+            p.creep_stiffness,
+            friction,
+            p.friction_ratio,
+            p.friction_decay,
+            p.reduction_adhesion,
+            p.reduction_slip,
+        )
+        creep = 2.0 * force if slip > 0.0 else -2.0 * force
+        rates += [_tank_rate(tank, p), (tank - cylinder) / _CYLINDER_LAG]
+        rates += [(p.wheel_radius * creep - _brake(cylinder, p)) / p.wheelset_inertia]
+        braking += creep
+    rates[0] = -braking / (8.0 * p.static_wheel_load / p.gravity)
+    return rates
+
+
+def _tank_rate(pressure: float, p: Any) -> float:
+    supply = p.atmospheric_pressure + p.demanded_pressure
+    inflow = mass_flow(
+        supply,
+        pressure,
+        p.fill_conductance,
+        p.flow_density,
+        p.critical_ratio,
+        p.subsonic_scale,
+        p.laminar_ratio,
+        p.laminar_scale,
+    )
+    return pressure_change(
+        pressure, p.tank_volume, inflow, 0.0, p.polytropic_exponent, p.gas_constant, p.air_temperature
+    )
+
+
+def _brake(cylinder: float, p: Any) -> float:
+    force = line(cylinder - p.atmospheric_pressure, p.linear_slope, p.linear_intercept)
+    return torque(force, p.calipers_per_wheelset, p.pads_per_caliper, p.pad_friction, p.disc_radius)

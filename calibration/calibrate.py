@@ -1,0 +1,78 @@
+"""Calibrate the chosen parameters of valves, WSP controller and slide test against the source's figures.
+
+    python calibration/calibrate.py [--seed N] [--generations N]
+
+scipy's differential evolution from a cloud around the values in the library, within stated bounds, with
+a stated seed. Prints each improvement and, at the end, the values to write into the library; README.md
+beside this file keeps the result and what was done with it.
+"""
+
+import argparse
+
+import numpy as np
+from numpy.typing import NDArray
+from objective import SLIDE, misfit
+from parameters import FREE, values
+from scipy.optimize import OptimizeResult, differential_evolution
+
+POPULATION = 30
+SPREAD = 0.06
+"""Standard deviation of the first cloud, as a share of the bounds."""
+
+
+def main() -> None:
+    """Run the search and print its result."""
+    arguments = _arguments()
+    generator = np.random.default_rng(arguments.seed)
+    start = _present()
+    cloud = np.clip(start + SPREAD * generator.standard_normal((POPULATION, len(FREE))), 0.0, 1.0)
+    cloud[0] = start
+    print(f"misfit of the library: {misfit(start):.3f}")
+    found = differential_evolution(
+        misfit,
+        [(0.0, 1.0)] * len(FREE),
+        rng=generator,
+        init=cloud,
+        maxiter=arguments.generations,
+        mutation=(0.3, 0.8),
+        recombination=0.6,
+        tol=0.0,
+        polish=False,
+        callback=_report,
+    )
+    print(f"after {found.nfev} evaluations")
+    _report(found)
+
+
+def _report(intermediate_result: OptimizeResult) -> None:
+    """Print the misfit and the values that have it."""
+    chosen = values(intermediate_result.x)
+    print(
+        f"misfit {intermediate_result.fun:.3f}:",
+        ", ".join(f"{k} {v:.4g}" for k, v in chosen.items()),
+        flush=True,
+    )
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--generations", type=int, default=40)
+    return parser.parse_args()
+
+
+def _present() -> NDArray[np.float64]:
+    """Free parameters as they stand in the library, as shares between their bounds."""
+    record = SLIDE.record
+    delay = record.valve_delay_cycles * record.cycle_time + record.valve_delay_steps * record.step
+    special = {"switching_delay": delay, "friction": SLIDE.rail[1, 0]}
+    shares = [
+        free.share(float(special[free.name] if free.name in special else record[free.name])) for free in FREE
+    ]
+    return np.clip(np.array(shares), 0.0, 1.0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+"""Console blocks: the commands in them are run, and what they print is what the page shows.
+
+A block marked ``console`` shows what a pipe gets, one marked ``console terminal`` what a terminal of 100
+columns shows. All blocks of a page are run one after the other in one folder that holds the shipped scenarios
+and every YAML block of the page that names its file.
+"""
+
+from __future__ import annotations
+
+import os
+import pty
+import re
+import shutil
+import subprocess
+import sysconfig
+from pathlib import Path
+
+from markup import Block, blocks, with_blocks
+
+REPOSITORY = Path(__file__).parents[2]
+_PROMPT = "$ "
+_NUMBER = re.compile(r"[-+]?\d[\d.,]*(?:e[-+]?\d+)?|\bnan\b")
+_VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
+_SIGN_OF_LIFE = re.compile(r"^uictest: (?:compiling the rig|\d+ of \d+ cases)[^\n]*\n", re.MULTILINE)
+_LONGEST = 120  # seconds that one command may take, the rig's compilation included
+
+
+def refreshed(page: str, folder: Path) -> str:
+    """Return the page with the console blocks as the commands print them now, run in an empty ``folder``."""
+    prepare(page, folder)
+
+    def rewrite(block: Block) -> str:
+        shown = executed(block, folder)
+        # The name of a run and the time it took are never the same: no reason to change a page.
+        return block.text if steady(shown) == steady(block.text) else shown
+
+    return with_blocks(page, "console", rewrite)
+
+
+def prepare(page: str, folder: Path) -> None:
+    """Put the shipped scenarios and the files that the page shows into ``folder``."""
+    shutil.copytree(REPOSITORY / "scenarios", folder / "scenarios", dirs_exist_ok=True)
+    for block in blocks(page, "yaml"):
+        if block.file_name is not None:
+            target = folder / block.file_name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(block.text, "utf-8")
+
+
+def executed(block: Block, folder: Path) -> str:
+    """Return the block with each command followed by what it prints."""
+    lines = []
+    for command in commands_in(block):
+        lines.append(f"{_PROMPT}{command}")
+        # Only the first run on a machine, or a slow one, says that it is compiling and how far it is.
+        shown = _SIGN_OF_LIFE.sub("", _output(command, folder, terminal="terminal" in block.info))
+        lines += shown.lstrip("\n").splitlines()
+    return "".join(f"{line.rstrip()}\n" for line in lines)
+
+
+def commands_in(block: Block) -> list[str]:
+    """Return the commands of a console block."""
+    return [line.removeprefix(_PROMPT) for line in block.text.splitlines() if line.startswith(_PROMPT)]
+
+
+def steady(text: str) -> str:
+    """Return the text without what differs from one run to the next."""
+    return _VOLATILE.sub("*", text)
+
+
+def shape(text: str) -> str:
+    """Return the text with every number and every width made alike: what stays when figures move."""
+    return re.sub(r"[ \t]+", " ", _NUMBER.sub("#", steady(text)))
+
+
+def _output(command: str, folder: Path, *, terminal: bool) -> str:
+    environment = _environment()
+    if not terminal:
+        done = subprocess.run(
+            ["sh", "-c", command],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+            timeout=_LONGEST,
+        )
+        return done.stdout
+    return _on_terminal(command, folder, environment)
+
+
+def _on_terminal(command: str, folder: Path, environment: dict[str, str]) -> str:
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(
+        ["sh", "-c", command], cwd=folder, env=environment, stdin=theirs, stdout=theirs, stderr=theirs
+    ) as process:
+        os.close(theirs)
+        text = _read_to_end(ours)
+        process.wait(_LONGEST)
+    os.close(ours)
+    return text.replace("\r", "")
+
+
+def _read_to_end(terminal: int) -> str:
+    parts = []
+    while True:
+        try:
+            part = os.read(terminal, 4096)
+        except OSError:  # what Linux says when the other end has closed
+            break
+        if not part:
+            break
+        parts.append(part)
+    return b"".join(parts).decode()
+
+
+def _environment() -> dict[str, str]:
+    kept = {name: os.environ[name] for name in ("HOME", "LANG", "NUMBA_CACHE_DIR") if name in os.environ}
+    path = f"{sysconfig.get_path('scripts')}{os.pathsep}{os.environ.get('PATH', '')}"
+    return {**kept, "PATH": path, "TERM": "dumb", "COLUMNS": "100", "NO_COLOR": "1"}

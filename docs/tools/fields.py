@@ -1,0 +1,208 @@
+"""Tables of fields, made from the models that read the files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from markup import table
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from uictest.scenario.model import Scenario
+from uictest.scenario.parts.brake import BrakeSystem
+from uictest.scenario.parts.caliper import Caliper
+from uictest.scenario.parts.compensation import Compensation
+from uictest.scenario.parts.controller import SlipBandController, ThresholdController
+from uictest.scenario.parts.criteria import Criterion
+from uictest.scenario.parts.measure_catalogue import MEASURES
+from uictest.scenario.parts.measures import MeasureDefinitions
+from uictest.scenario.parts.model import Part
+from uictest.scenario.parts.rail import RailCondition
+from uictest.scenario.parts.sensors import Sensors
+from uictest.scenario.parts.vehicle import Vehicle
+from uictest.scenario.physical import Physical
+from uictest.scenario.quantities import Quantity
+from uictest.scenario.reference_schema import PartReference
+from uictest.scenario.units import KINDS
+
+HEADINGS = ("key", "written as", "default", "range", "meaning")
+PARTS: dict[str, type[BaseModel]] = {
+    "vehicle": Vehicle,
+    "brake": BrakeSystem,
+    "caliper": Caliper,
+    "compensation": Compensation,
+    "threshold controller": ThresholdController,
+    "slip-band controller": SlipBandController,
+    "sensors": Sensors,
+    "rail": RailCondition,
+    "measures": MeasureDefinitions,
+    "criterion": Criterion,
+}
+_OF_EVERY_PART = frozenset(Part.model_fields)
+_BOUNDS = (("above", "> "), ("at_least", "≥ "), ("below", "< "), ("at_most", "≤ "))
+
+
+def scenario_table() -> str:
+    """Return the fields of a scenario, those of parts left out."""
+    return table(HEADINGS, list(_rows(Scenario, "", frozenset())))
+
+
+def part_table(name: str) -> str:
+    """Return the fields of a part, those that every part has left out."""
+    model = PARTS[name]
+    return table(HEADINGS, list(_rows(model, "", _OF_EVERY_PART if issubclass(model, Part) else frozenset())))
+
+
+def units_table() -> str:
+    """Return every kind of quantity with the units accepted for it."""
+    rows = [
+        (kind.name, ", ".join(f"`{unit}`" for unit in kind.units), f"`{kind.canonical}`")
+        for kind in KINDS.values()
+        if not kind.bare
+    ]
+    return table(("quantity", "units accepted", "kept as"), rows)
+
+
+def measures_table() -> str:
+    """Return the measures that a criterion can bound."""
+    rows = [
+        (
+            f"`{name}`",
+            "" if measure.unit == "1" else measure.unit,
+            "each wheelset" if measure.of_wheelsets else "the stop",
+            measure.meaning,
+            ", ".join(f"`{each}`" for each in measure.definitions),
+        )
+        for name, measure in MEASURES.items()
+    ]
+    return table(("measure", "unit", "of", "meaning", "definitions it needs"), rows)
+
+
+def _rows(model: type[BaseModel], above: str, left_out: frozenset[str]) -> Iterator[tuple[str, ...]]:
+    for name, field in model.model_fields.items():
+        key = f"{above}{field.alias or name}"
+        if name in left_out:
+            continue
+        inner = None if _reference(field) else _model_in(field.annotation)
+        if inner is None or _short_form(field.annotation):
+            yield _row(key, field)
+        if inner is not None:
+            yield from _rows(inner, _inner_prefix(key, field.annotation), frozenset())
+
+
+def _short_form(annotation: Any) -> bool:
+    """Whether a single value may stand in the place of a mapping."""
+    return any(each is Quantity or get_origin(each) is Literal for each in _spread(annotation))
+
+
+def _inner_prefix(key: str, annotation: Any) -> str:
+    origins = {get_origin(each) for each in _spread(annotation)}
+    if dict in origins:
+        return f"{key}.<name>."
+    return f"{key}[]." if tuple in origins else f"{key}."
+
+
+def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
+    return (f"`{key}`", _form(field), _default(field), _range(field), field.description or "")
+
+
+def _reference(field: FieldInfo) -> PartReference | None:
+    return next((mark for mark in field.metadata if isinstance(mark, PartReference)), None)
+
+
+def _form(field: FieldInfo) -> str:
+    if reference := _reference(field):
+        return "part, or list of parts" if reference.several else "part"
+    return _form_of(field.annotation, _physical(field))
+
+
+def _physical(field: FieldInfo) -> Physical | None:
+    marks = [*field.metadata, *_marks(field.annotation)]
+    return next((mark for mark in marks if isinstance(mark, Physical)), None)
+
+
+def _marks(annotation: Any) -> Iterator[Any]:
+    if get_origin(annotation) is Annotated:
+        yield from annotation.__metadata__
+    for inner in get_args(annotation):
+        if not isinstance(inner, str):
+            yield from _marks(inner)
+
+
+def _form_of(annotation: Any, physical: Physical | None) -> str:
+    if physical is not None:
+        words = _quantity(physical)
+        count = _spread(annotation).count(Quantity)
+        return words if count < 2 else f"{count} x {words}"
+    forms = [_plain(each) for each in _spread(annotation)]
+    return " or ".join(dict.fromkeys(form for form in forms if form)) or "text"
+
+
+def _quantity(physical: Physical) -> str:
+    kind = physical.kind
+    if kind.bare:
+        return "whole number" if kind.name == "count" else "number"
+    return ", ".join(kind.units)
+
+
+def _plain(annotation: Any) -> str:
+    if get_origin(annotation) is Literal:
+        return ", ".join(f"`{choice}`" for choice in get_args(annotation))
+    names = {str: "text", int: "whole number", bool: "`true`, `false`", Quantity: "quantity"}
+    if annotation in names:
+        return names[annotation]
+    return {tuple: "list", dict: "mapping"}.get(get_origin(annotation), "")
+
+
+def _spread(annotation: Any) -> list[Any]:
+    """The members of a union, without marks; a list and a mapping count as themselves."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return _spread(get_args(annotation)[0])
+    if origin in (Union, UnionType):
+        return [each for member in get_args(annotation) for each in _spread(member)]
+    if origin is tuple and Ellipsis not in get_args(annotation):
+        return [each for member in get_args(annotation) for each in _spread(member)]
+    return [] if annotation is NoneType else [annotation]
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    """The one model inside an annotation, through lists, mappings and marks; a choice of several is none."""
+    for each in _spread(annotation):
+        inner = [each] if isinstance(each, type) else [_model_in(member) for member in get_args(each)]
+        for member in inner:
+            if isinstance(member, type) and issubclass(member, BaseModel):
+                return member
+    return None
+
+
+def _default(field: FieldInfo) -> str:
+    if reference := _reference(field):
+        return f"`{reference.default}`"
+    if field.is_required():
+        return "required"
+    if field.default is PydanticUndefined or field.default is None or field.default in ((), "", {}):
+        return ""
+    if isinstance(field.default, bool):
+        return f"`{field.default}`".lower()
+    return f"`{getattr(field.default, 'text', field.default)}`"
+
+
+def _range(field: FieldInfo) -> str:
+    if physical := _physical(field):
+        texts = [
+            f"{sign}{bound.text}" for name, sign in _BOUNDS if (bound := getattr(physical, name)) is not None
+        ]
+        return ", ".join(texts)
+    found = []
+    for mark in field.metadata:
+        for name, sign in (("ge", "≥ "), ("le", "≤ ")):
+            if hasattr(mark, name):
+                found.append(f"{sign}{getattr(mark, name)}")
+        if hasattr(mark, "max_length"):
+            what = "characters" if field.annotation is str else "entries"
+            found.append(f"at most {mark.max_length} {what}")
+    return ", ".join(found)

@@ -1,0 +1,51 @@
+"""Renews what the pages take from the program: generated tables and the output in console blocks.
+
+    python docs/tools/refresh.py [PAGE...]
+
+Without pages, all of them. Run it after a change to models, options, messages or calibrated numbers;
+the tests in tests/docs say when that is needed.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import fields
+from consoles import refreshed
+from markup import with_generated
+
+REPOSITORY = Path(__file__).parents[2]
+_TABLES: dict[str, Callable[..., str]] = {
+    "scenario": fields.scenario_table,
+    "part": fields.part_table,
+    "units": fields.units_table,
+    "measures": fields.measures_table,
+}
+
+
+def pages() -> list[Path]:
+    """Return every page: the README and all of docs/."""
+    return [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
+
+
+def generated(what: str) -> str:
+    """Return the table that a marker such as ``part vehicle`` asks for."""
+    word, _, rest = what.partition(" ")
+    return _TABLES[word](*([rest] if rest else []))
+
+
+def main(names: Sequence[str]) -> None:
+    """Renew the named pages, else all."""
+    for page in [Path(name) for name in names] or pages():
+        text = page.read_text("utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            renewed = refreshed(with_generated(text, generated), Path(folder))
+        if renewed != text:
+            page.write_text(renewed, "utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

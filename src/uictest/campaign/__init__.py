@@ -1,0 +1,23 @@
+"""Batches of cases: selecting them, running them, keeping their results in order."""
+
+from uictest.campaign.examination import Examined, RecordingWish, examine
+from uictest.campaign.execution import Campaign, run
+from uictest.campaign.expression import ExpressionError
+from uictest.campaign.replay import replay
+from uictest.campaign.selection import by_expression, by_id, by_tag
+from uictest.campaign.subjects import subject_of, subjects_of
+
+__all__ = [
+    "Campaign",
+    "Examined",
+    "ExpressionError",
+    "RecordingWish",
+    "by_expression",
+    "by_id",
+    "by_tag",
+    "examine",
+    "replay",
+    "run",
+    "subject_of",
+    "subjects_of",
+]

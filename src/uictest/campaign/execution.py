@@ -1,0 +1,86 @@
+"""Many cases on the threads of this machine. The compiled rig runs without the interpreter's lock."""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from uictest.campaign.examination import Examined, RecordingWish, examine
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+    from uictest.scenario import Case
+
+_AHEAD = 4  # cases handed to the pool beyond the one awaited, per thread: bounds memory and wasted work
+
+
+@dataclass(slots=True)
+class Campaign:
+    """What a batch of cases came to: results in the order of the cases, and whether it was interrupted."""
+
+    results: list[CaseResult] = field(default_factory=list)
+    interrupted: bool = False
+
+
+def run(
+    cases: Sequence[Case],
+    *,
+    jobs: int = 1,
+    recording: RecordingWish | None = None,
+    maxfail: int | None = None,
+    on_result: Callable[[Examined], None] = lambda examined: None,
+) -> Campaign:
+    """Examine the cases on `jobs` threads, and return the results in the order of the cases.
+
+    `on_result` is called in this thread, once per case, in the order of the cases. After `maxfail` cases that
+    did not meet their expectation nothing further is reported, so that the results do not depend on `jobs`.
+    A KeyboardInterrupt ends the campaign: what is finished by then is kept.
+    """
+    campaign = Campaign()
+    pool = ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="rig")
+    pending: deque[Future[Examined]] = deque()
+    missed = 0
+    try:
+        for examined in _in_order(pool, cases, recording or RecordingWish(), pending, jobs * _AHEAD):
+            campaign.results.append(examined.result)
+            on_result(examined)
+            missed += not examined.result.met
+            if maxfail is not None and missed >= maxfail:
+                break
+    except KeyboardInterrupt:
+        campaign.interrupted = True
+        _keep_finished(campaign, pending, on_result)
+    finally:
+        # A stop under way cannot be broken off; after an interrupt nobody waits for it.
+        pool.shutdown(wait=not campaign.interrupted, cancel_futures=True)
+    return campaign
+
+
+def _in_order(
+    pool: ThreadPoolExecutor,
+    cases: Sequence[Case],
+    wish: RecordingWish,
+    pending: deque[Future[Examined]],
+    ahead: int,
+) -> Iterator[Examined]:
+    waiting = iter(cases)
+    pending.extend(pool.submit(examine, case, wish) for case in itertools.islice(waiting, ahead))
+    while pending:
+        examined = pending[0].result()
+        pending.popleft()
+        yield examined
+        pending.extend(pool.submit(examine, case, wish) for case in itertools.islice(waiting, 1))
+
+
+def _keep_finished(
+    campaign: Campaign, pending: deque[Future[Examined]], on_result: Callable[[Examined], None]
+) -> None:
+    for future in pending:
+        if future.done() and not future.cancelled():
+            examined = future.result()
+            campaign.results.append(examined.result)
+            on_result(examined)

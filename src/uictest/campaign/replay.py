@@ -1,0 +1,22 @@
+"""Stops simulated once more to be looked at. A stop repeats itself exactly, so nothing is judged again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+    from uictest.scenario import Case
+
+
+def replay(cases: Sequence[Case], *, every: float, jobs: int) -> Iterator[tuple[Case, Recording]]:
+    """Yield each case with its recording, one sample every so many seconds, in the order of the cases."""
+    from uictest.rig import simulate
+
+    with ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="rig") as pool:
+        stops = pool.map(lambda case: simulate(case, record_every=every), cases)
+        for case, stop in zip(cases, stops, strict=True):
+            if stop.recording is not None:
+                yield case, stop.recording

@@ -1,0 +1,39 @@
+"""Which cases of the scenarios are meant: by expression, by tag, by what failed last."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from uictest.campaign.expression import parse
+
+if TYPE_CHECKING:
+    from uictest.scenario import Case
+
+
+def by_expression(cases: Sequence[Case], expression: str) -> list[Case]:
+    """Return the cases an expression holds for: a word matches inside the id, the file name or a tag.
+
+    Upper and lower case are alike. Raises ExpressionError.
+    """
+    holds = parse(expression)
+    return [case for case in cases if holds(lambda word, case=case: _mentions(case, word))]  # type: ignore[misc]
+
+
+def by_tag(cases: Sequence[Case], expression: str) -> list[Case]:
+    """Return the cases an expression over whole tags holds for, e.g. `slip` or `slip and not long`.
+
+    Raises ExpressionError.
+    """
+    holds = parse(expression)
+    return [case for case in cases if holds(frozenset(case.scenario.tags).__contains__)]
+
+
+def by_id(cases: Sequence[Case], ids: frozenset[str]) -> list[Case]:
+    """Return the cases whose id is among `ids`, in their own order."""
+    return [case for case in cases if case.id in ids]
+
+
+def _mentions(case: Case, word: str) -> bool:
+    sought = word.casefold()
+    return any(sought in name.casefold() for name in (case.id, case.path.stem, *case.scenario.tags))

@@ -1,0 +1,44 @@
+"""What cases are about, taken from their scenarios."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from uictest.report import Subject
+    from uictest.scenario import Case, Scenario
+
+
+def subjects_of(cases: Iterable[Case]) -> dict[str, Subject]:
+    """Return the subject of every case by its id."""
+    return {case.id: subject_of(case.scenario) for case in cases}
+
+
+def subject_of(scenario: Scenario) -> Subject:
+    """Return title, tags and the settings that tell one stop from another."""
+    from uictest.report import Subject
+
+    return Subject(scenario.title, tuple(scenario.tags), _settings(scenario))
+
+
+def _settings(scenario: Scenario) -> dict[str, str]:
+    brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
+    return {
+        "vehicle": scenario.vehicle.name,
+        "initial speed": scenario.initial_speed.text,
+        "brake": f"{brake.system.name}, position {brake.position}, {brake.command.text}",
+        "rail": f"{rail.condition.name}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
+        "WSP": f"{rig.wsp}, controller {scenario.controller.name}",
+        "rig": f"{rig.topology}, compensation {rig.compensation}",
+        "criteria": ", ".join(profile.name for profile in scenario.criteria),
+    }
+
+
+def _friction(scenario: Scenario) -> str:
+    rail = scenario.rail
+    if rail.friction is None:
+        text = rail.condition.friction.text
+    else:
+        text = getattr(rail.friction, "text", "along the track")
+    return text if rail.friction_over_time is None else f"{text}, changing with time"

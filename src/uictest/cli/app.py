@@ -1,0 +1,71 @@
+"""The program: which commands there are."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from uictest import __version__
+from uictest.cli.bench import bench
+from uictest.cli.check import check
+from uictest.cli.compare import compare
+from uictest.cli.evaluate import evaluate
+from uictest.cli.export import export
+from uictest.cli.fit import fit
+from uictest.cli.identify import identify
+from uictest.cli.init import init
+from uictest.cli.library import library
+from uictest.cli.list import list_cases
+from uictest.cli.report import report
+from uictest.cli.reproduce import reproduce
+from uictest.cli.run import run
+from uictest.cli.schema import schema
+from uictest.cli.streams import data
+from uictest.cli.sweep import sweep
+
+_EPILOG = (
+    "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "
+    "3 simulation or internal error, 4 usage or invalid file, 5 nothing selected."
+)
+
+# Plain help, not rich's: it starts faster, and what the user typed cannot be taken for markup.
+app = typer.Typer(
+    name="uictest",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog=_EPILOG,
+)
+app.command("run")(run)
+app.command("sweep")(sweep)
+app.command("check")(check)
+app.command("list")(list_cases)
+app.command("evaluate")(evaluate)
+app.command("export")(export)
+app.command("fit")(fit)
+app.command("bench")(bench)
+app.add_typer(identify, name="identify")
+app.command("reproduce")(reproduce)
+app.command("report")(report)
+app.command("compare")(compare)
+app.command("schema")(schema)
+app.command("init")(init)
+app.add_typer(library, name="library")
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        data(f"uictest {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
+    ] = False,
+) -> None:
+    """Batch test runner for a simulated railway brake rig: scenarios in, verdicts and reports out."""

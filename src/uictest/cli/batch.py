@@ -1,0 +1,123 @@
+"""A batch of cases from simulation to the published reports."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from uictest import campaign, report
+from uictest.campaign import Campaign, Examined, RecordingWish
+from uictest.cli.compilation import announce_compilation
+from uictest.cli.display import Display
+from uictest.cli.drawing import Drawing
+from uictest.cli.progress import progress
+from uictest.cli.streams import message
+
+if TYPE_CHECKING:
+    from uictest.report import ReportFormat, RunContent
+    from uictest.report.page import Trace
+    from uictest.scenario import Case
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """What is to be run, how, and where its reports go."""
+
+    cases: Sequence[Case]
+    manifest: dict[str, Any]
+    recording: RecordingWish
+    jobs: int
+    maxfail: int | None
+    output: Path
+    junit: Path | None
+    formats: Sequence[ReportFormat]
+    quiet: bool
+    verbose: bool
+
+
+def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Path | None]:
+    """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
+
+    Returns what came of it and the folder of its reports, None where there is nothing to report. Raises
+    OSError where the reports cannot be written; nothing is left behind then.
+    """
+    started = perf_counter()
+    # The folder comes first: one that cannot be written should not cost a simulation.
+    with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
+        drawing = Drawing(batch.cases, batch.recording, wanted=report.ReportFormat.HTML in batch.formats)
+        done = _simulate(batch, folder.path, display, drawing)
+        if not done.results:
+            message("uictest: interrupted before the first case was finished; there is nothing to report")
+            return done, None
+        traces = drawing.finish(done, batch.jobs)
+        content, document = _write_reports(batch, folder, done, traces)
+        place = folder.publish()
+    report.point_latest(place)
+    _append_step_summary(content)
+    _write_junit(batch.junit, done)
+    display.end(done.results, document)
+    if not batch.quiet:
+        _sum_up(batch, done, perf_counter() - started, place)
+    return done, place
+
+
+def _write_reports(
+    batch: Batch, folder: report.RunFolder, done: Campaign, traces: Mapping[str, Trace]
+) -> tuple[RunContent, str]:
+    """Write all reports; return what they show and the text of results.json."""
+    complete = len(done.results) == len(batch.cases)
+    subjects = campaign.subjects_of(batch.cases)
+    document = report.write_reports(
+        folder.path, done.results, batch.manifest, complete=complete, subjects=subjects
+    )
+    content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
+    report.write_formats(
+        folder.path, content, [each for each in batch.formats if each != report.ReportFormat.CSV]
+    )
+    return content, document
+
+
+def _append_step_summary(content: RunContent) -> None:
+    # The run is published by now: a summary that cannot be written does not undo it.
+    try:
+        report.append_step_summary(content)
+    except OSError as error:
+        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
+
+
+def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> Campaign:
+    from uictest.rig import is_warm
+
+    announce_compilation(warm=is_warm(), quiet=batch.quiet)
+    with progress(len(batch.cases), quiet=batch.quiet) as advance:
+
+        def take(examined: Examined) -> None:
+            drawing.take(examined)
+            if examined.recording is not None and batch.recording.wants(examined.result):
+                report.write_recording(folder, examined.result.id, examined.recording)
+            display.case(examined.result)
+            if batch.verbose and examined.traceback:
+                message(examined.traceback.rstrip())
+            advance()
+
+        return campaign.run(
+            batch.cases, jobs=batch.jobs, recording=drawing.recording, maxfail=batch.maxfail, on_result=take
+        )
+
+
+def _write_junit(path: Path | None, done: Campaign) -> None:
+    from uictest.recording import write_text_atomic
+
+    if path is not None:
+        write_text_atomic(path, report.junit_xml(done.results))
+
+
+def _sum_up(batch: Batch, done: Campaign, seconds: float, place: Path) -> None:
+    ended = "interrupted, " if done.interrupted else ""
+    left = len(batch.cases) - len(done.results)
+    not_run = f", {left} not run" if left else ""
+    message(f"uictest: {ended}{report.tally(done.results)}{not_run} in {seconds:.1f} s; reports in {place}")

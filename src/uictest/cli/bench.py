@@ -1,0 +1,158 @@
+"""`uictest bench`: the caliper without vehicle, under pressures and valve commands of a recipe."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.compilation import announce_compilation
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import data, message
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+    from uictest.rig.bench_loading import BenchTest
+
+
+def bench(
+    recipe: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[RECIPE]", help="A recipe of the library or a .yaml file.", show_default=False
+        ),
+    ] = None,
+    trace: Annotated[
+        Path | None,
+        typer.Option("--trace", metavar="FILE", help="Demand a recorded pressure instead of a recipe's."),
+    ] = None,
+    pressure: Annotated[
+        str,
+        typer.Option("--pressure", metavar="CHANNEL", help="Channel of the demanded pressure in --trace."),
+    ] = "demanded_pressure",
+    command: Annotated[
+        str | None,
+        typer.Option("--command", metavar="CHANNEL", help="Channel of the valve command in --trace."),
+    ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig. May be repeated."),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the noise.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Recording to write, .parquet or .csv [default: RECIPE.parquet].",
+            show_default=False,
+        ),
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="List the recipes of the library.")] = False,
+    quiet: Annotated[
+        bool, typer.Option("-q", "--quiet", help="Write the recording and show nothing.")
+    ] = False,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Test the caliper on the bench and write a recording of pressures, forces, stroke and commands."""
+    from uictest.rig import bench_loading
+
+    if listed:
+        data("\n".join(bench_loading.recipe_names()))
+        return ExitCode.MET
+    test = _test(recipe, trace, pressure, command, overrides or (), seed)
+    target = output or Path(f"{test.recipe.name}.parquet")
+    writer = _writer(target)
+    announce_compilation(warm=_is_warm(), quiet=quiet)
+    recording = _run(test)
+    writer(recording, target)
+    if not quiet:
+        message(f"uictest: wrote {len(recording)} samples of {recording['time'][-1]:.1f} s to {target}")
+        data(_summary(recording))
+    return ExitCode.MET
+
+
+def _test(
+    recipe: str | None,
+    trace: Path | None,
+    pressure: str,
+    command: str | None,
+    overrides: list[str] | tuple[()],
+    seed: int | None,
+) -> BenchTest:
+    from uictest.rig.bench_loading import load_bench, recipe_names, recipe_path, trace_recipe
+    from uictest.scenario import ScenarioErrors
+    from uictest.scenario.wording import suggestion
+
+    if (recipe is None) == (trace is None):
+        raise InvalidInputError(
+            f"uictest: name one recipe ({', '.join(recipe_names())}, or a .yaml file) or give --trace FILE"
+        )
+    try:
+        if trace is not None:
+            return trace_recipe(trace, pressure, command, overrides, seed)
+        assert recipe is not None
+        if not recipe_path(recipe).exists():
+            hint = suggestion(recipe, recipe_names())
+            raise InvalidInputError(f"uictest: no bench recipe {recipe!r}; {hint}")
+        return load_bench(recipe_path(recipe), overrides, seed)
+    except ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def _run(test: BenchTest) -> Recording:
+    from uictest.identification import UnsuitableRecordError
+    from uictest.rig.bench_loading import run_test
+
+    try:
+        return run_test(test)
+    except UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    except FileNotFoundError as error:
+        raise InvalidInputError(f"uictest: {error.filename}: no such file") from error
+
+
+def _is_warm() -> bool:
+    """Whether the bench lies compiled in the cache, so that the test starts at once."""
+    from uictest.rig.compiled import cache_folder
+
+    return any(cache_folder().glob("**/bench.bench-*.nbc"))
+
+
+def _writer(target: Path):  # type: ignore[no-untyped-def]
+    from uictest.recording.formats import writer_of
+
+    formats = {".parquet": "parquet", ".csv": "csv"}
+    if target.suffix.lower() not in formats:
+        raise InvalidInputError(f"uictest: {target}: write a .parquet or a .csv file")
+    if not target.parent.is_dir():
+        raise InvalidInputError(f"uictest: {target}: there is no folder {target.parent}")
+    return writer_of(formats[target.suffix.lower()])
+
+
+def _summary(recording: Recording) -> str:
+    """Largest errors of the computed forces and pressures, in per cent of the largest measured ones."""
+    import numpy as np
+
+    def error(computed: str, measured: str) -> float:
+        difference = np.abs(recording[computed] - recording[measured]).max()
+        return float(100.0 * difference / max(recording[measured].max(), 1e-9))
+
+    force, pressure = "clamping_force_1", "cylinder_pressure_1"
+    rows = [
+        ("force computed from module 1, hysteresis", error("computed_force_1", force)),
+        *(
+            (f"force computed from module 2, {name}", error(f"computed_force_{name}_2", force))
+            for name in ("none", "hysteresis", "cylinder", "full")
+        ),
+        ("pressure of module 2 as it is", error("measured_pressure_2", pressure)),
+        ("pressure of module 2, cylinder dynamics", error("cylinder_pressure_2", pressure)),
+    ]
+    lines = [f"{name:<42}{value:8.2f} %" for name, value in rows]
+    return "\n".join(["largest error against module 1, of the largest measured value", *lines])

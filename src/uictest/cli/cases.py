@@ -1,0 +1,87 @@
+"""From paths and selection options to the cases that are meant."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from uictest.cli.problems import InvalidInputError
+from uictest.report import counted, printable
+
+if TYPE_CHECKING:
+    from uictest.scenario import Case
+
+DEFAULT_FOLDER = Path("scenarios")
+
+
+def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
+    """Return the given paths, else the default folder. Raises InvalidInputError where that is missing."""
+    if paths:
+        return list(paths)
+    if not DEFAULT_FOLDER.is_dir():
+        raise InvalidInputError(
+            f"uictest: there is no folder {DEFAULT_FOLDER}/ here: name scenario files or folders, "
+            "or make a first scenario with 'uictest init'"
+        )
+    return [DEFAULT_FOLDER]
+
+
+def load_cases(paths: Sequence[Path] | None, overrides: Sequence[str] | None, seed: int | None) -> list[Case]:
+    """Return all cases of the scenarios. Raises InvalidInputError with every diagnostic of every file."""
+    from uictest.scenario import ScenarioErrors, load
+
+    try:
+        return load(scenario_paths(paths), tuple(overrides or ()), seed)
+    except ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def select_cases(cases: Sequence[Case], expression: str | None, tag: str | None) -> list[Case]:
+    """Return the cases that `-k` and `-m` select. Raises typer.BadParameter for a malformed expression."""
+    from uictest.campaign import ExpressionError, by_expression, by_tag
+
+    selected = list(cases)
+    for option, text, select in (("-k", expression, by_expression), ("-m", tag, by_tag)):
+        if text is None:
+            continue
+        try:
+            selected = select(selected, text)
+        except ExpressionError as error:
+            raise typer.BadParameter(f"{error} in {text!r}", param_hint=option) from error
+    return selected
+
+
+def nothing_selected(cases: Sequence[Case]) -> str:
+    """Return the message that says among how many cases and which tags nothing was selected."""
+    tags = sorted({tag for case in cases for tag in case.scenario.tags})
+    known = ", ".join(tags) or "none"
+    return f"uictest: nothing selected among {counted(len(cases), 'case')}; their tags: {known}"
+
+
+def case_lines(cases: Sequence[Case], *, described: bool = False) -> str:
+    """Return the ids, one per line; where described, title and tags behind a tab stop each."""
+    return "\n".join(_described(case) if described else printable(case.id) for case in cases)
+
+
+def _described(case: Case) -> str:
+    return "\t".join(printable(text) for text in (case.id, case.scenario.title, " ".join(case.scenario.tags)))
+
+
+def cases_json(cases: Sequence[Case]) -> str:
+    """Return what can be known of the cases before they run, as a JSON array."""
+    return json.dumps([_description(case) for case in cases], indent=2)
+
+
+def _description(case: Case) -> dict[str, Any]:
+    return {
+        "id": case.id,
+        "scenario": case.path.as_posix(),
+        "title": case.scenario.title,
+        "tags": list(case.scenario.tags),
+        "expect": case.scenario.expect,
+        "parameters": dict(case.parameters),
+    }

@@ -1,0 +1,88 @@
+"""`uictest compare`: two runs or two recordings side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.report import run_folder
+from uictest.cli.streams import data, message
+
+if TYPE_CHECKING:
+    from uictest.comparison import Comparison, Tolerances
+    from uictest.recording import Recording
+
+
+def compare(
+    first: Annotated[Path, typer.Argument(metavar="A", help="A run's folder, or a recording.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="Another of the same kind.")],
+    tolerance: ToleranceTexts = None,
+    page: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write a page with overlay plots, too.")
+    ] = None,
+    shown: ListFormat = PlainFormat.TEXT,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Show what differs between two runs or two recordings; exit 1 where something is out of tolerance."""
+    from uictest.comparison import comparison_html, comparison_json, comparison_lines, verdict_line
+
+    compared = _compared(first, second, tolerances_of(tolerance))
+    if shown is PlainFormat.JSON:
+        data(comparison_json(compared))
+    else:
+        for line in comparison_lines(compared, every=verbosity > 0):
+            data(line)
+    if page is not None:
+        from uictest.recording import write_text_atomic
+
+        write_text_atomic(page, comparison_html(compared))
+    message(f"uictest: {verdict_line(compared)}")
+    return ExitCode.MET if compared.agrees else ExitCode.MISSED
+
+
+def _compared(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
+    from uictest.comparison import compare_recordings
+
+    places = [run_folder(place) for place in (first, second)]
+    if any(place.is_dir() for place in places):
+        return _runs(places[0], places[1], tolerances)
+    names = _names(first, second)
+    return compare_recordings(_recording(places[0]), _recording(places[1]), names, tolerances)
+
+
+def _runs(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
+    """Compare two runs, and draw the stops that both have recorded and that differ."""
+    from uictest.comparison import compare_run_folders
+
+    try:
+        return compare_run_folders(first, second, tolerances)
+    except (OSError, ValueError) as error:
+        raise InvalidInputError(f"uictest: cannot compare as runs: {error}") from error
+
+
+def _recording(path: Path) -> Recording:
+    from uictest.cli.recordings import each_file
+    from uictest.recording import read_parquet
+    from uictest.recording.conversion import recording_of
+    from uictest.recording.formats import read_contents
+
+    try:
+        if path.suffix == ".parquet":
+            return read_parquet(path)
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    except OSError as error:
+        raise InvalidInputError(f"uictest: {path}: {error.strerror or error}") from error
+    return each_file([path], lambda one: recording_of(read_contents(one), {"source": one.name}))[0]
+
+
+def _names(first: Path, second: Path) -> tuple[str, str]:
+    """Return what two files are called: their names, or their paths where those are the same."""
+    if first.name != second.name:
+        return first.name, second.name
+    return str(first), str(second)

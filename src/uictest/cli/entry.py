@@ -1,0 +1,60 @@
+"""From arguments to exit code: the one place where what goes wrong becomes a message and a number."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Sequence
+
+import typer
+
+from uictest.cli.app import app
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.invocation import Invocation
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import message, use_safe_encoding
+
+_TYPER_INTERRUPTED = 130
+
+
+def execute(arguments: Sequence[str]) -> ExitCode:
+    """Run one command line, and return its exit code; nothing but the code leaves, not even an exception."""
+    use_safe_encoding()
+    invocation = Invocation(arguments)
+    try:
+        return _call(invocation)
+    except typer.TyperException as error:
+        message(f"uictest: {error.format_message()}\nTry 'uictest --help', or 'uictest COMMAND --help'.")
+        return ExitCode.USAGE
+    except InvalidInputError as error:
+        message(str(error))
+        return ExitCode.USAGE
+    except KeyboardInterrupt:
+        message("uictest: interrupted")
+        return ExitCode.INTERRUPTED
+    except SystemExit:
+        # Outside its standalone mode typer leaves in this way only where the reader of `--help` has gone.
+        return ExitCode.MET
+    except OSError as error:
+        return _failed(_reason(error), invocation)
+    except Exception as error:
+        return _failed(f"internal error: {type(error).__name__}: {error}", invocation)
+
+
+def _call(invocation: Invocation) -> ExitCode:
+    code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
+    # Outside its standalone mode typer returns this code where the user pressed Ctrl-C.
+    return ExitCode.INTERRUPTED if code == _TYPER_INTERRUPTED else ExitCode(code or 0)
+
+
+def _failed(reason: str, invocation: Invocation) -> ExitCode:
+    if invocation.verbosity > 0:
+        message(traceback.format_exc().rstrip())
+        message(f"uictest: {reason}")
+    else:
+        message(f"uictest: {reason} (-v shows where)")
+    return ExitCode.ERROR
+
+
+def _reason(error: OSError) -> str:
+    reason = error.strerror or str(error) or type(error).__name__
+    return f"{error.filename}: {reason}" if error.filename is not None else reason

@@ -1,0 +1,71 @@
+"""`uictest export`: a recording in the formats of the engineers' own viewers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.recordings import Files, each_file
+from uictest.cli.streams import data
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+
+
+def export(
+    files: Files,
+    formats: Annotated[
+        list[str],
+        typer.Option("--to", metavar="FORMAT", help="mdf, tdms, mat, csv, parquet; commas join several."),
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")
+    ] = Path(),
+    force: Annotated[bool, typer.Option("--force", help="Replace files that are there already.")] = False,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet; shows the files it wrote."""
+    from uictest.recording.formats import SUFFIXES, writer_of
+
+    wanted = _formats(formats)
+    targets = {(path, name): output / f"{path.stem}{SUFFIXES[name]}" for path in files for name in wanted}
+    _refuse_overwriting(list(targets.values()), force=force)
+    recordings = dict(zip(files, each_file(files, _recording), strict=True))
+    output.mkdir(parents=True, exist_ok=True)
+    for (path, name), target in targets.items():
+        each_file([path], lambda p, n=name, t=target: writer_of(n)(recordings[p], t))  # type: ignore[misc]
+        data(str(target))
+    return ExitCode.MET
+
+
+def _formats(texts: Sequence[str]) -> list[str]:
+    from uictest.recording.formats import FORMATS
+
+    wanted = list(dict.fromkeys(word.strip() for text in texts for word in text.split(",")))
+    for word in wanted:
+        if word not in FORMATS:
+            raise typer.BadParameter(f"no format {word!r}; accepted: {', '.join(FORMATS)}", param_hint="--to")
+    return wanted
+
+
+def _refuse_overwriting(targets: Sequence[Path], *, force: bool) -> None:
+    twice = sorted({str(target) for target in targets if targets.count(target) > 1})
+    if twice:
+        raise InvalidInputError(f"uictest: several recordings would be written to {', '.join(twice)}")
+    there = [str(target) for target in targets if target.exists()]
+    if there and not force:
+        raise InvalidInputError(f"uictest: already there: {', '.join(there)}; --force replaces them")
+
+
+def _recording(path: Path) -> Recording:
+    from uictest import __version__
+    from uictest.recording.conversion import recording_of
+    from uictest.recording.formats import read_contents
+
+    return recording_of(read_contents(path), {"program": f"uictest {__version__}", "source": path.name})

@@ -1,0 +1,223 @@
+"""`uictest identify`: the numbers of the compensation from a recording."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import data, message
+
+if TYPE_CHECKING:
+    from uictest.identification import CylinderResult, HysteresisResult
+    from uictest.identification.compensation_file import Provenance
+    from uictest.scenario.parts.compensation import Compensation
+
+identify = typer.Typer(
+    rich_markup_mode=None,
+    help="Identify the compensation's hysteresis or cylinder dynamics from a recording.",
+)
+
+Record = Annotated[
+    Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
+]
+Output = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write; none: only report."),
+]
+Base = Annotated[
+    str,
+    typer.Option("--base", metavar="NAME|FILE", help="Compensation whose other numbers are kept."),
+]
+Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
+HeldOut = Annotated[
+    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record kept from the fit.")
+]
+
+
+@identify.command("hysteresis")
+def hysteresis(
+    context: typer.Context,
+    record: Record,
+    output: Output = None,
+    base: Base = "six-inch",
+    pressure: Annotated[
+        str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder's pressure.")
+    ] = "cylinder_pressure_1",
+    force: Annotated[
+        str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
+    ] = "clamping_force_1",
+    command: Annotated[
+        str, typer.Option("--command", metavar="CHANNEL", help="Valve command: 0 fill, 1 hold, 2 vent.")
+    ] = "valve_command_1",
+    intervals: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--wsp", metavar="FROM..TO", help="Time in s in which the WSP acts, instead of commands."
+        ),
+    ] = None,
+    acting_time: Annotated[
+        float, typer.Option("--acting-time", help="Time of filling in s after which the WSP no longer acts.")
+    ] = 2.0,
+    transition_time: Annotated[
+        float, typer.Option("--transition-time", help="Time in s from one pair of lines to the other.")
+    ] = 0.1,
+    held_out: HeldOut = 0.25,
+    date: Date = "",
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
+    from uictest.identification import UnsuitableRecordError, identify_hysteresis
+    from uictest.identification.channels import digest, read_channels
+    from uictest.identification.compensation_file import with_hysteresis
+    from uictest.identification.phases import wsp_acting_from_commands, wsp_acting_in_intervals
+
+    kept = _base(base)
+    given = [_interval(text) for text in intervals or ()]
+    wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
+    try:
+        channels = read_channels(_existing(record), wanted)
+        time = channels["time"]
+        acting = (
+            wsp_acting_in_intervals(time, given)
+            if given
+            else wsp_acting_from_commands(time, channels["command"], acting_time)
+        )
+        result = identify_hysteresis(
+            time, channels["pressure"], channels["force"], acting, transition_time, held_out
+        )
+    except UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    data(_hysteresis_report(result))
+    if output is not None:
+        provenance = _provenance(context, record, digest(channels), date)
+        _write(output, with_hysteresis(kept, result, provenance, acting_time, transition_time))
+    return ExitCode.MET
+
+
+@identify.command("cylinder")
+def cylinder(
+    context: typer.Context,
+    record: Record,
+    output: Output = None,
+    base: Base = "six-inch",
+    tank: Annotated[
+        str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank's pressure.")
+    ] = "measured_pressure_2",
+    cylinder: Annotated[
+        str,
+        typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder's pressure."),
+    ] = "cylinder_pressure_1",
+    criterion: Annotated[
+        Literal["least-squares", "largest-error"],
+        typer.Option(
+            "--criterion", help="What is made least; the largest error suits records of little noise."
+        ),
+    ] = "least-squares",
+    held_out: HeldOut = 0.25,
+    date: Date = "",
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
+    from uictest.identification import UnsuitableRecordError, identify_cylinder
+    from uictest.identification.channels import digest, read_channels
+    from uictest.identification.compensation_file import with_cylinder
+
+    kept = _base(base)
+    try:
+        channels = read_channels(_existing(record), {"input": tank, "output": cylinder})
+        result = identify_cylinder(
+            channels["time"], channels["input"], channels["output"], criterion, held_out
+        )
+    except UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    data(_cylinder_report(result))
+    if output is not None:
+        _write(output, with_cylinder(kept, result, _provenance(context, record, digest(channels), date)))
+    return ExitCode.MET
+
+
+def _existing(record: Path) -> Path:
+    if not record.is_file():
+        raise InvalidInputError(f"uictest: {record}: {'not a file' if record.exists() else 'no such file'}")
+    return record
+
+
+def _interval(text: str) -> tuple[float, float]:
+    first, dots, last = text.partition("..")
+    try:
+        begin, end = float(first), float(last)
+    except ValueError:
+        begin, end = 1.0, 0.0
+    if not dots or not begin < end:
+        raise InvalidInputError(
+            f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
+        )
+    return begin, end
+
+
+def _base(reference: str) -> Compensation:
+    """The compensation that keeps its other numbers: of the library, or a file."""
+    from uictest.identification.compensation_base import load_compensation
+    from uictest.scenario import ScenarioErrors
+
+    try:
+        return load_compensation(reference)
+    except ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def _provenance(context: typer.Context, record: Path, digest: str, date: str) -> Provenance:
+    from uictest import __version__
+    from uictest.identification.compensation_file import Provenance
+
+    command = shlex.join(["uictest", *context.obj.arguments])
+    return Provenance(record.name, digest, command, __version__, date)
+
+
+def _write(output: Path, text: str) -> None:
+    from uictest.recording import write_text_atomic
+
+    if not output.parent.is_dir():
+        raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+    write_text_atomic(output, text)
+    message(f"uictest: wrote {output}")
+
+
+def _hysteresis_report(result: HysteresisResult) -> str:
+    lines = [
+        f"{phase:<16}{line.slope * 100:9.4f} kN/bar +-{line.slope_confidence * 100:8.4f}"
+        f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
+        for phase, line in result.lines.items()
+    ]
+    lines += [
+        f"{kind} loop width {width / 1e5:.4f} bar at {result.high_force / 1e3:.2f} kN"
+        for kind, width in result.loop_widths.items()
+    ]
+    largest, rms = 100.0 * result.largest_error, 100.0 * result.rms_error
+    force = result.largest_force / 1e3
+    lines.append(f"force error, held out: largest {largest:.2f} %, rms {rms:.2f} % of {force:.2f} kN")
+    return "\n".join(lines)
+
+
+def _cylinder_report(result: CylinderResult) -> str:
+    model = result.transfer_function
+    before, after = 100.0 * result.largest_before, 100.0 * result.largest_after
+    pressure = result.largest_pressure / 1e5
+    poles = ", ".join(f"{pole.real:.6f}{pole.imag:+.6f}j" for pole in model.poles)
+    return "\n".join(
+        [
+            f"sampling time {model.sampling_time * 1e3:g} ms",
+            f"numerator {', '.join(map(repr, model.numerator))}",
+            f"denominator 1.0, {', '.join(map(repr, model.denominator))}",
+            f"poles {poles}",
+            f"gain within 3 dB up to {model.band:.4g} Hz",
+            f"fit, held out: {result.fit:.2f} %",
+            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+        ]
+    )

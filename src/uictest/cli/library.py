@@ -1,0 +1,114 @@
+"""`uictest library`: the parts that come with the program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import data
+from uictest.report import printable
+
+if TYPE_CHECKING:
+    from uictest.scenario import Number
+    from uictest.scenario.parts.model import Part
+
+library = typer.Typer(rich_markup_mode=None, help="Show the parts that come with the program.")
+
+
+@library.command("list")
+def list_parts(verbosity: Verbosity = 0) -> ExitCode:
+    """List the parts, one per line, each with its title."""
+    data(_aligned([(reference, _title(reference)) for reference in _references()]))
+    return ExitCode.MET
+
+
+@library.command("show")
+def show_part(
+    reference: Annotated[str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180.")],
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Show every number of a part with unit, mark (stated, published or chosen) and source.
+
+    Below them stand what the sources are and, of numbers that were identified, how. Of a channel map, the
+    names that a channel may have in a file.
+    """
+    if reference not in _references():
+        raise InvalidInputError(f"uictest: no part {reference!r} in the library; {_hint(reference)}")
+    folder, _, name = reference.partition("/")
+    data(printable(f"{reference}: {_title(reference)}"))
+    if folder == "channel_maps":
+        data(_aligned(_channels(name)))
+    else:
+        _show_numbers(_part(folder, name))
+    return ExitCode.MET
+
+
+def _show_numbers(part: Part) -> None:
+    from uictest.scenario import numbers
+
+    shown = list(numbers(part))
+    data(_aligned([_row(number) for number in shown]))
+    used = {number.quantity.source for number in shown}
+    sources = [(name, each.text) for name, each in part.sources.items() if name in used]
+    provenance = list(getattr(part, "provenance", {}).items())
+    for title, rows in (("sources", sources), ("provenance", provenance)):
+        if rows:
+            data(f"\n{title}\n{_aligned(rows)}")
+
+
+def _row(number: Number) -> tuple[str, ...]:
+    """Return key, number, mark and the name of the source, which may be called like its mark."""
+    name = number.quantity.source
+    mark = name if number.source is None else number.source.mark
+    return (number.key, number.quantity.text, mark, "" if name == mark else name)
+
+
+def _channels(name: str) -> list[tuple[str, ...]]:
+    from uictest.measured import load_map
+
+    channels = load_map(name)[0].channels
+    return [(channel, ", ".join(source.source), source.unit) for channel, source in channels.items()]
+
+
+def _part(folder: str, name: str) -> Part:
+    if folder == "benches":
+        from uictest.rig.bench_loading import load_bench, recipe_path
+
+        return load_bench(recipe_path(name)).recipe
+    from uictest.scenario import load_part
+
+    return load_part(f"{folder}/{name}")
+
+
+def _title(reference: str) -> str:
+    from uictest.scenario.reading import read_library
+    from uictest.scenario.tree import plain
+
+    return str(plain(read_library(*reference.split("/")))["title"])
+
+
+def _references() -> list[str]:
+    from uictest.library import FOLDERS, OTHER_FOLDERS, names
+
+    return [f"{folder}/{name}" for folder in sorted((*FOLDERS, *OTHER_FOLDERS)) for name in names(folder)]
+
+
+def _hint(reference: str) -> str:
+    from uictest.library import FOLDERS, OTHER_FOLDERS
+    from uictest.scenario.wording import nearest
+
+    guess = nearest(reference, _references())
+    accepted = ", ".join(f"{folder}/..." for folder in sorted((*FOLDERS, *OTHER_FOLDERS)))
+    return f"did you mean {guess!r}?" if guess else f"accepted: {accepted}"
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    shown = [[printable(cell) for cell in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*shown, strict=True)]
+    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in shown)
+    return "\n".join(line.rstrip() for line in lines)

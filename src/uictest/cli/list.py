@@ -1,0 +1,44 @@
+"""`uictest list`: which cases there are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from uictest.cli.cases import case_lines, cases_json, load_cases, nothing_selected, select_cases
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Verbosity
+from uictest.cli.streams import data, message
+from uictest.cli.sweep_files import is_sweep
+
+
+def list_cases(
+    paths: Paths = None,
+    expression: Expression = None,
+    tag: Tag = None,
+    overrides: Overrides = None,
+    shown: ListFormat = PlainFormat.TEXT,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """List the ids of all cases, one per line; with -v their titles and tags. A sweep must be named."""
+    if paths and all(map(is_sweep, paths)):
+        return _list_sweeps(paths, expression, overrides)
+    cases = load_cases(paths, overrides, seed=None)
+    selected = select_cases(cases, expression, tag)
+    if not selected:
+        message(nothing_selected(cases))
+        return ExitCode.NOTHING_SELECTED
+    data(cases_json(selected) if shown is PlainFormat.JSON else case_lines(selected, described=verbosity > 0))
+    return ExitCode.MET
+
+
+def _list_sweeps(paths: Sequence[Path], expression: str | None, overrides: Sequence[str] | None) -> ExitCode:
+    from uictest.cli.sweep import load_plan, selected_cases, show_ids
+
+    selections = [selected_cases(load_plan(path, overrides, None), expression) for path in paths]
+    for selection in selections:
+        show_ids(selection)
+    if any(selection.size for selection in selections):
+        return ExitCode.MET
+    message("uictest: nothing selected")
+    return ExitCode.NOTHING_SELECTED

@@ -1,0 +1,129 @@
+"""Recordings from file to the published reports."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from uictest import report
+from uictest.campaign import Campaign, Examined
+from uictest.cli.display import Display
+from uictest.cli.options import Recorded
+from uictest.cli.recordings import each_file, names_of
+from uictest.cli.streams import message
+
+if TYPE_CHECKING:
+    from uictest.measured import ChannelMap, Defect, MeasuredStop
+    from uictest.report.page import Trace
+    from uictest.scenario import Case
+
+Stated = Callable[[str, float], "Case"]
+"""The case that a stop is judged as: from its name and its initial speed, m/s."""
+_UNKNOWN_SPEED = 120.0 / 3.6
+"""m/s, for the scenario of a record whose speed cannot be used: its result is an error whatever it says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A recording, its name in the reports, and the stop in it; only defects where it cannot be used."""
+
+    path: Path
+    name: str
+    digest: str
+    stop: MeasuredStop | None
+    defects: tuple[Defect, ...]
+
+    def case(self, stated: Stated, inputs: dict[str, str]) -> Case:
+        """Return what this recording is judged as."""
+        from uictest.scenario.reading import display_name
+
+        speed = _UNKNOWN_SPEED if self.stop is None else float(self.stop.recording["speed"][0])
+        base = stated(self.name, speed)
+        shown = display_name(self.path)
+        return replace(
+            base, id=self.name, path=Path(shown), inputs={**base.inputs, **inputs, shown: self.digest}
+        )
+
+
+def read_all(files: Sequence[Path], channel_map: ChannelMap) -> list[Measured]:
+    """Read every file. Raises InvalidInputError with the errors of all that are no recordings."""
+    from uictest.measured import UnusableError, digest_of, stop_in
+
+    def read(named: Path) -> Measured:
+        try:
+            stop = stop_in(named, channel_map)
+        except UnusableError as error:
+            return Measured(named, "", digest_of(named), None, error.defects)
+        return Measured(named, "", digest_of(named), stop, stop.defects)
+
+    read_ones = each_file(files, read)
+    return [replace(each, name=name) for each, name in zip(read_ones, names_of(files), strict=True)]
+
+
+def judge_all(recordings: Sequence[Measured], cases: Sequence[Case], wish: Recorded) -> list[Examined]:
+    """Judge every stop, and keep the samples it was judged by where they are wanted."""
+    from uictest.measured import judge_stop, unusable_result
+
+    examined = []
+    for measured, case in zip(recordings, cases, strict=True):
+        if measured.stop is None:
+            examined.append(Examined(unusable_result(case, measured.defects)))
+            continue
+        result = judge_stop(case, measured.stop)
+        kept = wish is Recorded.ALL or (wish is Recorded.FAILED and not result.met)
+        examined.append(Examined(result, measured.stop.recording if kept else None))
+    return examined
+
+
+def traces_of(recordings: Sequence[Measured], cases: Sequence[Case]) -> dict[str, Trace]:
+    """Return what there is to draw of the recordings, by the id of the case each is judged as."""
+    from uictest.report.page import trace_of
+
+    stops = [(case.id, measured.stop) for measured, case in zip(recordings, cases, strict=True)]
+    return {case_id: trace_of(stop.recording) for case_id, stop in stops if stop is not None}
+
+
+def publish(
+    examined: Sequence[Examined],
+    manifest: dict[str, Any],
+    output: Path,
+    junit: Path | None,
+    display: Display,
+    subjects: Mapping[str, report.Subject],
+    traces: Mapping[str, Trace],
+) -> tuple[Campaign, Path]:
+    """Write the reports of a run of recordings; return its results and where they are. Raises OSError.
+
+    `subjects` says what the cases are about and `traces` what the page draws of them, by id.
+    """
+    from uictest.recording import write_text_atomic
+
+    results = [each.result for each in examined]
+    with report.RunFolder(output, report.run_name(datetime.now(UTC), manifest)) as folder:
+        for each in examined:
+            if each.recording is not None:
+                report.write_recording(folder.path, each.result.id, each.recording)
+        document = report.write_reports(folder.path, results, manifest, complete=True, subjects=subjects)
+        content = report.RunContent(folder.name, results, manifest, True, subjects, traces)
+        report.write_formats(folder.path, content, [report.ReportFormat.HTML])
+        place = folder.publish()
+    report.point_latest(place)
+    if junit is not None:
+        write_text_atomic(junit, report.junit_xml(results))
+    for result in results:
+        display.case(result)
+    display.end(results, document)
+    return Campaign(results), place
+
+
+def tell(recordings: Sequence[Measured]) -> None:
+    """Say how each record was prepared and everything that was found wrong with it."""
+    for measured in recordings:
+        if measured.stop is not None:
+            chosen = "; ".join(f"{name}: {text}" for name, text in measured.stop.choices.items())
+            message(f"uictest: {measured.path}: {chosen}")
+        for defect in measured.defects:
+            message(f"uictest: {measured.path}: {defect}")

@@ -1,0 +1,164 @@
+"""The options that several commands share, each described once."""
+
+from __future__ import annotations
+
+import os
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.invocation import Invocation
+
+if TYPE_CHECKING:
+    from uictest.comparison import Tolerances
+    from uictest.report import ReportFormat
+
+
+class Format(StrEnum):
+    """What stdout is made for."""
+
+    TEXT = "text"
+    JSON = "json"
+    GITHUB = "github"
+
+
+class PlainFormat(StrEnum):
+    """What stdout is made for, where there is nothing to annotate."""
+
+    TEXT = "text"
+    JSON = "json"
+
+
+class Colour(StrEnum):
+    """When to colour."""
+
+    AUTO = "auto"
+    ALWAYS = "always"
+    NEVER = "never"
+
+
+class Recorded(StrEnum):
+    """Which cases are recorded."""
+
+    ALL = "all"
+    FAILED = "failed"
+    NONE = "none"
+
+
+def _remember_verbosity(context: typer.Context, value: int) -> int:
+    if isinstance(context.obj, Invocation):
+        context.obj.verbosity = value
+    return value
+
+
+def _jobs(text: str) -> int:
+    if text == "auto":
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if text.isascii() and text.isdigit() and int(text) > 0:
+        return int(text)
+    raise typer.BadParameter(f"{text!r} is neither a number of threads from 1 nor 'auto'")
+
+
+Paths = Annotated[
+    list[Path] | None,
+    typer.Argument(
+        metavar="[PATH]...", help="Scenario files or folders [default: scenarios].", show_default=False
+    ),
+]
+Expression = Annotated[
+    str | None,
+    typer.Option(
+        "-k",
+        metavar="EXPR",
+        help="Cases whose id, file name or tag contains EXPR; 'and', 'or', 'not', '(', ')' join words.",
+    ),
+]
+Tag = Annotated[
+    str | None,
+    typer.Option("-m", metavar="TAG", help="Cases that carry this tag; 'and', 'or', 'not' join several."),
+]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Set a key in every scenario; a comma list or range(a,b,step) sweeps it. May be repeated.",
+    ),
+]
+Seed = Annotated[
+    int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise in every case.")
+]
+Verbosity = Annotated[
+    int,
+    typer.Option(
+        "-v",
+        "--verbose",
+        count=True,
+        callback=_remember_verbosity,
+        help="Show more; where an error arose, too.",
+    ),
+]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only what did not meet its expectation.")]
+Output = Annotated[
+    Path,
+    typer.Option("-o", "--output", metavar="DIR", help="Folder in which each run gets a folder of its own."),
+]
+Jobs = Annotated[
+    int, typer.Option("-n", "--jobs", metavar="N|auto", parser=_jobs, help="Threads to simulate on.")
+]
+RunFormat = Annotated[
+    Format,
+    typer.Option(
+        "--format", help="What stdout carries: a table or lines, results.json, or lines with annotations."
+    ),
+]
+CheckFormat = Annotated[
+    Format,
+    typer.Option("--format", help="What stdout carries: nothing, the problems as JSON, or as annotations."),
+]
+ListFormat = Annotated[
+    PlainFormat, typer.Option("--format", help="What stdout carries: lines or a JSON array.")
+]
+Recording = Annotated[
+    Recorded, typer.Option("--record", help="Record all cases, those that are not met, or none.")
+]
+RecordRate = Annotated[
+    float,
+    typer.Option(
+        "--record-rate", metavar="HZ", min=1.0, max=100e3, help="Samples per second of a recording."
+    ),
+]
+Colouring = Annotated[Colour, typer.Option("--color", help="When to colour.")]
+ToleranceTexts = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--tolerance",
+        metavar="[NAME=]VALUE",
+        help="What may differ: 0.5 (absolute), 1% (of the range); NAME may hold *. May be repeated.",
+    ),
+]
+
+
+def tolerances_of(texts: list[str] | None) -> Tolerances:
+    """Return the tolerances that `--tolerance` asks for. Raises typer.BadParameter."""
+    from uictest.comparison.tolerance import Tolerances
+
+    try:
+        return Tolerances.read(texts or ())
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--tolerance") from error
+
+
+def report_formats(text: str, option: str) -> list[ReportFormat]:
+    """Return the formats in a comma list, each once. Raises typer.BadParameter for one there is not."""
+    from uictest.report import ReportFormat
+
+    accepted = [str(each) for each in ReportFormat]
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    for word in words:
+        if word not in accepted:
+            message = f"no format {word!r}; accepted: {', '.join(accepted)}"
+            raise typer.BadParameter(message, param_hint=option)
+    return [ReportFormat(word) for word in dict.fromkeys(words)]

@@ -1,0 +1,59 @@
+"""That something is going on: a bar on a terminal, a line now and then elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from time import monotonic
+
+from uictest.cli.display import interactive
+from uictest.cli.streams import message
+
+HEARTBEAT = 30.0  # seconds between two signs of life where nobody watches
+
+Advance = Callable[[], None]
+
+
+@contextlib.contextmanager
+def progress(total: int, *, quiet: bool) -> Iterator[Advance]:
+    """Lend a function to call after each of `total` cases; what it shows goes to stderr."""
+    if quiet:
+        yield lambda: None
+    elif interactive(sys.stderr):
+        with _bar(total) as advance:
+            yield advance
+    else:
+        with _heartbeat(total) as advance:
+            yield advance
+
+
+@contextlib.contextmanager
+def _bar(total: int) -> Iterator[Advance]:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("simulating", total=total)
+        yield lambda: bar.advance(task)
+
+
+@contextlib.contextmanager
+def _heartbeat(total: int) -> Iterator[Advance]:
+    done: list[None] = []
+    ended = threading.Event()
+    started = monotonic()
+
+    def beat() -> None:
+        while not ended.wait(HEARTBEAT):
+            message(f"uictest: {len(done)} of {total} cases after {monotonic() - started:.0f} s")
+
+    thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
+    thread.start()
+    try:
+        yield lambda: done.append(None)
+    finally:
+        ended.set()
+        thread.join()

@@ -1,0 +1,122 @@
+"""Options and steps that the commands for recordings share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from uictest.cli.problems import InvalidInputError
+
+if TYPE_CHECKING:
+    from uictest.measured import ChannelMap
+    from uictest.scenario import Case
+
+Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
+MapName = Annotated[
+    str,
+    typer.Option(
+        "--map", metavar="NAME|FILE", help="Channel map: a preset (uictest, common-names) or a YAML file."
+    ),
+]
+Trigger = Annotated[
+    str | None,
+    typer.Option(
+        "--trigger",
+        metavar="HOW|TIME",
+        help="The brake command: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
+    ),
+]
+TriggerLead = Annotated[
+    str | None,
+    typer.Option("--trigger-lead", metavar="TIME", help="How long before its mark the command was given."),
+]
+Raster = Annotated[
+    str | None, typer.Option("--raster", metavar="TIME", help="Interval of the samples that are measured.")
+]
+LowPass = Annotated[
+    str | None,
+    typer.Option("--low-pass", metavar="FREQUENCY", help="Low-pass on every signal, such as '10 Hz'."),
+]
+Result = TypeVar("Result")
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_LONGEST_NAME = 80
+
+
+def channel_map(reference: str, **choices: str | None) -> tuple[ChannelMap, dict[str, str]]:
+    """Return a channel map, changed by options, and the files read for it. Raises InvalidInputError."""
+    from uictest.measured import load_map, presets
+    from uictest.scenario import ScenarioErrors
+
+    try:
+        loaded, inputs = load_map(reference)
+    except KeyError:
+        known = ", ".join(presets())
+        raise InvalidInputError(
+            f"uictest: no channel map {reference!r}: name a preset ({known}) or a .yaml file"
+        ) from None
+    except ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+    return loaded.model_copy(update={"preparation": _changed(loaded.preparation, choices)}), inputs
+
+
+def _changed(preparation: Any, choices: dict[str, str | None]) -> Any:
+    from pydantic import ValidationError
+
+    given = {name: text for name, text in choices.items() if text is not None}
+    if (trigger := given.get("trigger")) is not None and any(map(str.isdigit, trigger)):
+        given["trigger_time"] = given.pop("trigger")
+    try:
+        return type(preparation).model_validate({**dict(preparation), **given})
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        name = str(first["loc"][0]) if first["loc"] else ""
+        option = f"--{name.removesuffix('_time').replace('_', '-')}"
+        raise typer.BadParameter(str(first["msg"]), param_hint=option) from error
+
+
+def one_case(scenario: Path, expression: str | None, overrides: Sequence[str]) -> Case:
+    """Return the one case of a scenario file. Raises InvalidInputError where there are several or none."""
+    from uictest.cli.cases import load_cases, select_cases
+
+    cases = select_cases(load_cases([scenario], overrides, None), expression, None)
+    if len(cases) != 1:
+        listed = ", ".join(case.id for case in cases[:8]) or "none is selected"
+        raise InvalidInputError(
+            f"uictest: {scenario} has {len(cases)} cases where one is needed ({listed}); choose with -k"
+        )
+    return cases[0]
+
+
+def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
+    """Use every file, and return what comes of it. Raises InvalidInputError with every file's error."""
+    from uictest.measured import MapError
+    from uictest.recording.formats import MissingExtraError, UnreadableError
+
+    results: list[Result] = []
+    errors: list[str] = []
+    for path in paths:
+        try:
+            results.append(use(path))
+        except (UnreadableError, MissingExtraError, MapError) as error:
+            errors.append(f"uictest: {path}: {error}")
+        except OSError as error:
+            errors.append(f"uictest: {path}: {error.strerror or error}")
+    if errors:
+        raise InvalidInputError("\n".join(errors))
+    return results
+
+
+def names_of(paths: Sequence[Path]) -> list[str]:
+    """Return a name for each file, safe as a file name and all different."""
+    names: list[str] = []
+    for path in paths:
+        stem = _UNSAFE.sub("-", path.stem).strip("-.")[:_LONGEST_NAME].lower() or "recording"
+        name = next(
+            n for k in range(1, len(paths) + 1) if (n := stem if k == 1 else f"{stem}-{k}") not in names
+        )
+        names.append(name)
+    return names

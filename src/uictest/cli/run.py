@@ -1,0 +1,148 @@
+"""`uictest run`: simulate, judge, report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from uictest.cli.cases import case_lines, cases_json, load_cases, nothing_selected, select_cases
+from uictest.cli.exit_codes import ExitCode, of_campaign, worst
+from uictest.cli.options import (
+    Colour,
+    Colouring,
+    Expression,
+    Format,
+    Jobs,
+    Output,
+    Overrides,
+    Paths,
+    Quiet,
+    Recorded,
+    Recording,
+    RecordRate,
+    RunFormat,
+    Seed,
+    Tag,
+    ToleranceTexts,
+    Verbosity,
+    report_formats,
+    tolerances_of,
+)
+from uictest.cli.streams import data, message
+
+if TYPE_CHECKING:
+    from uictest.comparison import Tolerances
+    from uictest.evaluation import CaseResult
+    from uictest.scenario import Case
+
+
+def run(
+    context: typer.Context,
+    paths: Paths = None,
+    expression: Expression = None,
+    tag: Tag = None,
+    last_failed: Annotated[bool, typer.Option("--lf", help="Cases that failed in the newest run.")] = False,
+    overrides: Overrides = None,
+    seed: Seed = None,
+    exit_first: Annotated[bool, typer.Option("-x", help="Stop at the first case that is not met.")] = False,
+    maxfail: Annotated[
+        int | None,
+        typer.Option("--maxfail", metavar="N", min=1, help="Stop at the Nth case that is not met."),
+    ] = None,
+    jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="List what would run, and run nothing.")] = False,
+    output: Output = Path("reports"),
+    junit: Annotated[
+        Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
+    ] = None,
+    recorded: Recording = Recorded.FAILED,
+    record_rate: RecordRate = 100.0,
+    shown: RunFormat = Format.TEXT,
+    formats: Annotated[
+        str,
+        typer.Option(
+            "--report", metavar="FORMATS", help="Reports for people: csv, xlsx, html, md; commas join."
+        ),
+    ] = "csv,html",
+    baseline: Annotated[
+        Path | None,
+        typer.Option("--baseline", metavar="DIR", help="Compare with the results kept there; exit 1 if out."),
+    ] = None,
+    accept: Annotated[
+        bool, typer.Option("--accept", help="Make the results of this run the --baseline.")
+    ] = False,
+    tolerance: ToleranceTexts = None,
+    durations: Annotated[
+        int | None, typer.Option("--durations", metavar="N", min=0, help="Show the N slowest cases; 0: all.")
+    ] = None,
+    quiet: Quiet = False,
+    verbosity: Verbosity = 0,
+    colour: Colouring = Colour.AUTO,
+) -> ExitCode:
+    """Run scenarios through the simulated rig, judge each case and write the reports."""
+    wanted = report_formats(formats, "--report")
+    tolerances = tolerances_of(tolerance)
+    if accept and baseline is None:
+        raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")
+    cases = load_cases(paths, overrides, seed)
+    selected = select_cases(cases, expression, tag)
+    if last_failed:
+        from uictest.cli.last_failed import failed_last
+
+        selected = failed_last(selected, output)
+    if not selected:
+        message(nothing_selected(cases))
+        return ExitCode.NOTHING_SELECTED
+    if dry_run:
+        data(cases_json(selected) if shown is Format.JSON else case_lines(selected))
+        return ExitCode.MET
+
+    from uictest.campaign import RecordingWish
+    from uictest.cli.batch import Batch, run_batch
+    from uictest.cli.display import chosen_display
+    from uictest.report import manifest
+
+    batch = Batch(
+        cases=selected,
+        manifest=manifest(context.obj.arguments, seed, _inputs(selected), len(selected)),
+        recording=RecordingWish(recorded.value, every=1.0 / record_rate),
+        jobs=min(jobs, len(selected)),
+        maxfail=1 if exit_first else maxfail,
+        output=output,
+        junit=junit,
+        formats=wanted,
+        quiet=quiet,
+        verbose=verbosity > 0,
+    )
+    done, place = run_batch(batch, chosen_display(shown, colour, quiet=batch.quiet, verbose=batch.verbose))
+    if durations is not None:
+        _show_slowest(done.results, durations or len(done.results))
+    code = of_campaign(done)
+    if baseline is not None and place is not None and not done.interrupted:
+        code = worst(code, _with_baseline(place, baseline, tolerances, accepted=accept, quiet=quiet))
+    return code
+
+
+def _with_baseline(
+    place: Path, baseline: Path, tolerances: Tolerances, *, accepted: bool, quiet: bool
+) -> ExitCode:
+    from uictest.cli.baseline import accept, against_baseline
+
+    if accepted:
+        accept(place, baseline)
+        return ExitCode.MET
+    return against_baseline(place, baseline, tolerances, quiet=quiet)
+
+
+def _inputs(cases: Sequence[Case]) -> dict[str, str]:
+    return {name: digest for case in cases for name, digest in case.inputs.items()}
+
+
+def _show_slowest(results: Sequence[CaseResult], count: int) -> None:
+    slowest = sorted(results, key=lambda result: result.duration, reverse=True)[:count]
+    message(f"uictest: the slowest {len(slowest)} of {len(results)} cases")
+    for result in slowest:
+        message(f"{result.duration:9.3f} s  {result.id}")

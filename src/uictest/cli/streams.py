@@ -1,0 +1,55 @@
+"""The two streams: data to stdout, messages to stderr."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+from collections.abc import Iterator
+from typing import TextIO
+
+from uictest.report import printable
+
+
+def data(text: str) -> None:
+    """Write data to stdout at once, a line feed at its end. A reader that has gone (`| head`) is no error.
+
+    Raises OSError where stdout takes no more.
+    """
+    with _reader_may_leave():
+        sys.stdout.write(f"{text}\n")
+        sys.stdout.flush()
+
+
+def message(text: str) -> None:
+    """Write a message of one or more lines to stderr, with nothing in it that could drive a terminal."""
+    with contextlib.suppress(OSError):
+        sys.stderr.write("".join(f"{printable(line)}\n" for line in text.split("\n")))
+        sys.stderr.flush()
+
+
+def use_safe_encoding() -> None:
+    """Let both streams spell out the characters that they cannot encode."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def coloured(choice: str, stream: TextIO) -> bool:
+    """Return whether to colour a stream: as chosen, else on a terminal that is not dumb without NO_COLOR."""
+    if choice != "auto":
+        return choice == "always"
+    plain = os.environ.get("NO_COLOR", "") != "" or os.environ.get("TERM") == "dumb"
+    return stream.isatty() and not plain
+
+
+@contextlib.contextmanager
+def _reader_may_leave() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        # Nobody reads on; what is still in the buffer must not raise again at the next flush.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, "stdout") from error

@@ -1,0 +1,84 @@
+"""What a sweep shows a reader at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from uictest.sweep.findings import Findings
+    from uictest.sweep.frontier import Flip
+    from uictest.sweep.sensitivity import Sensitivity
+    from uictest.sweep.tally import Count, Tally
+
+_MOST_ROWS = 30
+
+
+def finding_lines(findings: Findings) -> Iterator[str]:
+    """Yield maps, met cases per parameter, sensitivities and the frontier, a blank line between them."""
+    for found in findings.maps:
+        yield from found.lines()
+        yield ""
+    yield from _rates(findings.tally)
+    yield from _sensitivities(findings)
+    yield from _frontier(findings)
+    for name, outcome, reason in findings.tally.missed:
+        yield f"{outcome}  {name}  {reason}"
+    for note in findings.notes:
+        yield f"note: {note}"
+
+
+def _rates(tally: Tally) -> Iterator[str]:
+    for key in tally.classes:
+        counts = tally.by_class(key)
+        if len(counts) > _MOST_ROWS:
+            yield f"{key}: {len(counts)} values, see rates.csv"
+            continue
+        yield f"{key}: cases met"
+        width = max(len(count.label) for count in counts)
+        yield from (f"  {count.label:>{width}}  {_share(count)}" for count in counts)
+    yield ""
+
+
+def _share(count: Count) -> str:
+    if not count.cases:
+        return "-"
+    return f"{count.met} of {count.cases}  {100.0 * count.share_met:.1f} %"
+
+
+def _sensitivities(findings: Findings) -> Iterator[str]:
+    measure = ""
+    width = max((len(_parameter(each)) for each in findings.sensitivities), default=0)
+    for each in findings.sensitivities:
+        if each.measure != measure:
+            measure = each.measure
+            yield f"sensitivity of {measure}: first order, total (95 % confidence)"
+        first, total = (
+            f"{index.value:6.3f} ({index.low:.3f} .. {index.high:.3f})" for index in (each.first, each.total)
+        )
+        yield f"  {_parameter(each):{width}}  {first}  {total}"
+    if measure:
+        yield ""
+
+
+def _flip(flip: Flip) -> str:
+    before, after = ("met", "not met") if flip.met_at_low else ("not met", "met")
+    return f"{before} up to {flip.low}, {after} from {flip.high}"
+
+
+def _parameter(each: Sensitivity) -> str:
+    where = ", ".join(f"{key} = {text}" for key, text in each.circumstances.items())
+    return f"{each.key} at {where}" if where else each.key
+
+
+def _frontier(findings: Findings) -> Iterator[str]:
+    if not findings.frontier_key:
+        return
+    yield f"frontier along {findings.frontier_key}"
+    for stretch in findings.frontier[:_MOST_ROWS]:
+        where = ", ".join(f"{key} = {text}" for key, text in stretch.circumstances.items()) or "all cases"
+        flips = "; ".join(map(_flip, stretch.flips))
+        yield f"  {where}: {'; '.join(text for text in (flips, stretch.note) if text)}"
+    if len(findings.frontier) > _MOST_ROWS:
+        yield f"  {len(findings.frontier) - _MOST_ROWS} more in frontier.csv"
+    yield ""

@@ -1,0 +1,27 @@
+"""Sweep files among paths: they are listed and checked in their own way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+
+def is_sweep(path: Path) -> bool:
+    """Return whether a path names a sweep file."""
+    from uictest.scenario.discovery import SWEEP_SUFFIXES
+
+    return path.name.endswith(SWEEP_SUFFIXES)
+
+
+def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield the sweep files named, and those below folders, hidden ones left out."""
+    for path in paths:
+        if path.is_dir():
+            below = sorted(path.rglob("*.sweep.y*ml"), key=Path.as_posix)
+            yield from (each for each in below if is_sweep(each) and not _hidden(each.relative_to(path)))
+        elif is_sweep(path):
+            yield path
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)

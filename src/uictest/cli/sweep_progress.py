@@ -1,0 +1,71 @@
+"""How far a sweep has come: a bar with rate and time left on a terminal, a line now and then elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+from time import monotonic
+
+from uictest.cli import progress as steps
+from uictest.cli.display import interactive
+from uictest.cli.streams import message
+
+Advance = Callable[[int], None]
+
+
+@contextlib.contextmanager
+def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
+    """Lend a function to call with the number of cases finished since; `done` of `total` were before."""
+    if quiet:
+        yield lambda cases: None
+    elif interactive(sys.stderr):
+        with _bar(total, done) as advance:
+            yield advance
+    else:
+        yield _Heartbeat(total, done).advance
+
+
+@contextlib.contextmanager
+def _bar(total: int, done: int) -> Iterator[Advance]:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        ProgressColumn,
+        Task,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
+
+    columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True, speed_estimate_period=60.0) as bar:
+        task = bar.add_task("simulating", total=total, completed=done)
+        yield lambda cases: bar.advance(task, cases)
+
+
+class _Heartbeat:
+    """A line when a part is finished, unless the last one is fresh."""
+
+    def __init__(self, total: int, done: int) -> None:
+        self._total, self._before, self._done = total, done, 0
+        self._started = self._said = monotonic()
+
+    def advance(self, cases: int) -> None:
+        """Count finished cases, and say so where nothing was said for a while."""
+        self._done += cases
+        now = monotonic()
+        if now - self._said >= steps.HEARTBEAT:
+            self._said = now
+            message(self._line(now - self._started))
+
+    def _line(self, seconds: float) -> str:
+        rate = self._done / seconds
+        finished = self._before + self._done
+        left = (self._total - finished) / rate
+        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {left:.0f} s left"

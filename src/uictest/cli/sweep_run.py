@@ -1,0 +1,180 @@
+"""A sweep from its parts to its findings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from uictest.cli.compilation import announce_compilation
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import message
+from uictest.cli.sweep_progress import sweep_progress
+from uictest.report import counted
+from uictest.sweep import ChangedInputsError, Search, Selection, Shard, Store, Worker, run_parts
+
+if TYPE_CHECKING:
+    from uictest.sweep.findings import Findings
+
+
+@dataclass(frozen=True)
+class SweepRun:
+    """What is to be swept, how, and where its results go."""
+
+    selection: Selection
+    manifest: dict[str, Any]
+    folder: Path
+    jobs: int
+    shard: Shard = field(default_factory=Shard)
+    shares: Sequence[Path] = ()
+    """Folders of shares to be put together."""
+    cluster: str | None = None
+    restart: bool = False
+    maxfail: int | None = None
+    pair: tuple[str, str] | None = None
+    measures: Sequence[str] = ()
+    search: Search | None = None
+    junit: Path | None = None
+    quiet: bool = False
+
+
+class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
+    """As many cases as are tolerated did not meet their expectation."""
+
+
+def simulate_parts(run: SweepRun, store: Store) -> None:
+    """Work out what is missing of the run's share, and keep it.
+
+    Raises InvalidInputError where the folder holds the parts of other inputs, OSError where it takes no more,
+    KeyboardInterrupt, and MaxfailReached; whatever it is, finished parts are kept.
+    """
+    _begin(run, store)
+    finished, damaged = store.finished()
+    for path in damaged:
+        message(f"uictest: {path} is damaged; its part is worked out again")
+    mine = run.shard.of(run.selection.parts)
+    missing = [number for number in mine if number not in finished]
+    cases = sum(run.selection.part(number).size for number in mine)
+    left = sum(run.selection.part(number).size for number in missing)
+    if left < cases and not run.quiet:
+        message(f"uictest: {cases - left} of {counted(cases, 'case')} are finished already")
+    with sweep_progress(cases, cases - left, quiet=run.quiet) as advance:
+        missed = 0
+
+        def keep(number: int, content: bytes) -> None:
+            nonlocal missed
+            store.write(number, content)
+            advance(run.selection.part(number).size)
+            if run.maxfail is not None:
+                missed += _missed(content)
+                if missed >= run.maxfail:
+                    raise MaxfailReached
+
+        if missing:
+            _work(run, missing, keep)
+
+
+def _begin(run: SweepRun, store: Store) -> None:
+    try:
+        store.begin(run.manifest, restart=run.restart)
+    except ChangedInputsError as error:
+        raise InvalidInputError(
+            f"uictest: {run.folder} holds parts of this sweep with other inputs ({error}); "
+            "--restart discards them, -o names another folder"
+        ) from error
+    for folder in run.shares:
+        try:
+            taken = store.take(Store(folder))
+        except ChangedInputsError as error:
+            raise InvalidInputError(f"uictest: not a share of this sweep: {error}") from error
+        message(f"uictest: {counted(taken, 'part')} from {folder}")
+
+
+def _work(run: SweepRun, missing: Sequence[int], keep: Callable[[int, bytes], None]) -> None:
+    if run.cluster is not None:
+        from uictest.sweep.cluster import ClusterError, run_on_cluster
+
+        try:
+            run_on_cluster(run.selection, missing, run.cluster, keep)
+        except ImportError as error:
+            raise InvalidInputError("uictest: --dask needs the extra: pip install 'uictest[dask]'") from error
+        except ClusterError as error:
+            raise OSError(f"{error}; what is finished is kept, the same command goes on") from error
+        return
+    worker = prepared_worker(run)
+    run_parts(
+        missing, lambda number: worker.part(run.selection.part(number)), min(run.jobs, len(missing)), keep
+    )
+
+
+def prepared_worker(run: SweepRun) -> Worker:
+    """Return a worker whose rig is compiled, having said so where that takes time."""
+    from uictest.sweep import worker
+    from uictest.sweep.simulating import is_warm
+
+    if run.selection.device == "cpu":
+        announce_compilation(warm=is_warm(), quiet=run.quiet)
+    made = worker(run.selection.plan, run.selection.device)
+    made.prepare()
+    return made
+
+
+def _missed(content: bytes) -> int:
+    import io
+
+    import pyarrow.parquet as pq
+
+    met: list[bool] = pq.read_table(io.BytesIO(content), columns=["met"]).column("met").to_pylist()
+    return met.count(False)
+
+
+def publish(run: SweepRun, store: Store) -> tuple[Findings, str]:
+    """Write what the finished sweep says, and return it with the text of the result document.
+
+    Raises OSError, and MissingPartsError where a share is missing.
+    """
+    from uictest.recording import write_text_atomic
+    from uictest.sweep.findings import gather, write_findings
+    from uictest.sweep.junit import junit_xml
+
+    findings = gather(run.selection, store, run.pair, run.measures)
+    if run.search is not None:
+        _add_frontier(run, findings, run.search)
+    document = write_findings(store.folder, findings)
+    if run.junit is not None:
+        write_text_atomic(run.junit, junit_xml(findings.tally))
+    store.tidy()
+    return findings, document
+
+
+def _add_frontier(run: SweepRun, findings: Findings, search: Search) -> None:
+    from uictest.sweep.verdicts import verdicts_of
+
+    if not run.quiet:
+        message(f"uictest: looking for the frontier along {search.key}")
+    simulate = prepared_worker(run).simulate
+    findings.frontier_key = search.key
+    findings.frontier = search.run(
+        findings.verdicts, lambda plan, indices: verdicts_of(plan, indices, simulate, run.jobs)
+    )
+
+
+def exit_code(findings: Findings) -> ExitCode:
+    """Return the exit code of a complete sweep: an error outweighs a missed case."""
+    total = findings.tally.total()
+    if total.outcomes["error"]:
+        return ExitCode.ERROR
+    return ExitCode.MET if total.met == total.cases else ExitCode.MISSED
+
+
+def sum_up(run: SweepRun, findings: Findings, started: float) -> None:
+    """Say on stderr what the sweep came to and where its files are."""
+    total = findings.tally.total()
+    words = {"met": total.met, "missed": total.cases - total.met - total.outcomes["error"]}
+    words["in error"] = total.outcomes["error"]
+    shown = ", ".join(f"{count} {word}" for word, count in words.items() if count)
+    seconds = perf_counter() - started
+    message(f"uictest: {counted(total.cases, 'case')}: {shown} in {seconds:.1f} s; results in {run.folder}")

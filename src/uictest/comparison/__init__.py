@@ -1,0 +1,25 @@
+"""Two runs or two recordings side by side, and what between them is out of tolerance."""
+
+from uictest.comparison.difference import Comparison, Difference
+from uictest.comparison.folders import compare_run_folders
+from uictest.comparison.overlay import Overlay
+from uictest.comparison.page import comparison_html
+from uictest.comparison.recordings import compare_recordings
+from uictest.comparison.runs import compare_runs
+from uictest.comparison.tolerance import Tolerance, Tolerances
+from uictest.comparison.wording import comparison_json, comparison_lines, verdict_line
+
+__all__ = [
+    "Comparison",
+    "Difference",
+    "Overlay",
+    "Tolerance",
+    "Tolerances",
+    "compare_recordings",
+    "compare_run_folders",
+    "compare_runs",
+    "comparison_html",
+    "comparison_json",
+    "comparison_lines",
+    "verdict_line",
+]

@@ -1,0 +1,72 @@
+"""What a comparison found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from uictest.comparison.overlay import Overlay
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One quantity that is not the same on both sides.
+
+    `case` is empty for a recording. `first` and `second` are texts for a reader. `deviation` and `allowed`
+    are in `unit`; None where the sides cannot be subtracted. `remark` says where or why.
+    """
+
+    case: str
+    quantity: str
+    first: str
+    second: str
+    within: bool
+    unit: str = ""
+    deviation: float | None = None
+    allowed: float | None = None
+    remark: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two things compared.
+
+    Args:
+        first, second: what they are called.
+        compared: how many quantities were compared.
+        differences: those that are not the same, within tolerance or not.
+        notes: what is known to be different about how they came about.
+        overlays: both drawn over each other.
+
+    """
+
+    first: str
+    second: str
+    compared: int
+    differences: Sequence[Difference]
+    notes: Sequence[str] = ()
+    overlays: Sequence[Overlay] = field(default=(), repr=False)
+
+    @property
+    def beyond(self) -> list[Difference]:
+        """The differences that are out of tolerance."""
+        return [difference for difference in self.differences if not difference.within]
+
+    @property
+    def agrees(self) -> bool:
+        """Whether everything is within tolerance."""
+        return not self.beyond
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON form, overlays left out."""
+        return {
+            "schema": "uictest/comparison/1",
+            "first": self.first,
+            "second": self.second,
+            "agrees": self.agrees,
+            "compared": self.compared,
+            "notes": list(self.notes),
+            "differences": [asdict(difference) for difference in self.differences],
+        }

@@ -1,0 +1,29 @@
+"""The page of a comparison."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from uictest.comparison.wording import verdict_line
+from uictest.report.page.overlay_view import overlay_view
+from uictest.report.page.rendering import render
+from uictest.report.wording import number
+
+if TYPE_CHECKING:
+    from uictest.comparison.difference import Comparison
+
+
+def comparison_html(comparison: Comparison) -> str:
+    """Return one page with the differences and both sides drawn over each other; it loads nothing."""
+    overlays = [
+        overlay_view(f"overlay-{place}", overlay.title, overlay.trace, overlay.panels, overlay.left_out)
+        for place, overlay in enumerate(comparison.overlays, start=1)
+    ]
+    return render(
+        "comparison.html.j2",
+        comparison=comparison,
+        overlays=overlays,
+        verdict_line=verdict_line(comparison),
+        number=number,
+        with_plots=bool(overlays),
+    )

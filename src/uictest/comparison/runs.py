@@ -1,0 +1,85 @@
+"""Two runs: case by case outcome, verdicts and figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from uictest.comparison.difference import Comparison, Difference
+from uictest.comparison.numbers import compare_numbers
+from uictest.comparison.tolerance import Tolerances
+from uictest.evaluation.result import unit_of
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+    from uictest.report import RunContent
+
+
+def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) -> Comparison:
+    """Compare two runs; cases belong together by their ids, and a case on one side only is a difference."""
+    ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
+    differences: list[Difference] = []
+    compared = 0
+    for case_id in dict.fromkeys([*ours, *theirs]):
+        found = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
+        compared += len(found)
+        differences += [difference for difference in found if difference is not None]
+    return Comparison(first.name, second.name, compared, differences, list(_notes(first, second)))
+
+
+def _case(
+    case_id: str, first: CaseResult | None, second: CaseResult | None, tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    """Yield one item per quantity compared: None where both sides are the same."""
+    if first is None or second is None:
+        before, after = ("missing" if side is None else side.outcome for side in (first, second))
+        yield Difference(case_id, "case", before, after, within=False, remark="the case is on one side only")
+        return
+    yield _texts(case_id, "outcome", first.outcome, second.outcome)
+    verdicts, others = _verdicts(first), _verdicts(second)
+    for name in dict.fromkeys([*verdicts, *others]):
+        yield _texts(case_id, f"criterion {name}", verdicts.get(name, "none"), others.get(name, "none"))
+    figures, theirs = _figures(first), _figures(second)
+    for name in dict.fromkeys([*figures, *theirs]):
+        pair = figures.get(name, math.nan), theirs.get(name, math.nan)
+        yield compare_numbers(case_id, name, pair[0], pair[1], tolerances, unit_of(name))
+
+
+def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference | None:
+    return None if first == second else Difference(case_id, quantity, first, second, within=False)
+
+
+def _verdicts(result: CaseResult) -> dict[str, str]:
+    return {verdict.id: verdict.verdict.replace("_", " ") for verdict in result.criteria}
+
+
+def _figures(result: CaseResult) -> dict[str, float]:
+    figures = dataclasses.asdict(result.measures) if result.measures is not None else {}
+    for position, wheelset in enumerate(result.wheelsets, start=1):
+        figures |= {f"{name}_{position}": value for name, value in dataclasses.asdict(wheelset).items()}
+    return figures
+
+
+def _notes(first: RunContent, second: RunContent) -> Iterator[str]:
+    """Yield what went into the runs differently: it explains differences and is none by itself."""
+    for what in ("seed", "versions", "inputs"):
+        yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
+    for case_id in first.subjects:
+        if case_id in second.subjects:
+            ours, theirs = first.subjects[case_id].settings, second.subjects[case_id].settings
+            yield from _changes(case_id, dict(ours), dict(theirs))
+
+
+def _changes(what: str, first: Any, second: Any) -> Iterator[str]:
+    if isinstance(first, Mapping) and isinstance(second, Mapping):
+        for name in dict.fromkeys([*first, *second]):
+            yield from _changes(f"{what}: {name}", first.get(name), second.get(name))
+    elif first != second:
+        yield f"{what}: {_shown(first)} -> {_shown(second)}"
+
+
+def _shown(value: Any) -> str:
+    text = "none" if value is None else str(value)
+    return f"{text[:12]}..." if len(text) == 64 else text  # a digest

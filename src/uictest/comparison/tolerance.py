@@ -1,0 +1,76 @@
+"""How far two values may lie apart."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+
+_WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)\s*(?P<share>%?)")
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """An allowance: the larger of `absolute` (in the unit of what is compared) and `relative` times a range.
+
+    The range is that of a channel in the first recording; for a single figure its larger magnitude.
+    """
+
+    absolute: float
+    relative: float
+
+    def allowed(self, extent: float) -> float:
+        """Return how far two values with this range may lie apart."""
+        return max(self.absolute, self.relative * extent if math.isfinite(extent) else 0.0)
+
+
+DEFAULT = Tolerance(absolute=1e-6, relative=1e-3)
+"""Chosen: far below what an engineer would act on, far above what compilers make of the same arithmetic."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """A tolerance for everything, and others for quantities whose name matches a pattern; the last wins."""
+
+    general: Tolerance = DEFAULT
+    special: tuple[tuple[str, Tolerance], ...] = ()
+
+    def of(self, quantity: str) -> Tolerance:
+        """Return the tolerance of a quantity."""
+        matching = (tolerance for name, tolerance in reversed(self.special) if fnmatchcase(quantity, name))
+        return next(matching, self.general)
+
+    @classmethod
+    def read(cls, texts: Iterable[str]) -> Tolerances:
+        """Return the tolerances that texts like `0.5 %`, `braking_*=2` and `slide_1=0.01` stand for.
+
+        A bare number is absolute, one with a per cent sign relative; both may be given for the same name. The
+        absolute part that is not given stays the default one, the relative part is none then: nobody means
+        the last digits of a figure near zero. Raises ValueError naming the text that cannot be read.
+        """
+        given: dict[str | None, dict[str, float]] = {}
+        for text in texts:
+            name, part, number = _read(text)
+            given[name] = {**given.pop(name, {}), part: number}  # to the end: the last one that fits counts
+        written = {name: _tolerance(**parts) for name, parts in given.items()}
+        general = written.pop(None, DEFAULT)
+        return cls(general, tuple((name, each) for name, each in written.items() if name is not None))
+
+
+def _tolerance(absolute: float = DEFAULT.absolute, relative: float = 0.0) -> Tolerance:
+    return Tolerance(absolute, relative)
+
+
+def _read(text: str) -> tuple[str | None, str, float]:
+    """Return the name, the part (absolute or relative) and the number of a tolerance."""
+    found = _WRITTEN.fullmatch(text.strip())
+    try:
+        number = float(found["number"]) if found else math.nan
+    except ValueError:
+        number = math.nan
+    if found is None or not math.isfinite(number):
+        raise ValueError(f"{text!r} is no tolerance; write '0.5' (absolute), '1%' (relative) or NAME=...")
+    name = found["name"] and found["name"].strip()
+    return (name, "relative", number / 100) if found["share"] else (name, "absolute", number)

@@ -1,0 +1,28 @@
+"""Judging a stop: figures in the engineer's units, criteria, verdicts, outcome, the result document."""
+
+from uictest.evaluation.case import JUDGED_KEYS, error_result, evaluate
+from uictest.evaluation.document import SCHEMA, result_document, results_of, to_json
+from uictest.evaluation.judgement import judge
+from uictest.evaluation.result import CaseResult, Expectation, Figures, Outcome, WheelsetFigures
+from uictest.evaluation.verdict import Judgement, Layer, Sensitivity, Stretch, Verdict
+
+__all__ = [
+    "JUDGED_KEYS",
+    "SCHEMA",
+    "CaseResult",
+    "Expectation",
+    "Figures",
+    "Judgement",
+    "Layer",
+    "Outcome",
+    "Sensitivity",
+    "Stretch",
+    "Verdict",
+    "WheelsetFigures",
+    "error_result",
+    "evaluate",
+    "judge",
+    "result_document",
+    "results_of",
+    "to_json",
+]

@@ -1,0 +1,59 @@
+"""Values against their bounds, and which wheelset decides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What a value must keep between; None: no bound. `strict`: the bound itself does not pass."""
+
+    lower: float | None
+    upper: float | None
+    strict: bool = False
+
+    def margin(self, value: float) -> float:
+        """Return the distance to the nearest bound, positive inside, negative outside; NaN for NaN."""
+        if math.isnan(value):
+            return math.nan
+        return min(value - _or(self.lower, -math.inf), _or(self.upper, math.inf) - value)
+
+    def hold(self, value: float) -> bool:
+        """Return whether a value keeps its bounds. NaN and infinity never do."""
+        margin = self.margin(value)
+        return math.isfinite(value) and (margin > 0.0 if self.strict else margin >= 0.0)
+
+    def side(self, value: float) -> int:
+        """Return -1 below the lower bound, 1 above the upper one, 0 between."""
+        below = self.lower is not None and value < self.lower
+        above = self.upper is not None and value > self.upper
+        return int(above) - int(below)
+
+    def __str__(self) -> str:
+        """Return the bounds for a reader: ">= 35", "< 0.08", "440 .. 490"."""
+        equal = "" if self.strict else "="
+        if self.lower is None:
+            return f"<{equal} {self.upper:.4g}"
+        if self.upper is None:
+            return f">{equal} {self.lower:.4g}"
+        return f"{self.lower:.4g} .. {self.upper:.4g}"
+
+
+def deciding(values: Sequence[float], bounds: Bounds, needed: int) -> float:
+    """Return the value that decides whether at least `needed` of the values keep the bounds.
+
+    That is the one with the `needed`-th largest margin: it keeps the bounds if and only if `needed` do. NaN
+    and infinity count as the worst of all.
+    """
+
+    def merit(value: float) -> float:
+        return bounds.margin(value) if math.isfinite(value) else -math.inf
+
+    return sorted(values, key=merit, reverse=True)[needed - 1]
+
+
+def _or(bound: float | None, otherwise: float) -> float:
+    return otherwise if bound is None else bound

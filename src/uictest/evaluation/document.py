@@ -1,0 +1,44 @@
+"""The result document, schema uictest/result/1."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from uictest.evaluation.json_form import json_form
+from uictest.evaluation.result import CaseResult
+
+SCHEMA = "uictest/result/1"
+
+
+def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:
+    """Return `{"schema": ..., **header, "cases": [...]}`, with NaN and infinity as None throughout."""
+    cases = [result.to_dict() for result in results]
+    return {"schema": SCHEMA, **json_form(header), "cases": cases}
+
+
+def results_of(document: Mapping[str, Any]) -> list[CaseResult]:
+    """Return the results in a document.
+
+    Raises:
+        ValueError: the document is not of this schema, or a case in it lacks or adds a field.
+
+    """
+    found = document.get("schema")
+    if found != SCHEMA:
+        raise ValueError(f"expected a result document of schema {SCHEMA!r}, found {found!r}")
+    try:
+        return [CaseResult.from_dict(case) for case in document["cases"]]
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: {error}") from error
+
+
+def to_json(document: Mapping[str, Any]) -> str:
+    """Return the document as JSON text: two spaces of indentation, newline at the end.
+
+    Raises:
+        ValueError: a value in it is NaN or infinite.
+
+    """
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"

@@ -1,0 +1,46 @@
+"""What a criterion was taken to mean, in words: printed with its verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from uictest.evaluation.decision import bounds_of
+from uictest.evaluation.units import in_unit, text, with_unit
+
+if TYPE_CHECKING:
+    from uictest.scenario.parts.criteria import Criteria, Criterion
+    from uictest.scenario.parts.definition import Parameter
+    from uictest.scenario.parts.measures import MeasureDefinitions
+    from uictest.scenario.parts.model import Source
+
+
+def meaning_of(criterion: Criterion, profile: Criteria, observation: MeasureDefinitions) -> dict[str, str]:
+    """Return clause, measure, bound, aggregation and every definition that a criterion's verdict rests on.
+
+    Definitions of the criterion come with their range. Those of `observation`, by which samples became
+    measures, were used up when the stop was observed: they have none.
+    """
+    bound = with_unit(str(bounds_of(criterion)), criterion.unit)
+    meaning = {"clause": criterion.clause, "measure": criterion.meaning, "bound": bound}
+    if aggregation := criterion.aggregation:
+        meaning["wheelsets"] = aggregation
+    for name, parameter in criterion.definition.parameters().items():
+        meaning[name] = _parameter(parameter, profile.sources)
+    for name in criterion.observed_by:
+        quantity = getattr(observation, name)
+        meaning[name] = f"{quantity.text} ({_mark(quantity.source, observation.sources)})"
+    return meaning
+
+
+def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:
+    value, lower, upper = (
+        text(in_unit(number, parameter.unit), parameter.unit)
+        for number in (parameter.value, *parameter.range)
+    )
+    return f"{value} ({_mark(parameter.source, sources)}; range {lower} .. {upper})"
+
+
+def _mark(source: str, sources: Mapping[str, Source]) -> str:
+    """Return how far a number can be trusted: stated, published or chosen. A user's own number is chosen."""
+    return sources[source].mark if source in sources else "chosen"

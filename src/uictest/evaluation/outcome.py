@@ -1,0 +1,32 @@
+"""What the verdicts of a stop amount to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from uictest.evaluation.result import Outcome
+from uictest.evaluation.verdict import Judgement, Layer, Verdict
+
+
+def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
+    """Return the outcome of a stop and why.
+
+    A failed validity criterion makes the stop invalid: it does not count as a test, so its requirements say
+    nothing. Otherwise a failed requirement fails it; without any applicable criterion it is skipped.
+    """
+    verdicts = list(verdicts)
+    if broken := _reasons(verdicts, "fail", "validity"):
+        return "invalid", broken
+    if broken := _reasons(verdicts, "fail", "requirement"):
+        return "fail", broken
+    if not any(verdict.verdict == "pass" for verdict in verdicts):
+        return "skipped", _reasons(verdicts, "not_applicable") or "no criterion"
+    return "pass", ""
+
+
+def _reasons(verdicts: list[Verdict], judgement: Judgement, layer: Layer | None = None) -> str:
+    return "; ".join(
+        f"{verdict.id}: {verdict.reason}"
+        for verdict in verdicts
+        if verdict.verdict == judgement and layer in (None, verdict.layer)
+    )

@@ -1,0 +1,58 @@
+"""The creep force of the simulated rail, over arrays."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.physics.arithmetic import arctan, exp
+from uictest.physics.polach import contact_stiffness, creep_force
+from uictest.rig.compiled import translate
+
+if TYPE_CHECKING:
+    from uictest.scenario.parts.rail import RailCondition
+
+Array = NDArray[np.float64]
+_FOR_ARRAYS: dict[Any, Any] = {exp: np.exp, arctan: np.arctan}
+
+
+def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail: RailCondition) -> Array:
+    """Return the force of the rail on a wheelset of two wheels, N.
+
+    Args:
+        slip: slip speed v - r omega, m/s, positive while braking.
+        speed: running speed, m/s, > 0.
+        load: of one wheel, N.
+        friction: initial friction coefficient under the wheelset.
+        rail: the other parameters of the law.
+
+    """
+    contact = rail.contact
+    area = np.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
+    reference = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
+    # Plain arithmetic, so that arrays pass.
+    stiffness: Any = contact_stiffness
+    stiffness = stiffness(float(reference), load / float(contact.reference_wheel_load))
+    force, _ = _law()(
+        slip,
+        speed,
+        load,
+        stiffness,
+        friction,
+        float(rail.friction_ratio),
+        float(rail.friction_decay),
+        float(rail.reduction_adhesion),
+        float(rail.reduction_slip),
+    )
+    wheels = 2.0
+    total: Array = wheels * force
+    return total
+
+
+@cache
+def _law() -> Any:
+    """Return the rig's creep law with numpy's functions for its scalar ones."""
+    return translate(creep_force, lambda f: f, dict(_FOR_ARRAYS))

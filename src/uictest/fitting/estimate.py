@@ -1,0 +1,181 @@
+"""Friction, and the pads' where it is wanted, by least squares on the balances of a stop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.fitting.balances import Balances
+from uictest.fitting.friction_profile import stretch_names, stretch_of
+
+Array = NDArray[np.float64]
+Standing = Literal["found", "at least", "not reached"]
+
+_LOWEST, _HIGHEST = 0.001, 1.0
+"""Friction coefficients that a scenario accepts."""
+_FEWEST = 4
+"""Windows of sliding in a stretch below which its friction is not determined; chosen."""
+_START_SHARE = 1.15
+"""Friction to begin with, over the largest adhesion used; chosen."""
+_BOUND_PERCENTILE = 95.0
+"""Of the adhesion used while rolling, taken as the lower bound: single windows are noise; chosen."""
+_CONFIDENCE = 0.95
+_OUTLIER = 3.0
+"""Standard deviations from which a residual counts less than by its square; chosen."""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One quantity: its value and the half width of its 95 % confidence interval, or why there is none.
+
+    `at least`: nothing slid there, so that the value is only a lower bound. `not reached`: no wheelset came
+    there. `windows` counts the windows that determine it.
+    """
+
+    name: str
+    standing: Standing
+    value: float
+    half_width: float
+    windows: int
+
+    def __str__(self) -> str:
+        """Return the estimate for a reader."""
+        if self.standing == "not reached":
+            return f"{self.name}: no wheelset came there"
+        if self.standing == "at least":
+            return f"{self.name}: at least {self.value:.4f}; nothing slid there, so the data cannot tell more"
+        share = 100.0 * self.half_width / self.value
+        return f"{self.name}: {self.value:.4f} +- {self.half_width:.4f} ({share:.1f} %, 95 % confidence)"
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """What a fit found: friction per stretch, the factor on the pads' friction, and the residual.
+
+    `residual` is the standard deviation of the balances' residuals, as an adhesion coefficient.
+    """
+
+    breaks: tuple[float, ...]
+    friction: tuple[Estimate, ...]
+    pad_factor: Estimate | None
+    residual: float
+
+    @property
+    def determined(self) -> bool:
+        """Whether every friction that mattered was found."""
+        return all(estimate.standing != "at least" for estimate in self.friction)
+
+
+def fit(balances: Balances, breaks: Sequence[float] = (), *, with_pads: bool = False) -> Fit:
+    """Return the friction of each stretch between `breaks` (m, rising) that the balances agree with best.
+
+    With `with_pads` a factor on the scenario's pad friction is found as well; ValueError where the recording
+    holds neither clamping forces nor torques.
+    """
+    if with_pads and balances.samples.torque is None:
+        raise ValueError("pad friction cannot be found: no clamping forces of all wheelsets are recorded")
+    stretch = stretch_of(balances.samples.place, breaks)
+    counts = _windows_of_sliding(balances, stretch, len(breaks) + 1)
+    free = [k for k, count in enumerate(counts) if count >= _FEWEST]
+    values, spread, residual = _solve(balances, stretch, free, len(breaks) + 1, with_pads=with_pads)
+    names = stretch_names(breaks)
+    friction = []
+    for k, name in enumerate(names):
+        if k in free:
+            friction.append(
+                Estimate(f"friction {name}", "found", values[free.index(k)], spread[free.index(k)], counts[k])
+            )
+        else:
+            friction.append(_lower_bound(balances, stretch, k, f"friction {name}"))
+    pads = None
+    if with_pads:
+        pads = Estimate(
+            "factor on pad friction", "found", values[-1], spread[-1], len(balances.windows.first)
+        )
+    return Fit(tuple(breaks), tuple(friction), pads, residual)
+
+
+def _windows_of_sliding(balances: Balances, stretch: NDArray[np.intp], stretches: int) -> list[int]:
+    middle = (balances.windows.first + balances.windows.last) // 2
+    where = stretch[:, middle]
+    return [int((balances.windows.sliding & (where == k)).sum()) for k in range(stretches)]
+
+
+def _lower_bound(balances: Balances, stretch: NDArray[np.intp], number: int, name: str) -> Estimate:
+    middle = (balances.windows.first + balances.windows.last) // 2
+    there = stretch[:, middle] == number
+    if not there.any():
+        return Estimate(name, "not reached", float("nan"), float("nan"), 0)
+    used = balances.adhesion_used()[there & ~balances.windows.standing]
+    bound = max(float(np.percentile(used, _BOUND_PERCENTILE)), _LOWEST) if len(used) else _LOWEST
+    return Estimate(name, "at least", bound, float("nan"), int(there.sum()))
+
+
+def _solve(
+    balances: Balances, stretch: NDArray[np.intp], free: list[int], stretches: int, *, with_pads: bool
+) -> tuple[list[float], list[float], float]:
+    """Return the free frictions and the factor, their half widths, and the residual's standard deviation."""
+    from scipy.optimize import least_squares
+
+    def parts(x: Array) -> tuple[Array, Array]:
+        level = np.full(stretches, _HIGHEST)
+        level[free] = x[: len(free)]
+        factor = float(x[-1]) if with_pads else 1.0
+        friction = level[stretch]
+        return balances.wheelset_residuals(friction, factor), balances.train_residuals(friction, factor)
+
+    start = _start(balances, len(free), with_pads=with_pads)
+    if not len(start):
+        return (
+            [],
+            [],
+            float(np.std(np.concatenate(parts(start))))
+            if balances.samples.torque is not None
+            else float("nan"),
+        )
+    weights = (1.0, 1.0)
+    solution: Any = None
+    # Twice: the first pass says how far each kind of balance can be trusted.
+    for _ in range(2):
+        solution = least_squares(
+            lambda x, w=weights: np.concatenate([r / s for r, s in zip(parts(x), w, strict=True)]),
+            start,
+            bounds=_bounds(len(free), with_pads=with_pads),
+            loss="soft_l1",
+            f_scale=_OUTLIER if weights != (1.0, 1.0) else 0.01,
+            x_scale=start,
+        )
+        start = solution.x
+        weights = tuple(max(float(np.std(r)) if len(r) > 2 else 1.0, 1e-6) for r in parts(start))  # type: ignore[assignment]
+    final = parts(solution.x)
+    return list(map(float, solution.x)), _half_widths(solution, final), float(np.std(np.concatenate(final)))
+
+
+def _start(balances: Balances, count: int, *, with_pads: bool) -> Array:
+    used = balances.adhesion_used()[balances.windows.sliding]
+    begin = float(np.clip(_START_SHARE * np.median(used), 0.01, 0.9)) if len(used) else 0.1
+    return np.array([begin] * count + [1.0] * with_pads)
+
+
+def _bounds(count: int, *, with_pads: bool) -> tuple[list[float], list[float]]:
+    return [_LOWEST] * count + [0.2] * with_pads, [_HIGHEST] * count + [5.0] * with_pads
+
+
+def _half_widths(solution: Any, residuals: tuple[Array, Array]) -> list[float]:
+    """Return half widths of the 95 % confidence intervals; neighbouring windows that agree count less."""
+    from scipy.stats import t as student
+
+    freedom = max(len(solution.fun) - len(solution.x), 1)
+    variance = 2.0 * solution.cost / freedom
+    covariance = np.linalg.pinv(solution.jac.T @ solution.jac) * variance
+    longest = max(residuals, key=len)
+    inflation = 1.0
+    if len(longest) > 3 and np.std(longest) > 0.0:
+        repeated = float(np.clip(np.corrcoef(longest[1:], longest[:-1])[0, 1], 0.0, 0.9))
+        inflation = (1.0 + repeated) / (1.0 - repeated)
+    quantile = float(student.ppf(0.5 * (1.0 + _CONFIDENCE), freedom))
+    return [float(quantile * np.sqrt(inflation * v)) for v in np.diag(covariance)]

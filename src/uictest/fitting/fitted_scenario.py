@@ -1,0 +1,96 @@
+"""The scenario that a fit makes of the one it began with."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from uictest import library
+from uictest.fitting.estimate import Fit
+from uictest.scenario import Case, Scenario
+from uictest.scenario.expansion import SECTIONS
+from uictest.scenario.part_keys import PART_KEYS
+from uictest.scenario.validation import dotted
+
+_DIGITS: Final = 5
+_LONGEST_NAME: Final = 90
+
+
+def fitted_yaml(case: Case, statements: Mapping[str, str], found: Fit, scenario: Path, folder: Path) -> str:
+    """Return the text of a scenario that extends `scenario` from `folder` and says what was found.
+
+    Args:
+        case: the case that was fitted.
+        statements: values set on the command line, by dotted key; with the case's parameters they are kept.
+        found: the fit.
+        scenario: file of the case.
+        folder: where the text will lie.
+
+    Raises ValueError where a value cannot be written below a part that the scenario only refers to.
+
+    """
+    import yaml
+
+    content: dict[str, Any] = {
+        "schema": "uictest/scenario/1",
+        "name": f"{case.scenario.name[:_LONGEST_NAME]}-fitted",
+        "title": f"{case.scenario.name} with the friction of a recorded stop",
+        "description": "\n".join(_account(found)),
+        "extends": Path(os.path.relpath(scenario, folder)).as_posix(),
+        "expect": case.scenario.expect,
+        **dict.fromkeys(SECTIONS),
+    }
+    for key, value in {**case.parameters, **statements}.items():
+        _assign(content, key, yaml.safe_load(value))
+    _assign(content, "rail.friction", friction_of(found, case.scenario))
+    _assign(content, "rail.friction_over_time", None)
+    if found.pad_factor is not None:
+        content.setdefault("brake", {})["system"] = _with_pads(case.scenario, found.pad_factor.value)
+    text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
+    return text
+
+
+def friction_of(found: Fit, scenario: Scenario) -> float | dict[str, Any]:
+    """Return the value of `rail.friction`: a number, or steps along the track.
+
+    Where only a lower bound is known the scenario's own friction stays if it keeps it; a stretch that no
+    wheelset reached takes its neighbour's.
+    """
+    levels: list[float] = []
+    own = float(scenario.rail.highest_friction)
+    for estimate in found.friction:
+        value = {"found": estimate.value, "at least": max(own, estimate.value)}.get(estimate.standing)
+        levels.append(round(min(value if value is not None else levels[-1], 1.0), _DIGITS))
+    if len(levels) == 1:
+        return levels[0]
+    places = [min(0.0, found.breaks[0] - 1.0), *found.breaks]
+    points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(places, levels, strict=True)]
+    return {"points": points, "interpolation": "steps"}
+
+
+def _account(found: Fit) -> list[str]:
+    pads = [] if found.pad_factor is None else [found.pad_factor]
+    return ["Fitted to a recorded stop.", *(str(estimate) for estimate in (*found.friction, *pads))]
+
+
+def _assign(content: dict[str, Any], key: str, value: Any) -> None:
+    names = key.split(".")
+    parts = {dotted(part) for part in PART_KEYS}
+    for depth in range(1, len(names)):
+        if ".".join(names[:depth]) in parts:
+            raise ValueError(f"{key}: write the changed part into the scenario first, then fit that")
+    for name in names[:-1]:
+        content = content.setdefault(name, {})
+    content[names[-1]] = value
+
+
+def _with_pads(scenario: Scenario, factor: float) -> dict[str, Any]:
+    system = scenario.brake.system
+    if system.name not in library.names("brakes"):
+        raise ValueError("pad friction can only be written for a brake system of the library")
+    return {
+        "extends": system.name,
+        "disc": {"pad_friction": round(factor * float(system.disc.pad_friction), _DIGITS)},
+    }

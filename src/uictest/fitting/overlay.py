@@ -1,0 +1,59 @@
+"""The recorded stop and the simulated one over the same time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from uictest.measured import MeasuredStop
+from uictest.measured.channels import of_wheelsets
+from uictest.recording import TIME, Recording
+from uictest.rig import Stop
+
+_COMPARED = ("speed", *of_wheelsets("wheel_speed"))
+
+
+@dataclass(frozen=True, slots=True)
+class Agreement:
+    """How far the simulated stop follows the recorded one: time in s, distance in m, speed in m/s."""
+
+    recorded_time: float
+    simulated_time: float
+    recorded_distance: float
+    simulated_distance: float
+    speed_difference: float
+
+    def __str__(self) -> str:
+        """Return the comparison for a reader."""
+        return (
+            f"recorded stop {self.recorded_time:.2f} s, {self.recorded_distance:.1f} m;"
+            f" simulated {self.simulated_time:.2f} s, {self.simulated_distance:.1f} m;"
+            f" train speeds differ by {3.6 * self.speed_difference:.2f} km/h (root mean square)"
+        )
+
+
+def overlay(measured: MeasuredStop, simulated: Stop) -> Recording:
+    """Return train and wheel speeds of both stops on the raster of the record, m/s."""
+    assert simulated.recording is not None
+    time = np.asarray(measured.recording[TIME])
+    channels = {TIME: time}
+    for name in _COMPARED:
+        other = simulated.recording
+        channels[f"{name}_recorded"] = np.asarray(measured.recording[name])
+        channels[f"{name}_simulated"] = np.interp(time, other[TIME], other[name], right=0.0)
+    units = {name: "s" if name == TIME else "m/s" for name in channels}
+    return Recording(channels, units)
+
+
+def agreement(measured: MeasuredStop, simulated: Stop, both: Recording) -> Agreement:
+    """Return how far the two stops agree."""
+    difference = both["speed_recorded"] - both["speed_simulated"]
+    time, distance = measured.standstill or (float("nan"), float("nan"))
+    return Agreement(
+        time,
+        float(simulated.measures.braking_time),
+        distance,
+        float(simulated.measures.braking_distance),
+        float(np.sqrt(np.mean(difference**2))),
+    )

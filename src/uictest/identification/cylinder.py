@@ -1,0 +1,104 @@
+"""Cylinder dynamics from a record: Lee and Kang (2015), equation (8)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.identification.applications import applications
+from uictest.identification.output_error import Stretch, least_largest_weights, least_squares_weights, refined
+from uictest.identification.suitability import (
+    held_out,
+    require_duration,
+    require_excitation,
+    require_finite,
+    sampling_time,
+)
+from uictest.identification.transfer_function import TransferFunction, assembled
+
+Samples = NDArray[np.float64]
+Criterion = Literal["least-squares", "largest-error"]
+_SHORTEST = 5.0
+_LONGEST_STEP = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class CylinderResult:
+    """The transfer function and how well it computes the held-out part of the record.
+
+    Attributes:
+        transfer_function: from tank pressure to cylinder pressure.
+        fit: 100 % less the root-mean-square error over the standard deviation of the cylinder pressure.
+        largest_before: largest difference of the two pressures as they are, share of the largest.
+        largest_after: largest error with it.
+        largest_pressure: largest cylinder pressure of the record, Pa.
+    """
+
+    transfer_function: TransferFunction
+    fit: float
+    largest_before: float
+    largest_after: float
+    largest_pressure: float
+
+
+def identify_cylinder(
+    time: Samples,
+    tank_pressure: Samples,
+    cylinder_pressure: Samples,
+    criterion: Criterion = "least-squares",
+    held_out_share: float = 0.25,
+) -> CylinderResult:
+    """Find the third-order transfer function at the record's sampling time.
+
+    A linear start (ARX, Steiglitz-McBride) and fixed ones are refined for the least output error of the whole
+    simulated record, in each of its brake applications. Unity gain at rest and stability hold by
+    parametrisation.
+
+    Args:
+        time: s, evenly sampled, every 10 ms or more often.
+        tank_pressure: gauge pressure of a tank without cylinder, Pa.
+        cylinder_pressure: gauge pressure of the cylinder under the same valve commands, Pa.
+        criterion: what is made least: the squares of the error, or the largest error. The latter
+            suits pressures of little noise whose difference is not linear: it bounds the error of the force.
+        held_out_share: share of the record that is kept from the fit and tells the errors.
+
+    Raises:
+        UnsuitableRecordError: the record cannot support the fit; the message says why.
+    """
+    require_finite({"time": time, "tank_pressure": tank_pressure, "cylinder_pressure": cylinder_pressure})
+    require_duration(time, _SHORTEST)
+    step = sampling_time(time, _LONGEST_STEP)
+    require_excitation("tank_pressure", tank_pressure, step)
+    require_excitation("cylinder_pressure", cylinder_pressure, step)
+    kept = held_out(len(time), held_out_share)
+    parts = applications(tank_pressure, cylinder_pressure, step)
+    stretches = [_stretch(tank_pressure[part], cylinder_pressure[part], ~kept[part]) for part in parts]
+    poles, weights = refined(stretches, step, least_squares_weights)
+    if criterion == "largest-error":
+        poles, weights = refined(stretches, step, least_largest_weights, poles)
+    model = assembled(poles, weights, step)
+    computed = [model.output(tank_pressure[part])[kept[part]] for part in parts]
+    measured = [
+        tuple(samples[part][kept[part]] for samples in (tank_pressure, cylinder_pressure)) for part in parts
+    ]
+    tank, cylinder = (np.concatenate(column) for column in zip(*measured, strict=True))
+    return _assessed(model, tank, cylinder, np.concatenate(computed))
+
+
+def _stretch(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> Stretch:
+    return Stretch(tank - tank[0], cylinder - tank[0], fitted)
+
+
+def _assessed(model: TransferFunction, tank: Samples, cylinder: Samples, computed: Samples) -> CylinderResult:
+    largest = float(cylinder.max())
+    spread = float(np.sqrt(np.mean((cylinder - cylinder.mean()) ** 2)))
+    return CylinderResult(
+        model,
+        100.0 * (1.0 - float(np.sqrt(np.mean((computed - cylinder) ** 2))) / spread),
+        float(np.abs(tank - cylinder).max()) / largest,
+        float(np.abs(computed - cylinder).max()) / largest,
+        largest,
+    )

@@ -1,0 +1,180 @@
+"""Poles and weights that fit a record: a linear start, then refinement of the output error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.identification.transfer_function import Poles, basis
+
+Samples = NDArray[np.float64]
+Weigh = Callable[[Samples, Samples], tuple[float, Samples]]
+Judge = Callable[[Poles], tuple[float, Samples]]
+_SLOWEST, _FASTEST = 20.0, 2.0
+"""Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell."""
+_LARGEST_PRODUCT = 10.0
+"""Largest product of the three time constants in s^3."""
+_STIEGLITZ_ROUNDS = 5
+_LAWSON_ROUNDS = 40
+_DEFAULT_STARTS = ((0.1, 0.3, 3.0), (0.02, 0.3, 5.0), (0.15, 1.0, 2.5), (0.25, 1.4, 12.0))
+_COARSE_POINTS, _POINTS = 4000, 40_000
+"""Points in which errors are told, in the first search and in the refinement; all others are filtered too."""
+_COARSE_STEP = 0.005
+"""Sampling time in s of the first search; the dynamics of tanks take tenths of seconds."""
+
+
+def least_squares_weights(columns: Samples, wanted: Samples) -> tuple[float, Samples]:
+    """Root-mean-square error and the weights that make it least."""
+    weights = np.asarray(np.linalg.lstsq(columns, wanted, rcond=1e-10)[0], dtype=np.float64)
+    return float(np.sqrt(np.mean((wanted - columns @ weights) ** 2))), weights
+
+
+def least_largest_weights(columns: Samples, wanted: Samples) -> tuple[float, Samples]:
+    """Largest error and the weights that make it least: Lawson's reweighted least squares.
+
+    C. L. Lawson, Contributions to the theory of linear least maximum approximations, thesis, UCLA, 1961.
+    """
+    emphasis = np.full(len(wanted), 1.0 / len(wanted))
+    best = np.inf, np.zeros(columns.shape[1])
+    for _ in range(_LAWSON_ROUNDS):
+        heavy = columns * emphasis[:, None]
+        weights = np.linalg.lstsq(heavy.T @ columns, heavy.T @ wanted, rcond=1e-13)[0]
+        error = np.abs(wanted - columns @ weights)
+        largest = float(error.max())
+        if largest < best[0]:
+            best = largest, weights
+        if largest == 0.0:
+            break
+        # A trace of every point is kept: one that is fitted well now may be the worst in the next round.
+        emphasis = emphasis * (error + 1e-6 * largest)
+        emphasis /= emphasis.sum()
+    return best
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """Input and output that begin at rest at zero, and where the output is fitted."""
+
+    given: Samples
+    wanted: Samples
+    fitted: NDArray[np.bool_]
+
+    def thinned(self, every: int) -> Stretch:
+        """Every so many samples."""
+        return Stretch(self.given[::every], self.wanted[::every], self.fitted[::every])
+
+
+def refined(
+    stretches: Sequence[Stretch], step: float, weigh: Weigh, first: Poles | None = None
+) -> tuple[Poles, Samples]:
+    """Poles and weights with the least error of the simulated output where it is fitted.
+
+    The weights follow from the poles (variable projection), so that three numbers remain to be found. Every
+    start (fixed ones, a linear fit and ``first``) is followed on a coarse grid of time, and the best end is
+    refined on the record's own.
+    """
+    coarse = max(round(_COARSE_STEP / step), 1)
+    judge = _judge([each.thinned(coarse) for each in stretches], coarse * step, weigh, _COARSE_POINTS)
+    span = max(float(np.ptp(each.given)) for each in stretches)
+    starts = [
+        *_starts(max(stretches, key=lambda each: len(each.given)), step),
+        *([] if first is None else [first]),
+    ]
+    ends = [_descended(judge, start, 150, span) for start in starts]
+    best = min(ends, key=lambda poles: judge(poles)[0])
+    exactly = _judge(stretches, step, weigh, _POINTS)
+    poles = bounded(_descended(exactly, best, 120, span), step)
+    return poles, exactly(poles)[1]
+
+
+def _judge(stretches: Sequence[Stretch], step: float, weigh: Weigh, points: int) -> Judge:
+    """Error and weights as a function of the poles, at a sampling time."""
+    total = sum(np.count_nonzero(each.fitted) for each in stretches)
+    every = max(total // points, 1)
+    chosen = [np.flatnonzero(each.fitted)[::every] for each in stretches]
+    target = np.concatenate(
+        [(each.wanted - each.given)[at] for each, at in zip(stretches, chosen, strict=True)]
+    )
+
+    def judge(poles: Poles) -> tuple[float, Samples]:
+        within = bounded(poles, step)
+        columns = [basis(each.given, within, step)[at] for each, at in zip(stretches, chosen, strict=True)]
+        return weigh(np.concatenate(columns), target)
+
+    return judge
+
+
+def _descended(judge: Judge, start: Poles, evaluations: int, span: float) -> Poles:
+    """Where Nelder and Mead's simplex ends; the largest error has no derivative to follow."""
+    from scipy.optimize import minimize
+
+    return np.asarray(
+        minimize(
+            lambda poles: judge(poles)[0],
+            start,
+            method="Nelder-Mead",
+            options={"maxfev": evaluations, "xatol": 1e-3, "fatol": 1e-8 * span},
+        ).x
+    )
+
+
+def bounded(poles: Poles, step: float) -> Poles:
+    """Poles within what a record can tell and what double precision can hold.
+
+    T, alpha and sqrt(beta) lie between the fastest and the slowest. The gain at rest of equation (8) is a
+    quotient of sums that are as small as step^3 / (T beta): beta gives way where T beta would be too large.
+    """
+    low, high = np.log(_FASTEST * step), np.log(_SLOWEST)
+    within = np.clip(poles, [low, low, 2.0 * low], [high, high, 2.0 * high])
+    within[2] = min(within[2], np.log(_LARGEST_PRODUCT) - within[0])
+    return within
+
+
+def _starts(longest: Stretch, step: float) -> Iterator[Poles]:
+    yield from (_from_time_constants(constants) for constants in _DEFAULT_STARTS)
+    linear = _linear_start(longest.given, longest.wanted, step)
+    if linear is not None:
+        yield linear
+
+
+def _from_time_constants(constants: tuple[float, ...]) -> Poles:
+    fast, middle, slow = sorted(constants)
+    return np.log([fast, middle + slow, middle * slow])
+
+
+def _linear_start(given: Samples, wanted: Samples, step: float) -> Poles | None:
+    """Poles by Steiglitz and McBride's iteration from an ARX fit, on a coarser grid.
+
+    K. Steiglitz and L. E. McBride, A technique for the identification of linear systems, IEEE Trans. Autom.
+    Control 10 (1965) 461-464. At the record's own sampling time the poles crowd at one and the equation error
+    is all noise. None when a pole is unstable or changes its sign from sample to sample.
+    """
+    from scipy.signal import lfilter
+
+    coarse = max(round(0.02 / step), 1)
+    u, y = (samples[::coarse] - samples[0] for samples in (given, wanted))
+    denominator = np.array([1.0, 0.0, 0.0, 0.0])
+    for _ in range(_STIEGLITZ_ROUNDS):
+        uf, yf = lfilter([1.0], denominator, u), lfilter([1.0], denominator, y)
+        columns = np.stack([-yf[2:-1], -yf[1:-2], -yf[:-3], uf[3:], uf[2:-1], uf[1:-2], uf[:-3]], axis=1)
+        found = np.linalg.lstsq(columns, yf[3:], rcond=None)[0]
+        denominator = np.concatenate([[1.0], found[:3]])
+        roots = np.roots(denominator)
+        if np.any(np.abs(roots) >= 1.0):
+            return None
+    return _from_roots(roots.astype(complex), coarse * step)
+
+
+def _from_roots(roots: NDArray[np.complex128], step: float) -> Poles | None:
+    """One real root as the lag, the others as the section of second order."""
+    real = np.flatnonzero(np.abs(roots.imag) < 1e-12)
+    if np.any(roots[real].real <= 0.0) or len(real) == 0:
+        return None
+    rates = -np.log(roots) / step
+    lag = real[np.argmax(rates[real].real)]
+    first, second = np.delete(rates, lag)
+    product = first * second
+    return np.log([1.0 / rates[lag].real, ((first + second) / product).real, (1.0 / product).real])

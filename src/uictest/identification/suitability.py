@@ -1,0 +1,82 @@
+"""Whether a record can support an identification."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.identification.phases import runs
+
+Samples = NDArray[np.float64]
+EVENNESS = 0.01
+"""Largest departure of one sampling interval from their median, as a share of it."""
+
+
+class UnsuitableRecordError(ValueError):
+    """A record from which nothing can be identified; the message says why."""
+
+
+def require_finite(channels: dict[str, Samples]) -> None:
+    """Refuse channels with samples that are missing or infinite. Raises UnsuitableRecordError."""
+    for name, samples in channels.items():
+        wrong = np.count_nonzero(~np.isfinite(samples))
+        if wrong:
+            first = int(np.argmin(np.isfinite(samples)))
+            raise UnsuitableRecordError(
+                f"channel {name!r} has {wrong} samples that are no number, the first at sample {first}"
+            )
+
+
+def require_duration(time: Samples, shortest: float) -> None:
+    """Refuse a record shorter than ``shortest`` s. Raises UnsuitableRecordError."""
+    duration = float(time[-1] - time[0]) if len(time) else 0.0
+    if duration < shortest:
+        raise UnsuitableRecordError(f"too short: {duration:.3g} s, at least {shortest:g} s are needed")
+
+
+def sampling_time(time: Samples, longest: float) -> float:
+    """The even sampling time of a record in s. Raises UnsuitableRecordError when it is uneven or too long."""
+    intervals = np.diff(time)
+    median = float(np.median(intervals))
+    worst = int(np.argmax(np.abs(intervals - median)))
+    if abs(intervals[worst] - median) > EVENNESS * median:
+        raise UnsuitableRecordError(
+            f"uneven sampling: {intervals[worst] * 1e3:.4g} ms at {time[worst]:.6g} s"
+            f" where {median * 1e3:.4g} ms is usual"
+        )
+    if median > longest:
+        raise UnsuitableRecordError(
+            f"sampled every {median * 1e3:.4g} ms; the dynamics need {longest * 1e3:g} ms or less"
+        )
+    # The mean over the record; single time stamps are rounded.
+    return float(f"{(time[-1] - time[0]) / (len(time) - 1):.9g}")
+
+
+def require_excitation(name: str, pressure: Samples, step: float) -> None:
+    """Refuse a pressure that hardly moves. Raises UnsuitableRecordError.
+
+    It must turn a few times by a tenth of its range, for one rise or fall cannot tell three poles apart.
+    """
+    span = float(np.ptp(pressure))
+    if span < _SMALLEST_SPAN:
+        raise UnsuitableRecordError(f"no excitation: {name!r} varies by {span / 1e5:.3g} bar only")
+    every = max(round(_SPACING / step), 1)
+    swings = len(runs(pressure[::every], _SWING * span))
+    if swings < _FEWEST_SWINGS:
+        raise UnsuitableRecordError(
+            f"too little excitation: {name!r} swings {swings} times by a tenth of its range,"
+            f" {_FEWEST_SWINGS} times are needed"
+        )
+
+
+_SMALLEST_SPAN = 0.2e5
+_FEWEST_SWINGS = 4
+_SWING = 0.1
+_SPACING = 0.01
+
+
+def held_out(count: int, share: float) -> NDArray[np.bool_]:
+    """Which samples are kept from the fit: stretches spread over the whole record."""
+    stretches = 20
+    number = np.arange(count) * stretches // count
+    return np.asarray(np.floor((number + 1) * share) > np.floor(number * share))

@@ -1,0 +1,17 @@
+"""Lanes: one compiled function steps as many scenarios at once as a SIMD register holds numbers.
+
+Compiled code that is given :func:`vectors` of a block of records reads and writes a whole register where it
+names an attribute, and computes with ordinary operators and the functions below. Given one :func:`lane` of
+the same block it reads and writes plain numbers: what branches runs lane by lane, what does not runs in all
+lanes at once. Every operation rounds as its scalar counterpart does: a lane gives the bits that scalar code
+gives, whatever its neighbours hold and however wide the register is.
+
+The room rests on internals of numba and is the only one that does. It knows nothing of the rig.
+"""
+
+from uictest.lanes.block import block
+from uictest.lanes.functions import maximum, minimum, select, sqrt
+from uictest.lanes.host import register_width
+from uictest.lanes.records import lane, put, vectors
+
+__all__ = ["block", "lane", "maximum", "minimum", "put", "register_width", "select", "sqrt", "vectors"]

@@ -1,0 +1,31 @@
+"""What this room takes from within numba, under names that say what it is for.
+
+Also with types: numba's own annotations are incomplete.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from numba.core import cgutils, imputils
+from numba.core.typing import templates
+from numba.extending import intrinsic
+
+Definition = Callable[..., Any]
+Decorator = Callable[[Definition], Definition]
+
+in_compiled_code: Decorator = intrinsic
+"""Make a definition a function of compiled code; from the types of arguments it gives signature and code."""
+typing_of: Callable[[Any], Callable[[type], type]] = templates.infer_global
+"""Let a template find the signatures of a function or operator."""
+code_of: Callable[..., Decorator] = imputils.lower_builtin
+"""Let a definition emit the code of a function or operator for arguments of given types."""
+code_of_reading: Callable[[type], Decorator] = imputils.lower_getattr_generic
+"""Let a definition emit the code that reads an attribute of a type."""
+code_of_writing: Callable[[type], Decorator] = imputils.lower_setattr_generic
+"""Let a definition emit the code that writes an attribute of a type."""
+code_of_conversion: Callable[[Any, Any], Decorator] = imputils.lower_cast
+"""Let a definition emit the code that turns one type into another."""
+signature: Callable[..., Any] = templates.signature
+"""Signature of a function: type of the result, types of the arguments."""
+member_of_record: Callable[..., Any] = cgutils.get_record_member
+"""Address of a field of an ordinary record."""

@@ -1,0 +1,62 @@
+"""Functions of vectors, for compiled code: the same choices as those of scalar code, lane by lane."""
+
+from typing import Any
+
+from uictest.lanes.compiler import in_compiled_code
+from uictest.lanes.operators import call_llvm, common_vector, spread
+from uictest.lanes.types import Mask, Vector
+
+
+@in_compiled_code
+def select(typing: Any, condition: Any, when_true: Any, when_false: Any) -> Any:
+    """Choose one of two vectors or numbers in each lane of a mask."""
+    if not isinstance(condition, Mask):
+        return None
+    result = Vector(condition.width)
+    if common_vector(result, when_true, when_false) != result:
+        return None
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        choices = (
+            spread(context, builder, value, kind, result.width)
+            for value, kind in zip(args[1:], sig.args[1:], strict=True)
+        )
+        return builder.select(args[0], *choices)
+
+    return result(condition, when_true, when_false), lower
+
+
+def _smaller_or_larger(comparison: str, a: Any, b: Any) -> Any:
+    """``a`` where the comparison of the two holds, else ``b``."""
+    result = common_vector(a, b)
+    if result is None:
+        return None
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        x, y = (
+            spread(context, builder, value, kind, result.width)
+            for value, kind in zip(args, sig.args, strict=True)
+        )
+        return builder.select(builder.fcmp_ordered(comparison, x, y), x, y)
+
+    return result(a, b), lower
+
+
+@in_compiled_code
+def minimum(typing: Any, a: Any, b: Any) -> Any:
+    """Smaller number of each lane (``b`` where they cannot be ordered)."""
+    return _smaller_or_larger("<", a, b)
+
+
+@in_compiled_code
+def maximum(typing: Any, a: Any, b: Any) -> Any:
+    """Larger number of each lane (``b`` where they cannot be ordered)."""
+    return _smaller_or_larger(">", a, b)
+
+
+@in_compiled_code
+def sqrt(typing: Any, x: Any) -> Any:
+    """Square root of each lane, correctly rounded."""
+    if not isinstance(x, Vector):
+        return None
+    return x(x), lambda context, builder, sig, args: call_llvm(builder, "sqrt", args[0])

@@ -1,0 +1,40 @@
+"""The parts that ship with the tool, as data files with a source beside every number."""
+
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+# Plain paths: importing importlib.resources would take longer than reading the files does.
+_HERE: Final = Path(__file__).parent
+
+FOLDERS: Final = (
+    "brakes",
+    "calipers",
+    "compensations",
+    "controllers",
+    "criteria",
+    "measures",
+    "rails",
+    "sensors",
+    "vehicles",
+)
+"""The folders of the library with parts of a scenario, one per kind of part."""
+
+OTHER_FOLDERS: Final = ("benches", "channel_maps")
+"""The folders with what no scenario refers to: bench recipes and maps of the channels of recordings."""
+
+
+@cache
+def names(folder: str) -> tuple[str, ...]:
+    """Names of the parts in a folder of the library, sorted."""
+    return tuple(sorted(path.stem for path in (_HERE / folder).glob("*.yaml")))
+
+
+def content(folder: str, name: str) -> bytes:
+    """The bytes of a library file. Raises KeyError when there is no such part."""
+    if folder not in (*FOLDERS, *OTHER_FOLDERS) or name not in names(folder):
+        raise KeyError(f"{folder}/{name}")
+    return (_HERE / folder / f"{name}.yaml").read_bytes()
+
+
+__all__ = ["FOLDERS", "OTHER_FOLDERS", "content", "names"]

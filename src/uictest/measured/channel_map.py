@@ -1,0 +1,148 @@
+"""The channel map: which channel of a file is which, in what unit, and how the record is prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field
+
+from uictest import library
+from uictest.measured.channels import UNITS, WHEELSETS
+from uictest.measured.preparation import Preparation
+from uictest.measured.units import accepted, factor
+from uictest.recording.formats import Dialect
+from uictest.scenario.diagnostics import refusal
+from uictest.scenario.inheritance import inherit
+from uictest.scenario.parts.model import Contradiction, Model
+from uictest.scenario.reading import read_file
+from uictest.scenario.tree import Map, Scalar, plain
+from uictest.scenario.validation import validated
+from uictest.scenario.wording import quoted, suggestion
+
+SCHEMA: Final = "uictest/channel-map/1"
+DEFAULT: Final = "uictest"
+NUMBER: Final = "{n}"
+"""Stands for the number of the wheelset, in the name of a channel and in its sources."""
+_PRESETS: Final = Path(library.__file__).parent / "channel_maps"
+
+
+def _shorthand(given: object) -> object:
+    return {"source": given} if isinstance(given, str | tuple) else given
+
+
+def _several(given: object) -> object:
+    return (given,) if isinstance(given, str) else given
+
+
+class Source(Model):
+    """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
+
+    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
+        description="Name in the file, or several of which the first that is there counts; group/name too."
+    )
+    unit: str = Field(default="", description="Unit of the value; left out, the file's own.")
+    scale: float = Field(default=1.0, allow_inf_nan=False, description="Factor on every sample.")
+    offset: float = Field(default=0.0, allow_inf_nan=False, description="Added after scaling, in `unit`.")
+    sign: Literal[1, -1] = Field(default=1, description="-1 where the file counts the other way.")
+    states: dict[str, int] = Field(default={}, description="Name of a state in the file -> its number.")
+
+
+class DialectSection(Model):
+    """How a text file writes its table; lines are counted from one."""
+
+    delimiter: str = Field(default=",", min_length=1, max_length=1, description="Between two cells.")
+    decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
+    header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
+    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: in the names.")
+    first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
+    encoding: str = Field(default="utf-8-sig", max_length=40, description="Encoding of the text.")
+
+
+class ChannelMap(Model):
+    """A channel map as it is written, parents merged in."""
+
+    schema_id: Literal["uictest/channel-map/1"] = Field(alias="schema", description="What the file holds.")
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the map.")
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    channels: dict[str, Annotated[Source, BeforeValidator(_shorthand)]] = Field(
+        description="Canonical channel -> where it comes from; {n} stands for each wheelset's number."
+    )
+    csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
+    preparation: Preparation = Field(
+        default=Preparation(), description="How a record is prepared before it is measured."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield channels that are not known and units that are not theirs."""
+        for name, source in self.channels.items():
+            of_first = name.replace(NUMBER, str(WHEELSETS[0]))
+            if of_first not in UNITS:
+                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in UNITS)
+                yield Contradiction(
+                    ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
+                )
+            elif source.unit and factor(source.unit, UNITS[of_first]) is None:
+                yield Contradiction(
+                    ("channels", name, "unit"),
+                    f"{quoted(source.unit)} is no unit of {name}",
+                    "accepted: " + ", ".join(accepted(UNITS[of_first])),
+                )
+
+    @property
+    def dialect(self) -> Dialect:
+        """The dialect of text files."""
+        return Dialect(**dict(self.csv))
+
+    def sources(self) -> dict[str, Source]:
+        """Return every channel with its source, wheelsets spelled out; what is named alone goes first."""
+        spelled_out: dict[str, Source] = {}
+        for name, source in self.channels.items():
+            numbers = WHEELSETS if NUMBER in name else ()
+            spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
+        return spelled_out | {name: s for name, s in self.channels.items() if NUMBER not in name}
+
+
+def presets() -> tuple[str, ...]:
+    """Return the names of the channel maps that come with the program."""
+    return tuple(sorted(path.stem for path in _PRESETS.glob("*.yaml")))
+
+
+def load_map(reference: str) -> tuple[ChannelMap, dict[str, str]]:
+    """Return the map that a preset's name or the path of a file stands for, and the files read for it.
+
+    Files are given with their SHA-256. Raises ScenarioErrors with every error, each at its place, KeyError
+    for a name that is neither.
+    """
+    if reference in presets():
+        tree = read_file(_PRESETS / f"{reference}.yaml")
+    elif reference.endswith((".yaml", ".yml")):
+        tree = read_file(Path(reference))
+    else:
+        raise KeyError(reference)
+    merged, documents = inherit(tree, _parent)
+    loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
+    inputs = {
+        each.display
+        if each.folder != _PRESETS
+        else f"library:channel_maps/{Path(each.display).name}": each.sha256
+        for each in documents
+    }
+    return loaded, inputs
+
+
+def _parent(reference: Scalar) -> Map:
+    if reference.text in presets():
+        return read_file(_PRESETS / f"{reference.text}.yaml")
+    path = reference.place.document.folder / reference.text
+    if not reference.text.endswith((".yaml", ".yml")) or not path.is_file():
+        hint = suggestion(reference.text, presets())
+        raise refusal(reference.place, f"no channel map {quoted(reference.text)}", "extends", hint)
+    return read_file(path)
+
+
+def _numbered(source: Source, number: int) -> Source:
+    names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
+    changed: dict[str, Any] = {"source": names}
+    return source.model_copy(update=changed)

@@ -1,0 +1,42 @@
+"""What a recording does not hold and its user must state: rail, brake position, WSP, criteria."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from uictest.scenario import Case
+from uictest.scenario.diagnostics import refusal
+from uictest.scenario.expansion import SECTIONS
+from uictest.scenario.model import SCENARIO_SCHEMA
+from uictest.scenario.overrides import apply_overrides, parse_overrides
+from uictest.scenario.parsing import parse
+from uictest.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.scenario.references import Files, Parts
+from uictest.scenario.resolution import resolve
+from uictest.scenario.tree import Document, Map
+from uictest.scenario.validation import dotted
+
+FACTS: Final = ("rail.condition", "brake.position", "rig.wsp", "criteria")
+"""Keys of a scenario that must be stated for a recording that has none."""
+
+
+def stated_case(name: str, initial_speed: float, statements: Sequence[str]) -> Case:
+    """Return the case that `key=value` statements make of a stop from `initial_speed` (m/s).
+
+    Raises ScenarioErrors where a statement is no key of a scenario, or not acceptable.
+    """
+    begin = {"schema": SCENARIO_SCHEMA, "name": name, "initial_speed": f"{initial_speed:.9g} m/s"}
+    document = Document("what is stated about the stop", Path(), json.dumps(begin))
+    tree = parse(document)
+    assert isinstance(tree, Map)
+    keys = frozenset(map(dotted, PART_KEYS))
+    tree = apply_overrides(with_default_parts(tree), parse_overrides(statements, None), keys)
+    for section in SECTIONS:
+        if (entry := tree.entries.get(section)) is not None:
+            raise refusal(entry.key, "a recording is one stop: several values make no sense", section)
+    scenario, documents = resolve(tree, Parts(Files()))
+    inputs = {each.display: each.sha256 for each in documents if each.sha256}
+    return Case(name, scenario, Path(document.display), {}, inputs)

@@ -1,0 +1,37 @@
+"""What can be wrong with a record, each with a name of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal[
+    "time-missing",
+    "time-backwards",
+    "time-duplicate",
+    "gap",
+    "not-a-number",
+    "dropout",
+    "stuck",
+    "offset",
+    "starts-late",
+    "ends-before-standstill",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Defect:
+    """One defect of one channel.
+
+    `spoils` says that nothing can be measured with the channel at all; a gap or a missing sample spoils only
+    what needs the samples that are not there.
+    """
+
+    kind: Kind
+    channel: str
+    text: str
+    spoils: bool = False
+
+    def __str__(self) -> str:
+        """Return the defect for a reader, as in "gap: speed is not recorded from 3.2 to 3.9 s"."""
+        return f"{self.kind}: {self.channel} {self.text}"

@@ -1,0 +1,66 @@
+"""Pressure sensors, loadcells and toothed-wheel speed sensors."""
+
+import math
+
+from uictest.physics.arithmetic import clamp
+
+_ROUNDING = 6755399441055744.0
+"""1.5 x 2^52: adding and subtracting it rounds a number below 2^51 to the nearest whole one."""
+
+
+def analogue_reading(
+    value: float,
+    gain_error: float,
+    offset: float,
+    noise: float,
+    measuring_range: float,
+    resolution: float,
+    steps_per_unit: float,
+) -> float:
+    """Reading of a pressure sensor or loadcell in the unit of ``value``, limited to 0 .. ``measuring_range``.
+
+    Args:
+        value: true value.
+        gain_error: share by which the sensitivity is off.
+        offset: reading at zero, in the unit of ``value``.
+        noise: momentary error, in the unit of ``value``.
+        measuring_range: largest reading.
+        resolution: step of the converter, in the unit of ``value``.
+        steps_per_unit: its inverse.
+    """
+    limited = clamp(value * (1.0 + gain_error) + offset + noise, 0.0, measuring_range)
+    return nearest(limited * steps_per_unit) * resolution
+
+
+def nearest(x: float) -> float:
+    """Nearest whole number, ties to even, of a number below 2^51 in size."""
+    return (x + _ROUNDING) - _ROUNDING
+
+
+def speed_reading(
+    circumferential_speed: float,
+    tooth_pitch: float,
+    timer_resolution: float,
+    cycle_time: float,
+    slowest: float,
+    noise: float,
+) -> float:
+    """Circumferential speed in m/s as a toothed wheel and a timer measure it once per controller cycle.
+
+    The time of the whole teeth that pass in a cycle (at least one) is counted in ticks of the timer.
+    Below ``slowest`` the next tooth does not come before the time-out and the reading is zero.
+
+    Args:
+        circumferential_speed: true speed r omega, m/s.
+        tooth_pitch: distance at the tread between two teeth, m.
+        timer_resolution: one tick of the timer, s.
+        cycle_time: cycle of the controller, s.
+        slowest: lowest speed that can be measured, m/s.
+        noise: relative error of this reading (tooth pitch, tread, jitter).
+    """
+    if circumferential_speed < slowest:
+        return 0.0
+    teeth = max(math.floor(circumferential_speed * cycle_time / tooth_pitch), 1.0)
+    distance = teeth * tooth_pitch
+    ticks = max(math.floor(distance / circumferential_speed / timer_resolution + 0.5), 1.0)
+    return distance / (ticks * timer_resolution) * (1.0 + noise)

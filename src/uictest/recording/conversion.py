@@ -1,0 +1,39 @@
+"""Contents of a file as a recording, where they are one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import chain
+
+import numpy as np
+
+from uictest.recording.contents import Contents, Group
+from uictest.recording.formats.problems import UnreadableError
+from uictest.recording.recording import TIME, Recording
+
+
+def recording_of(contents: Contents, facts: Mapping[str, str]) -> Recording:
+    """Return a file of one group with a time axis in seconds as a recording, with further facts about it.
+
+    Raises UnreadableError where it has several rasters, no time, texts, or channels without a unit.
+    """
+    if len(contents.groups) != 1:
+        raise UnreadableError(f"{len(contents.groups)} rasters; a recording has one")
+    group = contents.groups[0]
+    channels = {name: np.asarray(samples) for name, samples in group.channels.items() if name != TIME}
+    try:
+        return Recording(
+            {TIME: _time(group), **channels},
+            {TIME: "s", **{name: group.units.get(name, "") for name in channels}},
+            dict(chain(contents.metadata.items(), facts.items())),
+        )
+    except ValueError as error:
+        raise UnreadableError(f"not a recording: {error}") from error
+
+
+def _time(group: Group) -> np.ndarray:
+    if group.time is not None:
+        return group.time
+    if TIME not in group.channels or group.units.get(TIME) != "s":
+        raise UnreadableError(f"no channel {TIME!r} in seconds")
+    return group.channels[TIME]

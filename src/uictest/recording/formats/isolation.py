@@ -1,0 +1,88 @@
+"""Reading in a process of its own, which may hang, crash or ask for too much without harm."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.recording.contents import Contents, Group
+from uictest.recording.formats.choice import format_of
+from uictest.recording.formats.dialect import Dialect
+from uictest.recording.formats.limits import LARGEST_FILE, READING_SECONDS
+from uictest.recording.formats.problems import MissingExtraError, UnreadableError
+
+_MODULE = "uictest.recording.formats.reader"
+REFUSED, EXTRA_MISSING, TOO_LARGE = 10, 11, 12
+"""Exit codes of the reading process, besides 0."""
+
+
+def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = READING_SECONDS) -> Contents:
+    """Read a file of any known format. `dialect` says how a text file writes its table.
+
+    Raises:
+        UnreadableError: the file is no recording, damaged, or too large; the message says which.
+        MissingExtraError: the library for its format is not installed.
+        OSError: the file cannot be opened.
+
+    """
+    if path.stat().st_size > LARGEST_FILE:
+        raise UnreadableError(f"larger than {LARGEST_FILE // 2**20} MiB")
+    if not path.is_file():
+        raise UnreadableError("not a file")
+    name = format_of(path)
+    with tempfile.TemporaryDirectory(prefix="uictest-") as folder:
+        _run(name, path, dialect or Dialect(), Path(folder), seconds)
+        return _collect(Path(folder))
+
+
+def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
+    # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
+    command = [sys.executable, "-I", "-m", _MODULE, name, str(path.absolute()), json.dumps(dialect.to_dict())]
+    try:
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            timeout=seconds,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as error:
+        raise UnreadableError(f"reading it as {name} did not end within {seconds:g} s") from error
+    if done.returncode == 0:
+        return
+    if done.returncode == EXTRA_MISSING:
+        raise MissingExtraError(_refusal(folder))
+    raise UnreadableError(_refusal(folder) or f"reading it as {name} ended abruptly: the file is damaged")
+
+
+def _refusal(folder: Path) -> str:
+    place = folder / "refusal.txt"
+    return place.read_text(encoding="utf-8") if place.exists() else ""
+
+
+def _collect(folder: Path) -> Contents:
+    told = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
+    return Contents(tuple(_group(each, folder) for each in told["groups"]), told["metadata"], told["skipped"])
+
+
+def _group(told: Mapping[str, Any], folder: Path) -> Group:
+    def array(number: int) -> Any:
+        return np.load(folder / f"{number}.npy", allow_pickle=False)
+
+    return Group(
+        told["name"],
+        {name: array(number) for name, number in told["channels"].items()},
+        told["units"],
+        None if told["time"] is None else array(told["time"]),
+    )

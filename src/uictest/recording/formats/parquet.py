@@ -1,0 +1,84 @@
+"""Parquet files, this program's own and others'."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from uictest.recording.contents import Contents, Group, Samples
+from uictest.recording.formats.limits import check_size
+from uictest.recording.formats.problems import UnreadableError
+from uictest.recording.parquet import write_parquet
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+    from uictest.recording.recording import Recording
+
+_LONGEST_TEXT = 64
+
+
+def read(path: Path) -> Contents:
+    """Read every column of numbers, truth values or short texts. Raises UnreadableError."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        with path.open("rb") as file, pq.ParquetFile(file) as parquet:
+            rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
+            wanted = [field.name for field in schema if _holds_samples(field.type)]
+            check_size([(rows,)] * len(schema))
+            table = parquet.read(columns=wanted, use_threads=False)
+    except (pa.ArrowException, OSError) as error:
+        raise UnreadableError(f"not a Parquet file: {error}") from error
+    facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
+    units = {**_object(facts.get("uictest.units")), **_field_units(schema)}
+    skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in wanted}
+    channels = {name: _samples(table.column(name)) for name in wanted}
+    return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
+
+
+def write(recording: Recording, path: Path) -> None:
+    """Write a recording. Raises OSError."""
+    write_parquet(recording, path)
+
+
+def _holds_samples(kind: pa.DataType) -> bool:
+    import pyarrow as pa
+
+    numbers = pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_boolean(kind)
+    others = pa.types.is_string(kind) or pa.types.is_decimal(kind) or pa.types.is_timestamp(kind)
+    return bool(numbers or others)
+
+
+def _samples(column: Any) -> Samples:
+    import pyarrow as pa
+
+    if pa.types.is_string(column.type):
+        return np.array([(text or "")[:_LONGEST_TEXT] for text in column.to_pylist()], dtype=np.str_)
+    if pa.types.is_timestamp(column.type):
+        stamps = column.to_numpy().astype("datetime64[ns]")
+        return _seconds(stamps)
+    return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=np.float64)
+
+
+def _seconds(stamps: Any) -> Samples:
+    """Return time stamps as seconds after the first; one that is missing becomes NaN."""
+    since = (stamps - stamps[:1]) / np.timedelta64(1, "ns") * 1e-9
+    return np.asarray(since, dtype=np.float64)
+
+
+def _field_units(schema: pa.Schema) -> dict[str, str]:
+    marked = ((field.name, (field.metadata or {}).get(b"unit", b"")) for field in schema)
+    return {name: unit.decode("utf-8", "replace") for name, unit in marked if unit}
+
+
+def _object(content: bytes | None) -> dict[str, str]:
+    try:
+        texts = json.loads(content or b"{}")
+    except (ValueError, RecursionError):
+        return {}
+    return {str(key): str(value) for key, value in texts.items()} if isinstance(texts, dict) else {}

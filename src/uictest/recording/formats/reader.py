@@ -1,0 +1,97 @@
+"""The process that reads one file: `python -m uictest.recording.formats.reader FORMAT PATH DIALECT`.
+
+It leaves `contents.json` and one .npy file per channel in its working folder, or `refusal.txt`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import itertools
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.recording.contents import Contents, Group
+from uictest.recording.formats.choice import FORMATS
+from uictest.recording.formats.dialect import Dialect
+from uictest.recording.formats.isolation import EXTRA_MISSING, REFUSED, TOO_LARGE
+from uictest.recording.formats.limits import READING_MEMORY, READING_SECONDS
+from uictest.recording.formats.problems import MissingExtraError, UnreadableError
+
+_LONGEST_REFUSAL = 500
+
+
+def main(name: str, path: str, dialect: str) -> int:
+    """Read the file and leave its contents in the working folder; return the exit code."""
+    _bound_resources()
+    try:
+        leave(read_here(name, Path(path), Dialect.from_dict(json.loads(dialect))), Path.cwd())
+    except MissingExtraError as error:
+        return _refuse(str(error), EXTRA_MISSING)
+    except UnreadableError as error:
+        return _refuse(str(error), REFUSED)
+    except MemoryError:
+        return _refuse("it asks for more memory than reading may take", TOO_LARGE)
+    # A library that meets a damaged file may raise anything at all.
+    except Exception as error:
+        return _refuse(f"not a sound {name} file: {type(error).__name__}: {error}", REFUSED)
+    return 0
+
+
+def read_here(name: str, path: Path, dialect: Dialect) -> Contents:
+    """Read a file in this process."""
+    module: Any = importlib.import_module(f"uictest.recording.formats.{FORMATS[name]}")
+    contents: Contents = module.read(path, dialect) if name == "csv" else module.read(path)
+    if not any(len(group) for group in contents.groups):
+        raise UnreadableError("no channel with samples")
+    return contents
+
+
+def leave(contents: Contents, folder: Path) -> None:
+    """Write contents into a folder; names from the file never become names of files."""
+    numbers = itertools.count()
+    told = {
+        "groups": [_told(group, folder, numbers) for group in contents.groups],
+        "metadata": contents.metadata,
+        "skipped": contents.skipped,
+    }
+    (folder / "contents.json").write_text(json.dumps(told), encoding="utf-8")
+
+
+def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
+    def left(samples: Any) -> int:
+        number = next(numbers)
+        np.save(folder / f"{number}.npy", np.ascontiguousarray(samples), allow_pickle=False)
+        return number
+
+    return {
+        "name": group.name,
+        "channels": {name: left(samples) for name, samples in group.channels.items()},
+        "units": group.units,
+        "time": None if group.time is None else left(np.asarray(group.time, dtype=np.float64)),
+    }
+
+
+def _refuse(reason: str, code: int) -> int:
+    text = " ".join(reason.split())[:_LONGEST_REFUSAL]
+    Path("refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
+    return code
+
+
+def _bound_resources() -> None:
+    """Limit memory and processor time where the system can; elsewhere the caller's time limit must do."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (READING_MEMORY, READING_MEMORY))
+        resource.setrlimit(resource.RLIMIT_CPU, (int(READING_SECONDS), int(READING_SECONDS) + 1))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,23 @@
+"""Channels that hold states instead of signals: between two samples they keep the earlier one."""
+
+from __future__ import annotations
+
+import re
+from types import MappingProxyType
+from typing import Final
+
+STATES: Final = MappingProxyType(
+    {
+        "valve_command": MappingProxyType({"fill": 0, "hold": 1, "vent": 2}),
+        "brake_command": MappingProxyType({"released": 0, "applied": 1}),
+    }
+)
+"""Kind of state -> names of its states and the numbers that stand for them."""
+
+_WHEELSET_SUFFIX: Final = re.compile(r"_[1-4]$")
+
+
+def state_kind(channel: str) -> str | None:
+    """Return the kind of state a canonical channel holds, None for a signal."""
+    kind = _WHEELSET_SUFFIX.sub("", channel)
+    return kind if kind in STATES else None

@@ -1,0 +1,46 @@
+"""What a run leaves: one writer per format, files that appear whole or not at all."""
+
+from uictest.report.content import RunContent
+from uictest.report.escaping import printable
+from uictest.report.formats import ReportFormat, write_formats
+from uictest.report.github import annotation, case_annotations
+from uictest.report.junit import junit_xml
+from uictest.report.latest import latest_run, point_latest
+from uictest.report.lines import case_line, criterion_lines, definition_lines
+from uictest.report.manifest import manifest
+from uictest.report.markdown import append_step_summary
+from uictest.report.run_contents import read_run
+from uictest.report.run_folder import RunFolder
+from uictest.report.run_report import RESULTS, run_name, write_recording, write_reports
+from uictest.report.subject import Subject
+from uictest.report.table import explanation_text, verdict_table
+from uictest.report.wording import counted, tally, verdict_word
+
+__all__ = [
+    "RESULTS",
+    "ReportFormat",
+    "RunContent",
+    "RunFolder",
+    "Subject",
+    "annotation",
+    "append_step_summary",
+    "case_annotations",
+    "case_line",
+    "counted",
+    "criterion_lines",
+    "definition_lines",
+    "explanation_text",
+    "junit_xml",
+    "latest_run",
+    "manifest",
+    "point_latest",
+    "printable",
+    "read_run",
+    "run_name",
+    "tally",
+    "verdict_table",
+    "verdict_word",
+    "write_formats",
+    "write_recording",
+    "write_reports",
+]

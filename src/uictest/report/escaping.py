@@ -1,0 +1,42 @@
+"""User text made harmless for the place where it is shown: terminal, CSV, XML, workflow command."""
+
+from __future__ import annotations
+
+import re
+
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", *"\uff1d\uff0b\uff0d\uff20")
+_PLAIN_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_NOT_XML = re.compile("[^\t\n\r\u0020-\u007e\u0085\u00a0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def printable(text: str) -> str:
+    """Return the text on one line with every control, format and unassigned character spelled out."""
+    return "".join(_spelled_out(character) for character in text)
+
+
+def _spelled_out(character: str) -> str:
+    # `isprintable` is false for exactly what can move the cursor, reverse the reading direction or hide.
+    return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
+
+
+def csv_cell(text: str) -> str:
+    """Return the text as a cell no spreadsheet takes for a formula: an apostrophe goes in front of one."""
+    shown = printable(text)
+    harmless = not text.lstrip(" ").startswith(_FORMULA_STARTS) or _PLAIN_NUMBER.fullmatch(text)
+    return shown if harmless else f"'{shown}"
+
+
+def xml_text(text: str) -> str:
+    """Return the text without the characters that XML 1.0 forbids or discourages."""
+    return _NOT_XML.sub("", text)
+
+
+def workflow_message(text: str) -> str:
+    """Return the text as the message of a GitHub workflow command (line breaks stay)."""
+    lines = "\n".join(printable(line) for line in text.split("\n"))
+    return lines.replace("%", "%25").replace("\n", "%0A")
+
+
+def workflow_property(text: str) -> str:
+    """Return the text as the value of a property of a GitHub workflow command."""
+    return workflow_message(text).replace(":", "%3A").replace(",", "%2C")

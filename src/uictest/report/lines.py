@@ -1,0 +1,66 @@
+"""One line per case, made for grep: the verdict first, then the case id, then `key=value` pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from uictest.report.escaping import printable
+from uictest.report.wording import (
+    criterion_sentences,
+    definition_sentence,
+    explanation,
+    number,
+    verdict_word,
+)
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+
+_NAMED_CASES = 3
+SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
+
+
+def case_line(result: CaseResult) -> str:
+    """Return the line of one case; for a case that is not met the explanation stands at its end."""
+    words = [verdict_word(result), printable(result.id)]
+    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_figures(result)]
+    if not result.met:
+        outcomes, *reasons = explanation(result)
+        words.append(f"reason={'; '.join(reasons or [outcomes])}")
+    return " ".join(words)
+
+
+def criterion_lines(result: CaseResult) -> Iterator[str]:
+    """Yield one line per criterion of a case, each beginning with the case id."""
+    for sentence in criterion_sentences(result):
+        yield f"criterion {printable(result.id)} {sentence}"
+
+
+def definition_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+    """Yield what each criterion was taken to mean, once for all cases that it meant the same in."""
+    cases: dict[tuple[str, str], list[str]] = {}
+    for result in results:
+        for verdict in result.criteria:
+            cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
+    meanings = [criterion for criterion, _ in cases]
+    for (criterion, sentence), names in cases.items():
+        where = f" (in {_listed(names)})" if meanings.count(criterion) > 1 else ""
+        if sentence:
+            yield f"definition {printable(criterion)}{where}: {sentence}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    left = len(names) - _NAMED_CASES
+    shown = ", ".join(map(printable, names[:_NAMED_CASES]))
+    return f"{shown} and {left} more" if left > 0 else shown
+
+
+def _figures(result: CaseResult) -> Iterator[str]:
+    for name in SHOWN_MEASURES:
+        if result.measures is not None:
+            yield f"{name}={number(getattr(result.measures, name))}"
+    if result.wheelsets:
+        yield "maximum_slide=" + "/".join(number(wheelset.maximum_slide) for wheelset in result.wheelsets)
+        vents = (number(wheelset.valve_actuations) for wheelset in result.wheelsets)
+        yield "valve_actuations=" + "/".join(vents)

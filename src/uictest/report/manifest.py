@@ -1,0 +1,55 @@
+"""The manifest: what went into a run, the same on every machine that runs it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePath
+from typing import Any
+
+SCHEMA = "uictest/manifest/1"
+_PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
+
+
+def manifest(
+    command: Sequence[str], seed: int | None, inputs: Mapping[str, str], cases: int
+) -> dict[str, Any]:
+    """Return the manifest of a run.
+
+    Args:
+        command: the arguments as typed; absolute paths are shown without the machine's folders.
+        seed: the seed given for all cases, None where each scenario has its own.
+        inputs: every file read -> its SHA-256.
+        cases: how many cases were selected.
+    """
+    return {
+        "schema": SCHEMA,
+        "command": ["uictest", *(_without_machine(word) for word in command)],
+        "seed": seed,
+        "cases": cases,
+        "versions": _versions(),
+        "inputs": {_without_machine(name): digest for name, digest in sorted(inputs.items())},
+    }
+
+
+def digest(content: Mapping[str, Any]) -> str:
+    """Return the first eight hexadecimal digits of the SHA-256 of a JSON mapping."""
+    text = json.dumps(content, sort_keys=True)
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]
+
+
+def _without_machine(word: str) -> str:
+    option, equals, value = word.partition("=") if word.startswith("--") else ("", "", word)
+    path = PurePath(value)
+    if not path.is_absolute():
+        return word
+    shown = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else PurePath("...", path.name)
+    return f"{option}{equals}{shown.as_posix()}"
+
+
+def _versions() -> dict[str, str]:
+    from importlib.metadata import version
+
+    return {"python": platform.python_version()} | {name: version(name) for name in _PACKAGES}

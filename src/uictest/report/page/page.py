@@ -1,0 +1,73 @@
+"""The page of a run, put together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge_of, plots_json
+from uictest.report.page.matrix import maps_of
+from uictest.report.page.ranking import DRAWN, worst_first
+from uictest.report.page.rendering import render
+from uictest.report.wording import counted, explanation, tally, verdict_word
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+    from uictest.report.content import RunContent
+
+
+def page_html(content: RunContent) -> str:
+    """Return the page: one document that loads nothing, and can be read without JavaScript."""
+    drawn = _drawn(content)
+    return render(
+        "run.html.j2",
+        content=content,
+        drawn=drawn,
+        keys={view.result.id: view.key for view in drawn},
+        maps=maps_of(content.results),
+        opened=_opened(drawn),
+        not_drawn=_not_drawn(content, drawn),
+        words=_words(content.results),
+        tally=tally(content.results),
+        plots=plots_json(),
+        with_plots=bool(drawn),
+        explanation=explanation,
+        figures_of=figures_of,
+        gauge_of=gauge_of,
+        verdict_word=verdict_word,
+    )
+
+
+def _drawn(content: RunContent) -> list[CaseView]:
+    traced = [result for result in content.results if result.id in content.traces]
+    shown = {result.id for result in worst_first(traced)[:DRAWN]}
+    return [
+        case_view(f"case-{place}", result, content.subject(result.id), content.traces[result.id])
+        for place, result in enumerate(traced, start=1)
+        if result.id in shown
+    ]
+
+
+def _opened(drawn: Sequence[CaseView]) -> str:
+    """Return the key of the case that is open at first: the first that is not met, or the only one."""
+    if len(drawn) == 1:
+        return drawn[0].key
+    return next((view.key for view in drawn if not view.result.met), "")
+
+
+def _words(results: Sequence[CaseResult]) -> dict[str, int]:
+    words = [verdict_word(result) for result in results]
+    return {word: words.count(word) for word in ("met", "MISSED", "ERROR") if word in words}
+
+
+def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:
+    """Return which cases have no plots and why; empty where all have."""
+    missing = len(content.results) - len(drawn)
+    if not missing:
+        return ""
+    if len(drawn) == DRAWN:
+        return (
+            f"{counted(missing, 'case')} not drawn: a page draws {DRAWN}, those not met first, then those "
+            "with the narrowest margins. Every criterion of every case is in criteria.csv."
+        )
+    return f"{counted(missing, 'case')} not drawn: there is no recording of it here, or the stop failed."

@@ -1,0 +1,73 @@
+"""The plotting script of the pages: out of the installed package, packed once and kept."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import zlib
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+from uictest.user_cache import user_cache
+
+
+class PackedScript(NamedTuple):
+    """A script as a page holds it.
+
+    Args:
+        digest: SHA-256 of the script itself, Base64; by it a browser knows that it may run.
+        packed: the script deflated, in Base64: less than half as long.
+
+    """
+
+    digest: str
+    packed: str
+
+
+@cache
+def plotting_script() -> PackedScript:
+    """Return plotly's script. Raises ModuleNotFoundError where plotly is not installed."""
+    source = _source()
+    kept = _kept(source)
+    if kept is not None and kept.exists():
+        return PackedScript(*kept.read_text("ascii").split())
+    # Reading turns every line end into a line feed, as a browser does before it takes the digest.
+    script = packed(source.read_text("utf-8"))
+    _keep(script, kept)
+    return script
+
+
+def packed(script: str) -> PackedScript:
+    """Return a script digested and packed, which takes as long as ten stops for one of this size."""
+    text = script.encode("utf-8")
+    return PackedScript(digest(script), base64.b64encode(zlib.compress(text, 9)).decode("ascii"))
+
+
+def digest(script: str) -> str:
+    """Return the SHA-256 of a script in Base64."""
+    return base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
+
+
+def _source() -> Path:
+    # The package is not imported: that takes a second.
+    found = find_spec("plotly")
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError("plotly is not installed, and the page needs its script", name="plotly")
+    return Path(found.origin).parent / "package_data" / "plotly.min.js"
+
+
+def _kept(source: Path) -> Path | None:
+    folder, found = user_cache("page"), source.stat()
+    return folder and folder / f"plotly-{found.st_size}-{found.st_mtime_ns}.txt"
+
+
+def _keep(script: PackedScript, place: Path | None) -> None:
+    from uictest.recording import write_text_atomic
+
+    # Where it cannot be kept, it is packed again.
+    with suppress(OSError):
+        if place is not None:
+            write_text_atomic(place, "\n".join(script))

@@ -1,0 +1,45 @@
+"""A finished run read back from its folder."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from uictest.report.content import RunContent
+from uictest.report.run_report import RECORDINGS, RESULTS
+from uictest.report.subject import Subject
+
+if TYPE_CHECKING:
+    from uictest.report.page import Trace
+
+
+def read_run(folder: Path, *, traces: bool = False) -> RunContent:
+    """Return what a run folder holds; with `traces`, what there is to draw from its recordings, too.
+
+    Raises:
+        OSError: results.json or a recording cannot be read.
+        ValueError: one of them is not what it should be.
+
+    """
+    from uictest.evaluation import results_of
+
+    path = folder / RESULTS
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        results = results_of(document)
+        subjects = {name: Subject.from_dict(each) for name, each in document.get("subjects", {}).items()}
+        manifest: Any = dict(document.get("manifest", {}))
+    except (ValueError, AttributeError, TypeError) as error:
+        raise ValueError(f"{path}: not the results of a run: {error}") from error
+    drawn = _traces(folder, [result.id for result in results]) if traces else {}
+    complete = bool(document.get("complete", True))
+    return RunContent(folder.resolve().name, results, manifest, complete, subjects, drawn)
+
+
+def _traces(folder: Path, case_ids: list[str]) -> dict[str, Trace]:
+    from uictest.recording import read_parquet
+    from uictest.report.page import trace_of
+
+    paths = {case_id: folder / RECORDINGS / f"{case_id}.parquet" for case_id in case_ids}
+    return {case_id: trace_of(read_parquet(path)) for case_id, path in paths.items() if path.is_file()}

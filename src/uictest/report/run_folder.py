@@ -1,0 +1,77 @@
+"""The folder of one run: filled under a temporary name, renamed when it is complete."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import os
+import shutil
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+
+class RunFolder:
+    """A folder that appears as `parent/name` when it is published, and not at all if it is not.
+
+    Used as a context manager: leaving the block without `publish` removes everything that was created, the
+    parents included. A name that is taken gets `-2`, `-3`, ... at its end.
+
+    Args:
+        parent: the folder of all runs; made if it is missing.
+        name: the name of the run.
+
+    Raises:
+        OSError: the folder cannot be made.
+    """
+
+    def __init__(self, parent: Path, name: str) -> None:
+        self._parent = parent
+        self._name = name
+        self._published = False
+        self._made_parents = _make_missing(parent)
+        self.path = parent / f".{name}.{os.urandom(4).hex()}.partial"
+        try:
+            self.path.mkdir()
+        except OSError:
+            self._remove_made_parents()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if not self._published:
+            shutil.rmtree(self.path, ignore_errors=True)
+            self._remove_made_parents()
+
+    @property
+    def name(self) -> str:
+        """The name that the folder is to get."""
+        return self._name
+
+    def publish(self) -> Path:
+        """Give the folder its name, and return where it stands now. Raises OSError."""
+        for number in itertools.count(1):
+            target = self._parent / (self._name if number == 1 else f"{self._name}-{number}")
+            if target.exists():
+                continue
+            self.path.rename(target)
+            break
+        self.path = target
+        self._published = True
+        return target
+
+    def _remove_made_parents(self) -> None:
+        # Innermost first; one that meanwhile holds somebody else's files stays, and so do those around it.
+        with contextlib.suppress(OSError):
+            for folder in reversed(self._made_parents):
+                folder.rmdir()
+
+
+def _make_missing(folder: Path) -> list[Path]:
+    missing = [place for place in (folder, *folder.parents) if not place.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    return list(reversed(missing))

@@ -1,0 +1,61 @@
+"""The three tables of a run: one row per case, per wheelset, per criterion."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from uictest.report.csv_table import Cell, csv_text
+from uictest.report.wording import definition_sentence
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+
+CRITERION_FIELDS = ("layer", "verdict", "value", "unit", "lower", "upper", "margin", "reason")
+
+
+def summary_csv(results: Sequence[CaseResult]) -> str:
+    """Return one row per case: parameters (as written), expectation, outcome, measures."""
+    from uictest.evaluation import Figures
+
+    keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
+    columns = ["id", "scenario", *keys, "expect", "outcome", "met", "reason", *_names(Figures)]
+    return csv_text(columns, map(_summary_row, results))
+
+
+def wheelsets_csv(results: Sequence[CaseResult]) -> str:
+    """Return one row per case and wheelset; wheelset 1 leads."""
+    from uictest.evaluation import WheelsetFigures
+
+    return csv_text(["id", "wheelset", *_names(WheelsetFigures)], _wheelset_rows(results))
+
+
+def criteria_csv(results: Sequence[CaseResult]) -> str:
+    """Return one row per case and criterion, with the definitions its verdict rests on."""
+    return csv_text(["id", "criterion", *CRITERION_FIELDS, "definition"], _criterion_rows(results))
+
+
+def _summary_row(result: CaseResult) -> dict[str, Cell]:
+    parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
+    own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
+    measures = dataclasses.asdict(result.measures) if result.measures is not None else {}
+    return {**parameters, **own, **measures}
+
+
+def _wheelset_rows(results: Sequence[CaseResult]) -> Iterator[dict[str, Cell]]:
+    for result in results:
+        for position, wheelset in enumerate(result.wheelsets, start=1):
+            yield {"id": result.id, "wheelset": position, **dataclasses.asdict(wheelset)}
+
+
+def _criterion_rows(results: Sequence[CaseResult]) -> Iterator[dict[str, Cell]]:
+    for result in results:
+        for verdict in result.criteria:
+            fields = {name: getattr(verdict, name) for name in CRITERION_FIELDS}
+            own = {"id": result.id, "criterion": verdict.id, "definition": definition_sentence(verdict)}
+            yield {**own, **fields}
+
+
+def _names(figures: Any) -> list[str]:
+    return [field.name for field in dataclasses.fields(figures)]

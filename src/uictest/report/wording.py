@@ -1,0 +1,86 @@
+"""How results and verdicts are put into words, the same in every format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from uictest.report.escaping import printable
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult, Verdict
+
+
+def number(value: float | None) -> str:
+    """Return a figure with five significant digits, `-` where there is none (None or NaN)."""
+    return "-" if value is None or value != value else f"{value:.5g}"
+
+
+def quantity(value: float | None, unit: str) -> str:
+    """Return a figure with its unit; the unit 1 of a pure number is left out."""
+    return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
+
+
+def limits(verdict: Verdict) -> str:
+    """Return the limits of a criterion, e.g. `limits 440 .. 490 m`, `lower limit 35 %`, `no limit`."""
+    if verdict.lower is not None and verdict.upper is not None:
+        return f"limits {number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
+    if verdict.lower is not None:
+        return f"lower limit {quantity(verdict.lower, verdict.unit)}"
+    if verdict.upper is not None:
+        return f"upper limit {quantity(verdict.upper, verdict.unit)}"
+    return "no limit"
+
+
+def verdict_sentence(verdict: Verdict) -> str:
+    """Return one line that says what a criterion found: verdict and reason, or value, limits and margin."""
+    value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
+    found = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
+    return printable(f"{verdict.id} ({verdict.layer}) {verdict.verdict.replace('_', ' ')}: {found}")
+
+
+def definition_sentence(verdict: Verdict) -> str:
+    """Return the definitions a verdict rests on, e.g. `first_phase_duration = 3 s`, or an empty text."""
+    return printable(", ".join(f"{name} = {text}" for name, text in verdict.definition.items()))
+
+
+def explanation(result: CaseResult) -> list[str]:
+    """Return why a case came out as it did: expectation, reason, and each criterion that decided it."""
+    deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
+    # With criteria the reason of a result repeats theirs; without any it is all there is.
+    reason = [printable(result.reason)] if result.reason and not deciding else []
+    return [f"expected {result.expect}, came out {result.outcome}", *reason, *deciding]
+
+
+def criterion_sentences(result: CaseResult) -> Iterator[str]:
+    """Yield what each criterion found, and how firmly the verdict stands on its definitions."""
+    for verdict in result.criteria:
+        yield verdict_sentence(verdict)
+        for sensitivity in verdict.sensitivity:
+            yield printable(f"{verdict.id}: {sensitivity}")
+
+
+def _deciding(result: CaseResult) -> Iterator[Verdict]:
+    for verdict in result.criteria:
+        if verdict.verdict == "fail" or result.outcome == "skipped":
+            yield verdict
+
+
+def verdict_word(result: CaseResult) -> str:
+    """Return `met`, `MISSED` or `ERROR`: how a case stands to its expectation."""
+    if result.outcome == "error":
+        return "ERROR"
+    return "met" if result.met else "MISSED"
+
+
+def tally(results: Iterable[CaseResult]) -> str:
+    """Return the counts of a run, e.g. `12 cases: 11 met, 1 missed`."""
+    words = [verdict_word(result) for result in results]
+    counts = {"met": words.count("met"), "missed": words.count("MISSED"), "in error": words.count("ERROR")}
+    shown = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    return f"{counted(len(words), 'case')}: {shown}" if words else "no case"
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a count with its noun, e.g. `1 case`, `2 cases`."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

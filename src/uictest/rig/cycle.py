@@ -1,0 +1,79 @@
+"""What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
+
+This is scalar code that may branch and look up tables; between two cycles :func:`uictest.rig.step.step`
+runs alone.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.controllers import decide
+from uictest.physics.noise import bell, threefry
+from uictest.physics.rail import interpolated
+from uictest.physics.sensors import speed_reading
+from uictest.physics.wsp_valve import FILL, VENT, command_before, remember
+
+Record = Any
+_CHANNELS = 16
+"""Noise channels set aside for each wheelset."""
+_SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
+
+
+def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any, cycle: int) -> None:
+    """Read the sensors, let the controller decide and set the valve targets for the steps of cycle ``cycle``.
+
+    Args:
+        car: car record.
+        wheelsets: four wheelset records.
+        p: parameter record.
+        rail: array of shape (4, n): places in m, friction coefficients there, times in s, factors then.
+        cycle: number of the cycle since the brake command.
+    """
+    for i in range(4):
+        wheelset = wheelsets[i]
+        read_sensors(wheelset, p, cycle, i)
+        place = car.position - wheelset.behind
+        along = interpolated(place, rail[0], rail[1], p.friction_points)
+        wheelset.friction = along * interpolated(car.time, rail[2], rail[3], p.friction_times)
+    decide(car, wheelsets, p)
+    for i in range(4):
+        command_valve(wheelsets[i], p)
+    car.substep = 0.0
+
+
+def read_sensors(wheelset: Record, p: Record, cycle: int, number: int) -> None:
+    """Read the speed sensor and draw the momentary errors of the pressure sensor and the loadcells."""
+    channel = number * _CHANNELS
+    wheelset.pressure_error = p.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
+    wheelset.loadcell_error = p.loadcell_noise * sensor_noise(p, cycle, channel + _LOADCELL)
+    wheelset.measured_speed = speed_reading(
+        wheelset.rotation * p.wheel_radius,
+        p.tooth_pitch,
+        p.timer_resolution,
+        p.cycle_time,
+        p.slowest_measured_speed,
+        p.speed_noise * sensor_noise(p, cycle, channel + _SPEED),
+    )
+
+
+def sensor_noise(p: Record, cycle: int, channel: int) -> float:
+    """Number of mean 0 and variance 1 for one cycle and one noise channel."""
+    word_0, word_1 = threefry(p.seed, p.case_key, cycle, channel)
+    return bell(word_0, word_1)
+
+
+def command_valve(wheelset: Record, p: Record) -> None:
+    """Put the newest command into the register and find what the delay lets through in this cycle."""
+    if p.wsp_active == 0:
+        wheelset.command = FILL
+    register = remember(wheelset.command_register, wheelset.command)
+    wheelset.command_register = register
+    before = command_before(register, p.valve_delay_cycles + 1)
+    after = command_before(register, p.valve_delay_cycles)
+    wheelset.fill_before = 1.0 if before == FILL else 0.0
+    wheelset.fill_after = 1.0 if after == FILL else 0.0
+    wheelset.vent_before = 1.0 if before == VENT else 0.0
+    wheelset.vent_after = 1.0 if after == VENT else 0.0
+    wheelset.venting = 1.0 if wheelset.command == VENT else 0.0
+    wheelset.filling_cycles = wheelset.filling_cycles + 1 if wheelset.command == FILL else 0
+    wheelset.wsp_acting = 1.0 if wheelset.filling_cycles < p.wsp_acting_cycles else 0.0

@@ -1,0 +1,74 @@
+"""Which files are scenarios."""
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Final
+
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors
+from uictest.scenario.reading import nowhere, refuse_unreadable
+from uictest.scenario.references import KIND_OF_FOLDER, Files
+from uictest.scenario.tree import Map, Scalar
+
+SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
+_OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map")
+_OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
+
+
+def scenario_trees(
+    paths: Sequence[Path], files: Files, found: list[Diagnostic]
+) -> Iterator[tuple[Path, Map]]:
+    """Yield the tree of every scenario file at or below ``paths``, once and in order; errors go to ``found``.
+
+    A folder is searched for ``*.yaml`` and ``*.yml``, less campaigns (``*.sweep.yaml``), files of parts,
+    bench recipes and channel maps, hidden files, and files that begin with an underscore, which are parents
+    only. A file that is named is always read.
+    """
+    seen: set[str] = set()
+    for path, named in _candidates(paths, found):
+        key = os.path.abspath(path)  # noqa: PTH100 - the same file under two spellings, links left alone
+        if key in seen:
+            continue
+        seen.add(key)
+        try:
+            tree = files.at(path)
+        except ScenarioErrors as errors:
+            found.extend(errors.diagnostics)
+            if not isinstance(errors.salvaged, Map):
+                continue
+            tree = errors.salvaged
+        if named or not _is_of_other_kind(tree):
+            yield path, tree
+
+
+def _candidates(paths: Sequence[Path], found: list[Diagnostic]) -> Iterator[tuple[Path, bool]]:
+    for path in paths:
+        if not os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for names that are too long
+            yield path, True
+            continue
+        for inside in _below(path, found):
+            yield inside, False
+
+
+def _below(folder: Path, found: list[Diagnostic]) -> list[Path]:
+    def report(error: OSError) -> None:
+        found.extend(refuse_unreadable(nowhere(Path(error.filename or folder)), error).diagnostics)
+
+    inside: list[Path] = []
+    for parent, folders, names in os.walk(folder, onerror=report):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        inside.extend(Path(parent, name) for name in names if _may_be_scenario(name))
+    return sorted(inside, key=Path.as_posix)
+
+
+def _may_be_scenario(name: str) -> bool:
+    return (
+        name.endswith((".yaml", ".yml"))
+        and not name.startswith((".", "_"))
+        and not name.endswith(SWEEP_SUFFIXES)
+    )
+
+
+def _is_of_other_kind(tree: Map) -> bool:
+    schema = tree.get("schema")
+    return isinstance(schema, Scalar) and schema.value in _OTHER_SCHEMAS

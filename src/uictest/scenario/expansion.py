@@ -1,0 +1,189 @@
+"""matrix, zip, include and exclude: one scenario becomes many cases."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, product
+from math import prod
+from typing import Final
+
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
+from uictest.scenario.tree import Entry, Map, Node, Scalar, Sequence, as_written, describe
+from uictest.scenario.wording import quoted, suggestion
+
+MOST_CASES: Final = 10_000
+SECTIONS: Final = ("matrix", "zip", "include", "exclude")
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """The value that one case gives to one swept key; ``number`` counts the values of that key from one."""
+
+    key: str
+    value: Entry
+    number: int
+
+
+Variant = tuple[Setting, ...]
+"""What distinguishes one case of a scenario: nothing at all when the scenario is not swept."""
+
+
+def expand(tree: Map) -> list[Variant]:
+    """The cases of a scenario, in order: matrix (first key slowest) times zip, less exclude, then include.
+
+    Raises ScenarioErrors with every error of the four sections.
+    """
+    found: list[Diagnostic] = []
+    matrix, zipped = _axes(tree, "matrix", found), _axes(tree, "zip", found)
+    include, exclude = _listed(tree, "include", found), _listed(tree, "exclude", found)
+    found.extend(chain(_unequal(zipped), _in_both(matrix, zipped), _too_many(tree, matrix, zipped)))
+    if found:
+        raise ScenarioErrors(found)
+    variants = _combined(matrix, zipped, alone=not include)
+    variants = _without_excluded(variants, exclude, found)
+    variants.extend(_included(include))
+    if not variants:
+        found.append(_none_left(tree))
+    if found:
+        raise ScenarioErrors(found)
+    return variants
+
+
+def distinct(variants: list[Variant]) -> list[Variant]:
+    """The cases less those that repeat an earlier one."""
+    by_values = {_values(variant): variant for variant in reversed(variants)}
+    return [variant for variant in variants if by_values[_values(variant)] is variant]
+
+
+def _values(variant: Variant) -> frozenset[tuple[str, str]]:
+    return frozenset((setting.key, as_written(setting.value.node)) for setting in variant)
+
+
+Axis = tuple[Setting, ...]
+
+
+def _axes(tree: Map, section: str, found: list[Diagnostic]) -> list[Axis]:
+    node = _section(tree, section)
+    if node is None:
+        return []
+    if not isinstance(node, Map) or not node.entries:
+        what = "an empty mapping" if isinstance(node, Map) else describe(node)
+        found.append(_malformed(node, section, f"expected lists of values by dotted key, found {what}"))
+        return []
+    return [axis for key, entry in node.entries.items() if (axis := _axis(section, key, entry, found))]
+
+
+def _axis(section: str, key: str, entry: Entry, found: list[Diagnostic]) -> Axis:
+    if not isinstance(entry.node, Sequence):
+        message = f"expected a list of values, found {describe(entry.node)}"
+        found.append(
+            diagnose(entry.node.place, message, f"{section}.{key}", f"write [{as_written(entry.node)}]"[:80])
+        )
+        return ()
+    if not entry.node.items:
+        found.append(diagnose(entry.node.place, "an empty list makes no case", f"{section}.{key}"))
+        return ()
+    return tuple(
+        Setting(key, Entry(entry.key, item), number) for number, item in enumerate(entry.node.items, start=1)
+    )
+
+
+def _listed(tree: Map, section: str, found: list[Diagnostic]) -> list[Map]:
+    node = _section(tree, section)
+    if node is None:
+        return []
+    if not isinstance(node, Sequence):
+        found.append(_malformed(node, section, f"expected a list of mappings, found {describe(node)}"))
+        return []
+    found.extend(
+        _malformed(item, section, f"expected a mapping of dotted keys to values, found {describe(item)}")
+        for item in node.items
+        if not isinstance(item, Map) or not item.entries
+    )
+    return [item for item in node.items if isinstance(item, Map) and item.entries]
+
+
+def _section(tree: Map, section: str) -> Node | None:
+    node = tree.get(section)
+    return None if isinstance(node, Scalar) and node.value is None else node
+
+
+_EXAMPLES: Final = {
+    "matrix": "matrix: {rail.friction: [0.09, 0.10]}",
+    "zip": "zip: {rail.friction: [0.09, 0.10], seed: [1, 2]}",
+    "include": "include: [{rail.friction: 0.09}]",
+    "exclude": "exclude: [{rail.friction: 0.09}]",
+}
+
+
+def _malformed(node: Node, section: str, message: str) -> Diagnostic:
+    return diagnose(node.place, message, section, f"write `{_EXAMPLES[section]}`")
+
+
+def _unequal(zipped: list[Axis]) -> Iterator[Diagnostic]:
+    for axis in zipped[1:]:
+        if len(axis) != len(zipped[0]):
+            message = f"{len(axis)} values where {quoted(zipped[0][0].key)} has {len(zipped[0])}"
+            hint = "lists under zip must be equally long; matrix combines lists of any length"
+            yield diagnose(axis[0].value.key, message, f"zip.{axis[0].key}", hint)
+
+
+def _in_both(matrix: list[Axis], zipped: list[Axis]) -> Iterator[Diagnostic]:
+    keys = {axis[0].key for axis in matrix}
+    for axis in zipped:
+        if axis[0].key in keys:
+            yield diagnose(axis[0].value.key, "the key is under matrix as well", f"zip.{axis[0].key}")
+
+
+def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Diagnostic]:
+    count = prod(map(len, matrix)) * (len(zipped[0]) if zipped else 1)
+    if count > MOST_CASES:
+        entry = tree.entries["matrix" if matrix else "zip"]
+        yield diagnose(
+            entry.key, f"{count} cases; one scenario makes at most {MOST_CASES}", hint="split it, or sweep"
+        )
+
+
+def _combined(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
+    if not matrix and not zipped:
+        return [()] if alone else []
+    rows: list[Variant] = list(zip(*zipped, strict=True)) if zipped else [()]
+    return [(*combination, *row) for combination in product(*matrix) for row in rows]
+
+
+def _included(include: list[Map]) -> Iterator[Variant]:
+    for number, item in enumerate(include, start=1):
+        yield tuple(Setting(key, entry, number) for key, entry in item.entries.items())
+
+
+def _without_excluded(variants: list[Variant], exclude: list[Map], found: list[Diagnostic]) -> list[Variant]:
+    swept = {setting.key for variant in variants for setting in variant}
+    for item in exclude:
+        unknown = [key for key in item.entries if key not in swept]
+        for key in unknown:
+            message = f"{quoted(key)} is not swept, so no case has it"
+            found.append(diagnose(item.entries[key].key, message, "exclude", suggestion(key, swept)))
+        kept = [variant for variant in variants if not _matches(variant, item)]
+        if not unknown and len(kept) == len(variants):
+            found.append(diagnose(item.place, "no case has these values", "exclude"))
+        variants = kept
+    return variants
+
+
+def _matches(variant: Variant, item: Map) -> bool:
+    values = {setting.key: setting.value.node for setting in variant}
+    return all(key in values and _same(values[key], entry.node) for key, entry in item.entries.items())
+
+
+def _same(one: Node, other: Node) -> bool:
+    return _comparable(one) == _comparable(other)
+
+
+def _comparable(node: Node) -> object:
+    if isinstance(node, Scalar) and not isinstance(node.value, str):
+        return node.value
+    return "".join(as_written(node).split())
+
+
+def _none_left(tree: Map) -> Diagnostic:
+    entry = next(tree.entries[section] for section in reversed(SECTIONS) if section in tree.entries)
+    return diagnose(entry.key, "no case is left")

@@ -1,0 +1,50 @@
+"""Case ids: the scenario's name and what distinguishes the case, in characters safe for file names."""
+
+import re
+from pathlib import PurePosixPath
+from typing import Final
+
+from uictest.scenario.expansion import Setting, Variant
+from uictest.scenario.references import is_path
+from uictest.scenario.tree import Map, Scalar
+
+LONGEST: Final = 200
+"""Longest id: with an extension it must still be a file name everywhere."""
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
+
+
+def case_id(name: str, variant: Variant, short: dict[str, str]) -> str:
+    """``name`` or ``name[friction=0.10,command=90]``; ``short`` says what each swept key is called."""
+    if not variant:
+        return name
+    return f"{name}[{','.join(f'{short[setting.key]}={value_label(setting)}' for setting in variant)}]"
+
+
+def short_keys(keys: list[str]) -> dict[str, str]:
+    """The last part of every dotted key, or as long a tail as tells it from the others."""
+    return {key: _shortest_tail(key, [other for other in keys if other != key]) for key in keys}
+
+
+def _shortest_tail(key: str, others: list[str]) -> str:
+    parts = key.split(".")
+    for count in range(1, len(parts)):
+        tail = ".".join(parts[-count:])
+        if not any(other == tail or other.endswith("." + tail) for other in others):
+            return tail
+    return key
+
+
+def value_label(setting: Setting) -> str:
+    """The value as written, less blanks, per cent signs and whatever a file name should not hold."""
+    text = _name(setting)
+    return _UNSAFE.sub("", text) or f"value{setting.number}"
+
+
+def _name(setting: Setting) -> str:
+    node = setting.value.node
+    if isinstance(node, Map):
+        node = node.get("name") or node.get("extends") or node
+    if not isinstance(node, Scalar):
+        return f"value{setting.number}"
+    return PurePosixPath(node.text).stem if is_path(node.text) else node.text

@@ -1,0 +1,43 @@
+"""Parts of the library by name, and every number of a part with its source."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from uictest.scenario.part_keys import PART_KEYS
+from uictest.scenario.parts.model import Key, Part, Source, quantities_in
+from uictest.scenario.quantities import Quantity
+from uictest.scenario.references import Files, Parts, folder_of
+from uictest.scenario.tree import Document, Place, Scalar
+
+
+class Number(NamedTuple):
+    """A number of a part: its dotted key, the quantity and its source (None for a user's own number)."""
+
+    key: str
+    quantity: Quantity
+    source: Source | None
+
+
+def load_part(reference: str) -> Part:
+    """The library part called ``folder/name``, e.g. ``vehicles/intercity-180``.
+
+    Raises ScenarioErrors when there is none, KeyError when there is no such folder.
+    """
+    folder, _, name = reference.partition("/")
+    models = {folder_of(each.model): each.model for each in PART_KEYS.values()}
+    if folder not in models:
+        raise KeyError(folder)
+    place = Place(Document(reference, Path(), reference), 1, len(folder) + 2)
+    part: Part = Parts(Files()).resolve(Scalar(name, name, place), models[folder], (folder,)).part
+    return part
+
+
+def numbers(part: Part) -> Iterator[Number]:
+    """Yield every number of a part, in the order of its model."""
+    for key, quantity in quantities_in(part):
+        yield Number(_dotted(key), quantity, part.sources.get(quantity.source))
+
+
+def _dotted(key: Key) -> str:
+    return ".".join(map(str, key))

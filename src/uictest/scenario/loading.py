@@ -1,0 +1,157 @@
+"""Files to cases."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+from uictest.scenario.assignment import with_value
+from uictest.scenario.case import Case
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, in_reading_order, refusal
+from uictest.scenario.discovery import scenario_trees
+from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand
+from uictest.scenario.identifiers import LONGEST, case_id, short_keys
+from uictest.scenario.inheritance import inherit
+from uictest.scenario.model import SCENARIO_SCHEMA
+from uictest.scenario.overrides import Override, apply_overrides, parse_overrides
+from uictest.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.scenario.reading import display_name
+from uictest.scenario.references import Files, Parts
+from uictest.scenario.resolution import resolve
+from uictest.scenario.tree import Document, Map, Scalar, as_written, describe
+from uictest.scenario.validation import dotted
+from uictest.scenario.wording import quoted
+
+_DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
+
+
+def load(paths: Sequence[Path], overrides: Sequence[str] = (), seed: int | None = None) -> list[Case]:
+    """The cases of every scenario file at or below ``paths``.
+
+    ``overrides`` are ``key=value`` texts; comma lists and ``range(first,last,step)`` become axes of the
+    matrix. ``seed`` takes the place of every scenario's own. Raises ScenarioErrors with all errors of all
+    files.
+    """
+    parsed = parse_overrides(overrides, seed)
+    loader = _Loader(Files(), parsed)
+    cases = [
+        case
+        for path, tree in scenario_trees(paths, loader.files, loader.found)
+        for case in loader.cases(path, tree)
+    ]
+    if loader.found:
+        raise ScenarioErrors(in_reading_order(loader.found))
+    return cases
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stem:
+    """What the cases of one file have in common."""
+
+    path: Path
+    tree: Map
+    documents: tuple[Document, ...]
+    short: dict[str, str]
+    ids: set[str] = field(default_factory=set)
+
+
+class _Loader:
+    """Loads scenario after scenario, gathering errors instead of stopping at one."""
+
+    def __init__(self, files: Files, overrides: tuple[Override, ...]) -> None:
+        self.files = files
+        self.parts = Parts(files)
+        self.overrides = overrides
+        self.found: list[Diagnostic] = []
+        self.taken: dict[str, _Stem] = {}
+
+    def cases(self, path: Path, tree: Map) -> Iterator[Case]:
+        """Yield the cases of one file, as far as they are without errors."""
+        try:
+            stem, variants = self._stem(path, tree)
+        except ScenarioErrors as errors:
+            self.found.extend(errors.diagnostics)
+            return
+        for variant in variants:
+            try:
+                yield self._case(stem, variant)
+            except ScenarioErrors as errors:
+                self.found.extend(errors.diagnostics)
+
+    def _stem(self, path: Path, tree: Map) -> tuple[_Stem, list[Variant]]:
+        _refuse_other_schema(tree)
+        own_name = tree.entries.get("name")
+        merged, documents = inherit(tree, self._parent)
+        # Every scenario has a name of its own: an inherited one would be there twice.
+        merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
+        merged = apply_overrides(with_default_parts(merged), self.overrides, _DOTTED_PART_KEYS)
+        base = merged.without(*SECTIONS)
+        try:
+            variants = expand(merged)
+        except ScenarioErrors as errors:
+            raise ScenarioErrors((*errors.diagnostics, *self._errors(base))) from None
+        if self.overrides:
+            variants = distinct(
+                variants
+            )  # cases that differed in a key that the command line fixes are one now
+        short = short_keys(list(dict.fromkeys(setting.key for variant in variants for setting in variant)))
+        return _Stem(path, base, documents, short), variants
+
+    def _errors(self, base: Map) -> tuple[Diagnostic, ...]:
+        """What is wrong with a scenario apart from its sweep."""
+        try:
+            resolve(base, self.parts)
+        except ScenarioErrors as errors:
+            return errors.diagnostics
+        return ()
+
+    def _parent(self, reference: Scalar) -> Map:
+        tree = self.files.beside(reference, "extends")
+        _refuse_other_schema(tree)
+        return tree
+
+    def _case(self, stem: _Stem, variant: Variant) -> Case:
+        tree = stem.tree
+        # From the outside in, so that a part is named before something inside it is changed.
+        for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
+            tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
+        scenario, documents = resolve(tree, self.parts)
+        return Case(
+            id=self._claimed(case_id(scenario.name, variant, stem.short), stem, variant),
+            scenario=scenario,
+            path=Path(display_name(stem.path)),
+            parameters={setting.key: as_written(setting.value.node) for setting in variant},
+            inputs=_inputs((*stem.documents, *documents)),
+        )
+
+    def _claimed(self, identifier: str, stem: _Stem, variant: Variant) -> str:
+        """The id, unless it is too long or another case has it."""
+        name = stem.tree.entries["name"].node.place
+        place = variant[-1].value.node.place if variant else name
+        if len(identifier) > LONGEST:
+            raise refusal(
+                place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
+            )
+        other = self.taken.setdefault(identifier, stem)
+        if other is not stem:
+            message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
+            raise refusal(name, message, "name", "give every scenario a name of its own")
+        if identifier in stem.ids:
+            raise refusal(
+                place, f"a second case {quoted(identifier)}", hint="take out the value that is there twice"
+            )
+        stem.ids.add(identifier)
+        return identifier
+
+
+def _refuse_other_schema(tree: Map) -> None:
+    schema = tree.get("schema")
+    if schema is None:
+        raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
+    if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
+        found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        raise refusal(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema")
+
+
+def _inputs(documents: Iterable[Document]) -> dict[str, str]:
+    return {each.display: each.sha256 for each in documents if each.sha256}

@@ -1,0 +1,263 @@
+"""The scenario: what a user writes, defaults filled in, units canonical."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from uictest.scenario.braking import stopping_time_at_least
+from uictest.scenario.friction import FactorProfile, FrictionProfile
+from uictest.scenario.parts.brake import BrakeSystem
+from uictest.scenario.parts.caliper import Caliper
+from uictest.scenario.parts.compensation import Compensation
+from uictest.scenario.parts.controller import Controller
+from uictest.scenario.parts.criteria import Criteria
+from uictest.scenario.parts.measures import MeasureDefinitions
+from uictest.scenario.parts.model import Contradiction, Model
+from uictest.scenario.parts.rail import Friction, RailCondition
+from uictest.scenario.parts.sensors import Sensors
+from uictest.scenario.parts.vehicle import Vehicle
+from uictest.scenario.physical import default, kind
+from uictest.scenario.quantities import DEFAULT_SOURCE, Quantity
+from uictest.scenario.reference_schema import PartReference
+from uictest.scenario.wording import quoted, suggestion
+
+SCENARIO_SCHEMA = "uictest/scenario/1"
+SMALLEST_SUM_AT_REST = 1e-12
+"""1 + a1 + a2 + a3 below which rounding moves the gain at rest by more than one part in ten thousand."""
+Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
+
+
+def _friction_form(given: object) -> str:
+    return "profile" if isinstance(given, dict | FrictionProfile) else "number"
+
+
+class Brake(Model):
+    """The brake of the car and the command it gets."""
+
+    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
+        description="The brake system: a library name, a relative path or an inline mapping."
+    )
+    command: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
+        default=default("100 %", "share"), description="Share of the full service command."
+    )
+    position: str = Field(
+        default="R", description="Brake position; one of the positions of the brake system."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a position that the system does not have."""
+        if self.position not in self.system.positions:
+            yield Contradiction(
+                ("position",),
+                f"unknown brake position {quoted(self.position)}",
+                suggestion(self.position, self.system.positions),
+            )
+
+
+class Rail(Model):
+    """The rail under the car."""
+
+    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = Field(
+        description="Rail condition: dry, wet, a relative path or an inline mapping."
+    )
+    friction: (
+        Annotated[
+            Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
+            Discriminator(_friction_form),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="Initial friction coefficient, or points of it along the track; else the condition's.",
+    )
+    friction_over_time: FactorProfile | None = Field(
+        default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
+    )
+    gradient: Annotated[Quantity, kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
+        default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
+    )
+
+    @property
+    def highest_friction(self) -> float:
+        """The highest friction coefficient anywhere, at any time."""
+        factor = (
+            1.0
+            if self.friction_over_time is None
+            else max(at.factor for at in self.friction_over_time.points)
+        )
+        if isinstance(self.friction, FrictionProfile):
+            return factor * max(at.friction for at in self.friction.points)
+        return factor * (self.condition.friction if self.friction is None else self.friction)
+
+
+class Rig(Model):
+    """How the rig is built up."""
+
+    topology: Literal["one-caliper", "four-caliper"] = Field(
+        default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
+    )
+    compensation: Literal["none", "hysteresis", "cylinder", "full"] = Field(
+        default="full",
+        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both.",
+    )
+    wsp: Literal["active", "bypassed"] = Field(
+        default="active", description="Whether the WSP valves obey the controller or always fill."
+    )
+    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = Field(
+        description="The caliper: a library name, a relative path or an inline mapping."
+    )
+    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = Field(
+        description="The compensation: a library name, a relative path or an inline mapping."
+    )
+    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = Field(
+        description="The sensors: a library name, a relative path or an inline mapping."
+    )
+
+
+class Simulation(Model):
+    """How the stop is simulated."""
+
+    time_step: Annotated[Quantity, kind("time", at_least="0.01 ms", at_most="1 ms")] = Field(
+        default=default("0.5 ms", "time"),
+        description="Base step; a whole number of them makes a controller cycle.",
+    )
+    maximum_duration: Annotated[Quantity, kind("time", above="0 s", at_most="3600 s")] = Field(
+        default=default("180 s", "time"), description="Simulated time after which a stop is given up."
+    )
+
+
+class Scenario(Model):
+    """One stop of the car on the rig, and what is expected of it."""
+
+    schema_id: Literal["uictest/scenario/1"] = Field(
+        alias="schema", description="What the file holds and in which version: uictest/scenario/1."
+    )
+    name: Slug = Field(
+        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
+    )
+    title: str = Field(
+        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+    )
+    description: str = Field(
+        default="",
+        max_length=5000,
+        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
+        description="What the scenario is for.",
+    )
+    tags: tuple[Slug, ...] = Field(
+        default=(), max_length=32, description="Words to select scenarios by (-m)."
+    )
+    extends: str | None = Field(
+        default=None, description="Relative path of the parent scenario; maps merge, lists replace."
+    )
+    vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = Field(
+        description="The vehicle: a library name, a relative path or an inline mapping."
+    )
+    initial_speed: Annotated[Quantity, kind("speed", above="1 km/h", at_most="600 km/h")] = Field(
+        description="Train speed at which the brake command is given."
+    )
+    brake: Brake = Field(description="Brake system, command and position.")
+    rail: Rail = Field(description="Rail condition, friction and gradient.")
+    rig: Rig = Field(description="Topology of the rig, compensation, WSP.")
+    controller: Annotated[Controller, PartReference(Controller, "threshold")] = Field(
+        description="The WSP controller under test: a library name, a relative path or an inline mapping."
+    )
+    criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = Field(
+        description="One profile of criteria or a list of them."
+    )
+    measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = Field(
+        description="Definitions of the measures: a library name, a relative path or an inline mapping."
+    )
+    expect: Literal["pass", "fail", "invalid"] = Field(
+        default="pass",
+        description="The outcome that meets this scenario; fail and invalid are for tests of tests.",
+    )
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
+    simulation: Simulation = Field(default=Simulation(), description="Step and longest duration.")
+    matrix: dict[str, Any] | None = Field(
+        default=None,
+        description="Lists of values by dotted key; every combination is a case, first key slowest.",
+    )
+    zip: dict[str, Any] | None = Field(
+        default=None, description="Lists of equal length by dotted key; values at the same place make a case."
+    )
+    include: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Further cases, each a mapping of dotted keys to values."
+    )
+    exclude: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Cases to leave out: those with exactly these values."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield steps that do not fit the controller and stops that cannot end in time."""
+        steps = self.controller.cycle_time / self.simulation.time_step
+        if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
+            yield Contradiction(
+                ("simulation", "time_step"),
+                f"{self.simulation.time_step.text} does not divide the controller cycle of"
+                f" {self.controller.cycle_time.text}",
+                "take a whole part of the cycle, such as 0.5 ms of 10 ms",
+            )
+        yield from self._unresolved_cylinder()
+        yield from self._criteria_of_the_same_name()
+        if not self.tank_volume_with_caliper > 0.0:
+            yield Contradiction(
+                ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
+            )
+        shortest = stopping_time_at_least(
+            self.initial_speed, self.rail.highest_friction, self.rail.gradient, self.vehicle
+        )
+        if shortest > self.simulation.maximum_duration:
+            yield self._stop_without_end(shortest)
+
+    def _criteria_of_the_same_name(self) -> Iterator[Contradiction]:
+        """Yield criteria whose verdicts could not be told apart since another profile has one of that id."""
+        profile_of: dict[str, str] = {}
+        for number, profile in enumerate(self.criteria):
+            for index, criterion in enumerate(profile.criteria):
+                if criterion.id in profile_of:
+                    yield Contradiction(
+                        ("criteria", number, "criteria", index, "id"),
+                        f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
+                        f" {quoted(profile_of[criterion.id])}, too",
+                        "leave one profile out, or give the criterion another id",
+                    )
+            profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
+
+    def _stop_without_end(self, shortest: float) -> Contradiction:
+        limit = self.simulation.maximum_duration
+        least = (
+            "this car never stops"
+            if shortest == math.inf
+            else f"no brake stops this car within {shortest:.0f} s"
+        )
+        return Contradiction(
+            ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
+            f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
+            f"{least} with friction {self.rail.highest_friction:g} and this gradient",
+        )
+
+    def _unresolved_cylinder(self) -> Iterator[Contradiction]:
+        """Yield a step at which double precision cannot hold the gain at rest of the cylinder dynamics.
+
+        The gain is a quotient of sums that shrink with the third power of the step.
+        """
+        model = self.rig.compensation_model
+        shrink = (self.simulation.time_step / model.sampling_time) ** 3
+        sum_at_rest = shrink * (1.0 + math.fsum(model.cylinder.denominator))
+        if self.rig.compensation in ("cylinder", "full") and sum_at_rest < SMALLEST_SUM_AT_REST:
+            yield Contradiction(
+                ("simulation", "time_step"),
+                f"{self.simulation.time_step.text} is too short for the cylinder dynamics identified at"
+                f" {model.sampling_time.text}: double precision cannot hold their gain at rest",
+                "take a longer step or rig.compensation: none",
+            )
+
+    @property
+    def tank_volume_with_caliper(self) -> float:
+        """Air volume of the caliper's module with the piston at the disc, m3."""
+        tank, extra = self.brake.system.tank, self.brake.system.caliper_tank
+        stroke = self.rig.caliper.piston_area * self.rig.caliper.clearance
+        return tank.volume - extra.ball_volume + extra.hose_and_dead_volume + stroke

@@ -1,0 +1,59 @@
+"""The stops that a criterion is about."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Model
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+
+class NominalSpeed(Model):
+    """An initial speed with the tolerance within which a stop is judged, uncorrected."""
+
+    value: Annotated[Quantity, kind("speed", above="0 km/h")] = Field(description="Nominal initial speed.")
+    tolerance: Annotated[Quantity, kind("speed", at_least="0 km/h")] = Field(
+        description="Largest deviation either way."
+    )
+
+
+class NominalShare(Model):
+    """A brake command with its tolerance."""
+
+    value: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
+        description="Nominal command."
+    )
+    tolerance: Annotated[Quantity, kind("share", at_least="0 %")] = Field(
+        description="Largest deviation either way."
+    )
+
+
+class NominalGradient(Model):
+    """A gradient with its tolerance."""
+
+    value: Annotated[Quantity, kind("gradient")] = Field(description="Nominal gradient, positive uphill.")
+    tolerance: Annotated[Quantity, kind("gradient", at_least="0 permille")] = Field(
+        description="Largest deviation either way."
+    )
+
+
+Nominal = NominalSpeed | NominalShare | NominalGradient
+
+
+class Applicability(Model):
+    """The stops a criterion has anything to say about; what is not named does not matter."""
+
+    rail_condition: tuple[str, ...] | None = Field(
+        default=None, description="Names of rail conditions, e.g. wet."
+    )
+    wsp: tuple[Literal["active", "bypassed"], ...] | None = Field(
+        default=None, description="States of the WSP."
+    )
+    brake_position: tuple[str, ...] | None = Field(default=None, description="Brake positions, e.g. R.")
+    topology: tuple[Literal["one-caliper", "four-caliper"], ...] | None = Field(
+        default=None, description="Topologies of the rig."
+    )
+    initial_speed: NominalSpeed | None = Field(default=None, description="Initial speed, as measured.")
+    command: NominalShare | None = Field(default=None, description="Share of the full service command.")
+    gradient: NominalGradient | None = Field(default=None, description="Gradient of the track.")

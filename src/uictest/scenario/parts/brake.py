@@ -1,0 +1,177 @@
+"""The brake system: air supply, brake operating unit, valves, tanks and disc brake."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Contradiction, Part, Section
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+GaugePressure = Annotated[Quantity, kind("pressure", above="0 bar", at_most="20 bar")]
+Volume = Annotated[Quantity, kind("volume", above="0 L", at_most="10 m3")]
+Conductance = Annotated[Quantity, kind("conductance", above="0 m3/(s Pa)", at_most="1e-4 m3/(s Pa)")]
+Ratio = Annotated[Quantity, kind("number", above="0", below="1")]
+
+
+class Position(Section):
+    """A brake position (P, R, G): how much pressure, how soon."""
+
+    maximum_pressure: GaugePressure = Field(description="Tank pressure at full service command, gauge.")
+    fill_time: Annotated[Quantity, kind("time", above="0 s", at_most="60 s")] = Field(
+        description="Time in which the set pressure rises from zero to the maximum."
+    )
+    dead_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
+        description="Time between the command and the first rise of pressure."
+    )
+
+
+class Reservoir(Section):
+    """The main air reservoir."""
+
+    volume: Volume = Field(description="Volume of the reservoir.")
+    initial_pressure: GaugePressure = Field(description="Pressure at the start of the stop, gauge.")
+
+
+class Compressor(Section):
+    """The compressor with its pressure governor."""
+
+    cut_in_pressure: GaugePressure = Field(description="Below this reservoir pressure it starts, gauge.")
+    cut_out_pressure: GaugePressure = Field(description="At this reservoir pressure it stops, gauge.")
+    delivery: Annotated[Quantity, kind("mass flow", at_least="0 kg/s", at_most="1 kg/s")] = Field(
+        description="Air delivered while running; NL are at 20 degC and 1 bar."
+    )
+
+
+class RelayValve(Section):
+    """The relay valve of the brake operating unit, between reservoir and brake line."""
+
+    conductance: Conductance = Field(description="Sonic conductance (ISO 6358) when fully open.")
+    proportional_band: Annotated[Quantity, kind("pressure", above="0 bar", at_most="5 bar")] = Field(
+        description="Deviation from the set pressure at which the valve is fully open."
+    )
+
+
+class BrakeLine(Section):
+    """The pipe from the brake operating unit to the WSP valves."""
+
+    volume: Volume = Field(description="Volume of the brake line.")
+
+
+class WspValve(Section):
+    """A WSP valve: fill, hold or vent one tank."""
+
+    fill_conductance: Conductance = Field(description="Sonic conductance (ISO 6358) from brake line to tank.")
+    vent_conductance: Conductance = Field(description="Sonic conductance (ISO 6358) from tank to atmosphere.")
+    switching_delay: Annotated[Quantity, kind("time", at_least="0 s", at_most="1 s")] = Field(
+        description="Time from the command to the start of the valve's movement."
+    )
+    travel_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="1 s")] = Field(
+        description="Time in which the valve moves from shut to fully open."
+    )
+
+
+class Tank(Section):
+    """The tank of one module: pipe and brake-cylinder volume."""
+
+    volume: Volume = Field(description="Volume of an empty tank.")
+    polytropic_exponent: Annotated[Quantity, kind("number", at_least="1", at_most="1.4")] = Field(
+        description="Exponent of filling and venting: 1 isothermal, 1.4 adiabatic."
+    )
+
+
+class CaliperTank(Section):
+    """What makes the tank of a module with a caliper different."""
+
+    ball_volume: Annotated[Quantity, kind("volume", at_least="0 L", at_most="1 m3")] = Field(
+        description="Volume of the steel balls in the tank."
+    )
+    hose_and_dead_volume: Annotated[Quantity, kind("volume", at_least="0 L", at_most="1 m3")] = Field(
+        description="Volume of the hose to the caliper and of the cylinder with its piston fully back."
+    )
+
+
+class Disc(Section):
+    """The disc brake of one wheelset."""
+
+    mean_radius: Annotated[Quantity, kind("length", above="0 m", at_most="1 m")] = Field(
+        description="Radius at which the pads' friction acts."
+    )
+    calipers_per_wheelset: Annotated[Quantity, kind("count", at_least="1", at_most="8")] = Field(
+        description="Calipers on one wheelset."
+    )
+    pads_per_caliper: Annotated[Quantity, kind("count", at_least="1", at_most="4")] = Field(
+        description="Friction faces per caliper."
+    )
+    pad_friction: Annotated[Quantity, kind("number", above="0", at_most="1")] = Field(
+        description="Friction coefficient between pad and disc."
+    )
+
+
+class Air(Section):
+    """The air and its surroundings."""
+
+    temperature: Annotated[Quantity, kind("temperature", at_least="-60 degC", at_most="80 degC")] = Field(
+        description="Temperature of air and surroundings."
+    )
+    atmospheric_pressure: Annotated[Quantity, kind("pressure", at_least="0.5 bar", at_most="1.2 bar")] = (
+        Field(description="Pressure of the surroundings, absolute.")
+    )
+    gas_constant: Annotated[Quantity, kind("gas constant", above="0 J/(kg K)", at_most="1000 J/(kg K)")] = (
+        Field(description="Specific gas constant of air.")
+    )
+
+
+class BrakeSystem(Part):
+    """A pneumatic disc brake with wheel slide protection valves."""
+
+    folder: ClassVar[str] = "brakes"
+
+    schema_id: Literal["uictest/brake/1"] = Field(
+        default="uictest/brake/1", alias="schema", description="What the file holds: uictest/brake/1."
+    )
+    positions: dict[str, Position] = Field(
+        min_length=1, description="Brake positions by name, such as P, R, G."
+    )
+    reservoir: Reservoir = Field(description="The main air reservoir.")
+    compressor: Compressor = Field(description="The compressor with its pressure governor.")
+    relay_valve: RelayValve = Field(description="The relay valve of the brake operating unit.")
+    brake_line: BrakeLine = Field(description="The pipe from the relay valve to the WSP valves.")
+    wsp_valve: WspValve = Field(description="One WSP valve; all four are alike.")
+    critical_pressure_ratio: Ratio = Field(
+        description="Critical pressure ratio b of every orifice (ISO 6358)."
+    )
+    laminar_pressure_ratio: Ratio = Field(
+        description="Pressure ratio above which the flow is taken as linear."
+    )
+    tank: Tank = Field(description="One tank; all four are alike.")
+    caliper_tank: CaliperTank = Field(description="What differs in the tank of a module with a caliper.")
+    disc: Disc = Field(description="The disc brake of one wheelset.")
+    air: Air = Field(description="The air and its surroundings.")
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield what no air system can do."""
+        yield from super().contradictions()
+        yield from self._supply_contradictions()
+        if self.laminar_pressure_ratio <= self.critical_pressure_ratio:
+            yield Contradiction(("laminar_pressure_ratio",), "it must lie above critical_pressure_ratio")
+        if self.caliper_tank.ball_volume >= self.tank.volume:
+            yield Contradiction(("caliper_tank", "ball_volume"), "the balls do not fit into tank.volume")
+
+    def _supply_contradictions(self) -> Iterator[Contradiction]:
+        if self.compressor.cut_in_pressure >= self.compressor.cut_out_pressure:
+            yield Contradiction(
+                ("compressor", "cut_in_pressure"),
+                f"the compressor would start at {self.compressor.cut_in_pressure.text} and stop at"
+                f" {self.compressor.cut_out_pressure.text}",
+                "cut_in_pressure must be below cut_out_pressure",
+            )
+        for name, position in self.positions.items():
+            if position.maximum_pressure >= self.reservoir.initial_pressure:
+                yield Contradiction(
+                    ("positions", name, "maximum_pressure"),
+                    f"the brake line cannot reach {position.maximum_pressure.text} from a reservoir at"
+                    f" {self.reservoir.initial_pressure.text}",
+                    "it must be below reservoir.initial_pressure",
+                )

@@ -1,0 +1,122 @@
+"""The compensation: cylinder dynamics and four-phase hysteresis in place of a caliper that is not there."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Contradiction, Part, Section
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+Coefficient = Annotated[Quantity, kind("number", at_least="-1e6", at_most="1e6")]
+
+UNITY_GAIN_TOLERANCE: Final = 1e-6
+"""How far the gain at rest may be from one."""
+HIGHEST_PRESSURE: Final = 10e5
+"""Gauge pressure in Pa up to which the lines of a pair must keep their order."""
+
+
+class Line(Section):
+    """Clamping force as a straight line over gauge pressure, where it is positive."""
+
+    slope: Annotated[Quantity, kind("force per pressure", above="0 kN/bar", at_most="1000 kN/bar")] = Field(
+        description="Force per pressure."
+    )
+    intercept: Annotated[Quantity, kind("force", at_least="-100 kN", at_most="100 kN")] = Field(
+        description="Force at zero gauge pressure; negative, because the spring must be overcome first."
+    )
+
+    def force(self, pressure: float) -> float:
+        """Force in N at a gauge pressure in Pa."""
+        return max(0.0, self.slope * pressure + self.intercept)
+
+
+class FourPhaseHysteresis(Section):
+    """Equations (4)-(7): a squeezing and a releasing line, one pair without and one with the WSP acting."""
+
+    bc_squeezing: Line = Field(description="Pressure rising, WSP not acting.")
+    bc_releasing: Line = Field(description="Pressure falling, WSP not acting.")
+    wsp_squeezing: Line = Field(description="Pressure rising, WSP acting.")
+    wsp_releasing: Line = Field(description="Pressure falling, WSP acting.")
+    transition_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
+        description="Time in which one pair of lines turns into the other, so that the force does not jump."
+    )
+    wsp_acting_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="60 s")] = Field(
+        description="Time of uninterrupted filling after which the WSP no longer counts as acting."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield the pairs whose squeezing line is not below the releasing line."""
+        for phase in ("bc", "wsp"):
+            squeezing: Line = getattr(self, f"{phase}_squeezing")
+            releasing: Line = getattr(self, f"{phase}_releasing")
+            if _crosses(squeezing, releasing):
+                yield Contradiction(
+                    (f"{phase}_squeezing",),
+                    "the squeezing line must lie below the releasing line wherever there is force",
+                    f"compare its slope and intercept with {phase}_releasing",
+                )
+
+
+def _crosses(squeezing: Line, releasing: Line) -> bool:
+    # Both are straight where positive: the order at the first force of the lower line and at the end decides.
+    start = max(0.0, -squeezing.intercept / squeezing.slope)
+    return any(squeezing.force(at) > releasing.force(at) for at in (start, HIGHEST_PRESSURE))
+
+
+class CylinderDynamics(Section):
+    """Equation (8): (b0 + b1/z + b2/z2 + b3/z3) / (1 + a1/z + a2/z2 + a3/z3)."""
+
+    numerator: tuple[Coefficient, Coefficient, Coefficient, Coefficient] = Field(
+        description="b0, b1, b2, b3."
+    )
+    denominator: tuple[Coefficient, Coefficient, Coefficient] = Field(description="a1, a2, a3.")
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield an unstable denominator or a gain at rest that is not one."""
+        if not _stable(*self.denominator):
+            yield Contradiction(
+                ("denominator",),
+                "the transfer function is unstable",
+                "every pole must lie inside the unit circle",
+            )
+            return
+        gain = sum(self.numerator) / (1.0 + sum(self.denominator))
+        if abs(gain - 1.0) > UNITY_GAIN_TOLERANCE:
+            yield Contradiction(
+                ("numerator",),
+                f"the gain at rest is {gain:.9g}, not 1",
+                "sum of numerator must equal 1 + sum of denominator",
+            )
+
+
+def _stable(a1: float, a2: float, a3: float) -> bool:
+    """Jury's criterion for z3 + a1 z2 + a2 z + a3."""
+    return (
+        abs(a3) < 1.0
+        and 1.0 + a1 + a2 + a3 > 0.0
+        and 1.0 - a1 + a2 - a3 > 0.0
+        and abs(a2 - a1 * a3) < 1.0 - a3 * a3
+    )
+
+
+class Compensation(Part):
+    """The model that computes clamping force from the tank pressure of a module without caliper."""
+
+    folder: ClassVar[str] = "compensations"
+
+    schema_id: Literal["uictest/compensation/1"] = Field(
+        default="uictest/compensation/1",
+        alias="schema",
+        description="What the file holds: uictest/compensation/1.",
+    )
+    sampling_time: Annotated[Quantity, kind("time", above="0 s", at_most="10 ms")] = Field(
+        description="Sampling time of the cylinder dynamics."
+    )
+    linear: Line = Field(description="Force over pressure without hysteresis, used by the setting 'none'.")
+    hysteresis: FourPhaseHysteresis = Field(description="Four-phase hysteresis.")
+    cylinder: CylinderDynamics = Field(description="Tank pressure to cylinder pressure.")
+    provenance: dict[str, str] = Field(
+        default_factory=dict, description="How the numbers were identified, as text by topic."
+    )

@@ -1,0 +1,203 @@
+"""Criteria: bounds on the measures of a stop, when they apply, and how their words are read."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import (
+    AfterValidator,
+    Field,
+    PlainSerializer,
+    PlainValidator,
+    ValidationInfo,
+    WithJsonSchema,
+)
+from pydantic_core import PydanticCustomError
+
+from uictest.scenario.parts.applicability import Applicability
+from uictest.scenario.parts.definition import Definition
+from uictest.scenario.parts.measure_catalogue import MEASURES, Measure
+from uictest.scenario.parts.model import Contradiction, Model, Part
+from uictest.scenario.physical import Physical, written
+from uictest.scenario.quantities import SCENARIO_SOURCE, Quantity
+from uictest.scenario.units import KINDS
+from uictest.scenario.wording import quoted, suggestion
+
+WHEELSETS = 4
+"""Wheelsets of the car."""
+
+
+def _known_measure(name: str) -> str:
+    if name not in MEASURES:
+        context = {"message": f"unknown measure {quoted(name)}", "hint": suggestion(name, MEASURES)}
+        raise PydanticCustomError("measure", "{message}", context)
+    return name
+
+
+def _of_the_measure(given: object, info: ValidationInfo) -> object:
+    # Without a valid measure its kind is not known; the model is refused for that already.
+    measure = MEASURES.get(info.data.get("measure", ""))
+    return given if measure is None else Physical(KINDS[measure.kind]).validate(given)
+
+
+MeasureName = Annotated[
+    str, AfterValidator(_known_measure), WithJsonSchema({"type": "string", "enum": sorted(MEASURES)})
+]
+
+Bound = Annotated[
+    Quantity,
+    PlainValidator(_of_the_measure),
+    PlainSerializer(written),
+    WithJsonSchema({"type": ["string", "number", "object"]}),
+]
+"""A quantity of whatever kind the measure of the criterion is."""
+
+
+class AtLeast(Model):
+    """How many wheelsets must keep the bound."""
+
+    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSETS, strict=True)] = Field(
+        description="A number of wheelsets, or `half` of them (rounded up)."
+    )
+
+
+class Criterion(Model):
+    """One bound on one measure."""
+
+    id: str = Field(
+        pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the criterion in every report."
+    )
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where the demand stands."
+    )
+    clause: str = Field(
+        default="unverified", max_length=200, description="Clause of the source, or `unverified`."
+    )
+    layer: Literal["validity", "requirement"] = Field(
+        description="validity: without it the stop is no test; requirement: without it the stop fails."
+    )
+    applies: Applicability = Field(default=Applicability(), description="The stops the criterion is about.")
+    measure: MeasureName = Field(description="What is measured.")
+    lower: Bound | None = Field(default=None, description="Lower bound; a quantity of the measure's kind.")
+    upper: Bound | None = Field(default=None, description="Upper bound; a quantity of the measure's kind.")
+    strict: bool = Field(
+        default=False, strict=True, description="Whether a value at the bound itself does not pass."
+    )
+    wheelsets: Literal["all", "any"] | AtLeast | None = Field(
+        default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
+    )
+    definition: Definition = Field(
+        default=Definition(), description="How the words of the criterion are read."
+    )
+
+    @property
+    def unit(self) -> str:
+        """The unit value and bounds are printed in."""
+        return self._measured.unit
+
+    @property
+    def meaning(self) -> str:
+        """What is measured, in words."""
+        return self._measured.meaning
+
+    @property
+    def observed_by(self) -> tuple[str, ...]:
+        """The fields of the scenario's `measures` part that decide what was observed."""
+        return self._measured.observed_by
+
+    @property
+    def aggregation(self) -> str:
+        """Which wheelsets must keep the bounds, in words; empty for a measure of the stop."""
+        if isinstance(self.wheelsets, AtLeast):
+            return f"at least {self.wheelsets.at_least}"
+        return self.wheelsets or ""
+
+    def wheelsets_needed(self, count: int) -> int:
+        """Return how many of `count` values must keep the bounds (1 for a measure of the stop)."""
+        if isinstance(self.wheelsets, AtLeast):
+            return (count + 1) // 2 if self.wheelsets.at_least == "half" else self.wheelsets.at_least
+        return count if self.wheelsets == "all" else 1
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield missing or crossed bounds, a wrong aggregation, definitions missing or of no use."""
+        yield from self._bounds_that_bound_nothing()
+        yield from self._aggregation_that_does_not_fit()
+        yield from self._definitions_that_do_not_fit()
+
+    @property
+    def _measured(self) -> Measure:
+        return MEASURES[self.measure]
+
+    def _bounds_that_bound_nothing(self) -> Iterator[Contradiction]:
+        if self.lower is None and self.upper is None:
+            yield Contradiction(
+                (), f"criterion {quoted(self.id)} has no bound", "write 'lower', 'upper' or both"
+            )
+        elif self.lower is not None and self.upper is not None and self.lower > self.upper:
+            yield Contradiction(
+                ("lower",), f"the lower bound {self.lower.text} is above the upper bound {self.upper.text}"
+            )
+
+    def _aggregation_that_does_not_fit(self) -> Iterator[Contradiction]:
+        if self._measured.of_wheelsets and self.wheelsets is None:
+            yield Contradiction(
+                (),
+                f"{quoted(self.measure)} has a value per wheelset: 'wheelsets' must say how many keep it",
+                "write 'wheelsets: all', 'wheelsets: any' or 'wheelsets: {at_least: half}'",
+            )
+        if not self._measured.of_wheelsets and self.wheelsets is not None:
+            yield Contradiction(
+                ("wheelsets",), f"{quoted(self.measure)} is a measure of the whole stop, not of wheelsets"
+            )
+
+    def _definitions_that_do_not_fit(self) -> Iterator[Contradiction]:
+        needed, given = self._measured.definitions, self.definition.parameters()
+        for name in needed:
+            if name not in given:
+                yield Contradiction(
+                    (),
+                    f"{quoted(self.measure)} rests on {quoted(name)}, which is not defined",
+                    "write it under 'definition'",
+                )
+        for name in given:
+            if name not in needed:
+                yield Contradiction(
+                    ("definition", name), f"{quoted(self.measure)} does not rest on {quoted(name)}"
+                )
+
+
+class Criteria(Part):
+    """A profile: criteria that belong together."""
+
+    folder: ClassVar[str] = "criteria"
+
+    schema_id: Literal["uictest/criteria/1"] = Field(
+        default="uictest/criteria/1", alias="schema", description="What the file holds: uictest/criteria/1."
+    )
+    # Not min_length: pydantic would also call a list too short all of whose criteria are wrong.
+    criteria: tuple[Criterion, ...] = Field(
+        description="The criteria, judged in this order.", json_schema_extra={"minItems": 1}
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield sources that are not described and criteria of the same name."""
+        yield from super().contradictions()
+        yield from self._undescribed_sources()
+        if not self.criteria:
+            yield Contradiction(("criteria",), "the profile has no criterion", "write at least one")
+        seen: set[str] = set()
+        for index, criterion in enumerate(self.criteria):
+            if criterion.id in seen:
+                yield Contradiction(
+                    ("criteria", index, "id"), f"a second criterion is called {quoted(criterion.id)}"
+                )
+            seen.add(criterion.id)
+
+    def _undescribed_sources(self) -> Iterator[Contradiction]:
+        for index, criterion in enumerate(self.criteria):
+            if criterion.source not in {SCENARIO_SOURCE, *self.sources}:
+                yield Contradiction(
+                    ("criteria", index, "source"),
+                    f"unknown source {quoted(criterion.source)}",
+                    suggestion(criterion.source, self.sources) or "describe it under 'sources'",
+                )

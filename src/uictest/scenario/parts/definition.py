@@ -1,0 +1,112 @@
+"""How the words of a criterion are read: each definition, the value used and the range it might have had."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar
+
+from pydantic import BeforeValidator, Field
+
+from uictest.scenario.parts.model import Contradiction, Model
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import SCENARIO_SOURCE, Quantity
+
+
+def _marked_throughout(given: object) -> object:
+    """Give the source that a definition names to each of its numbers."""
+    if not (isinstance(given, dict) and isinstance(given.get("source"), str)):
+        return given
+    marked, source = {**given}, given["source"]
+    if "value" in given:
+        marked["value"] = _marked(given["value"], source)
+    if isinstance(given.get("range"), list | tuple):
+        marked["range"] = tuple(_marked(end, source) for end in given["range"])
+    return marked
+
+
+def _marked(given: object, source: str) -> object:
+    return given if isinstance(given, dict | Quantity) else {"value": given, "source": source}
+
+
+def _range_contradictions(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Contradiction]:
+    """Yield a range that does not rise or does not hold the value."""
+    lower, upper = ends
+    if lower > upper:
+        yield Contradiction(("range",), f"the range falls from {lower.text} to {upper.text}")
+    elif not lower <= value <= upper:
+        yield Contradiction(
+            ("value",), f"{value.text} is outside its own range of {lower.text} to {upper.text}"
+        )
+
+
+_Duration = Annotated[Quantity, kind("time", above="0 s", at_most="10 s")]
+_Cutoff = Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="200 km/h")]
+
+
+class FirstPhaseDuration(Model):
+    """How long the first phase of braking lasts, from the first sliding of any wheelset."""
+
+    unit: ClassVar[str] = "s"
+    step: ClassVar[float | None] = None
+
+    value: _Duration = Field(description="Duration used.")
+    range: tuple[_Duration, _Duration] = Field(
+        description="Shortest and longest duration the words could mean."
+    )
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a range that does not rise or does not hold the value."""
+        yield from _range_contradictions(self.value, self.range)
+
+
+class LowSpeedCutoff(Model):
+    """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
+
+    unit: ClassVar[str] = "km/h"
+    step: ClassVar[float | None] = 10.0 / 3.6
+
+    value: _Cutoff = Field(description="Cut-off used.")
+    range: tuple[_Cutoff, _Cutoff] = Field(description="Lowest and highest cut-off the words could mean.")
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
+    )
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield every cut-off between two classes, then what is wrong with the range."""
+        for key, cutoff in (
+            (("value",), self.value),
+            (("range", 0), self.range[0]),
+            (("range", 1), self.range[1]),
+        ):
+            if round(cutoff * 3.6, 6) % 10.0:
+                yield Contradiction(
+                    key, f"{cutoff.text} is no multiple of 10 km/h", "slides are kept in such classes"
+                )
+        yield from _range_contradictions(self.value, self.range)
+
+
+Parameter = FirstPhaseDuration | LowSpeedCutoff
+"""One definition a criterion rests on: the value used, and the range it might as well have had.
+
+`unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is continuous.
+"""
+
+
+class Definition(Model):
+    """The definitions a criterion rests on; each measure says which it needs."""
+
+    first_phase_duration: Annotated[FirstPhaseDuration, BeforeValidator(_marked_throughout)] | None = Field(
+        default=None, description="First phase of braking, counted from the first sliding."
+    )
+    low_speed_cutoff: Annotated[LowSpeedCutoff, BeforeValidator(_marked_throughout)] | None = Field(
+        default=None, description="Speed down to which slides count."
+    )
+
+    def parameters(self) -> dict[str, Parameter]:
+        """Return the definitions that are given, by name."""
+        return {name: value for name, value in self if isinstance(value, FirstPhaseDuration | LowSpeedCutoff)}
+
+    def stated(self) -> dict[str, float]:
+        """Return the SI value used of each definition that is given."""
+        return {name: float(parameter.value) for name, parameter in self.parameters().items()}

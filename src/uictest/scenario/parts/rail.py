@@ -1,0 +1,58 @@
+"""The rail condition: the parameters of the adhesion law (Polach 2005) and of the contact."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Contradiction, Part, Section
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+Friction = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
+Share = Annotated[Quantity, kind("number", above="0", at_most="1")]
+SemiAxis = Annotated[Quantity, kind("length", above="0 mm", at_most="50 mm")]
+
+
+class Contact(Section):
+    """The contact ellipse of one wheel at its reference load; it grows with load as Hertz says."""
+
+    semi_axis_longitudinal: SemiAxis = Field(description="Semi-axis a along the track.")
+    semi_axis_lateral: SemiAxis = Field(description="Semi-axis b across the track.")
+    shear_modulus: Annotated[Quantity, kind("pressure", at_least="1e9 Pa", at_most="1e12 Pa")] = Field(
+        description="Shear modulus G of wheel and rail."
+    )
+    kalker_coefficient: Annotated[Quantity, kind("number", above="0", at_most="20")] = Field(
+        description="Kalker's longitudinal creepage coefficient c11."
+    )
+    reference_wheel_load: Annotated[Quantity, kind("force", above="0 N", at_most="500 kN")] = Field(
+        description="Wheel load at which the semi-axes hold."
+    )
+
+
+class RailCondition(Part):
+    """A condition of the rail surface."""
+
+    folder: ClassVar[str] = "rails"
+
+    schema_id: Literal["uictest/rail/1"] = Field(
+        default="uictest/rail/1", alias="schema", description="What the file holds: uictest/rail/1."
+    )
+    friction: Friction = Field(description="Initial friction coefficient mu0, at zero slip speed.")
+    friction_ratio: Share = Field(description="A: friction at infinite slip speed over mu0.")
+    friction_decay: Annotated[Quantity, kind("inverse speed", at_least="0 s/m", at_most="100 s/m")] = Field(
+        description="B: how fast friction falls with slip speed."
+    )
+    reduction_adhesion: Share = Field(description="kA: reduction of the creep slope in the area of adhesion.")
+    reduction_slip: Share = Field(description="kS: reduction of the creep slope in the area of slip.")
+    contact: Contact = Field(description="The contact of one wheel.")
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield reduction factors in the wrong order."""
+        yield from super().contradictions()
+        if self.reduction_slip > self.reduction_adhesion:
+            yield Contradiction(
+                ("reduction_slip",),
+                f"kS = {self.reduction_slip.text} exceeds kA = {self.reduction_adhesion.text}",
+                "the law needs reduction_slip <= reduction_adhesion <= 1",
+            )

@@ -1,0 +1,76 @@
+"""The sensors: what the controller and the records see of the rig."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Part, Section
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+ErrorShare = Annotated[Quantity, kind("share", at_least="-50 %", at_most="50 %")]
+NoiseShare = Annotated[Quantity, kind("share", at_least="0 %", at_most="50 %")]
+
+
+class SpeedSensor(Section):
+    """A toothed wheel on the axle; speed from the time between teeth."""
+
+    teeth: Annotated[Quantity, kind("count", at_least="1", at_most="1000")] = Field(
+        description="Teeth of the wheel."
+    )
+    timer_resolution: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 ms")] = Field(
+        description="Resolution of the timer between teeth."
+    )
+    minimum_speed: Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
+        description="Wheel speed below which the sensor reads zero."
+    )
+    noise: NoiseShare = Field(description="Standard deviation of the noise as a share of the reading.")
+
+
+class PressureSensor(Section):
+    """A pressure sensor of a tank or of the reservoir."""
+
+    range: Annotated[Quantity, kind("pressure", above="0 bar", at_most="100 bar")] = Field(
+        description="Highest gauge pressure it reads."
+    )
+    gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
+    offset: Annotated[Quantity, kind("pressure", at_least="-1 bar", at_most="1 bar")] = Field(
+        description="Reading at zero gauge pressure."
+    )
+    noise: Annotated[Quantity, kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
+        description="Standard deviation of the noise."
+    )
+    resolution: Annotated[Quantity, kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
+        description="Smallest step of the reading."
+    )
+
+
+class Loadcell(Section):
+    """One of the loadcells between pad and disc."""
+
+    range: Annotated[Quantity, kind("force", above="0 N", at_most="1000 kN")] = Field(
+        description="Highest force it reads."
+    )
+    gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
+    offset: Annotated[Quantity, kind("force", at_least="-10 kN", at_most="10 kN")] = Field(
+        description="Reading without force."
+    )
+    noise: Annotated[Quantity, kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
+        description="Standard deviation of the noise."
+    )
+    resolution: Annotated[Quantity, kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
+        description="Smallest step of the reading."
+    )
+
+
+class Sensors(Part):
+    """The sensors of the rig."""
+
+    folder: ClassVar[str] = "sensors"
+
+    schema_id: Literal["uictest/sensors/1"] = Field(
+        default="uictest/sensors/1", alias="schema", description="What the file holds: uictest/sensors/1."
+    )
+    speed: SpeedSensor = Field(description="Speed sensor of a wheelset.")
+    pressure: PressureSensor = Field(description="Pressure sensors.")
+    loadcell: Loadcell = Field(description="Loadcells between pad and disc.")

@@ -1,0 +1,131 @@
+"""The vehicle: one car on two bogies and four wheelsets, in the vertical plane along the track."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.scenario.parts.model import Contradiction, Part, Section
+from uictest.scenario.physical import kind
+from uictest.scenario.quantities import Quantity
+
+Height = Annotated[Quantity, kind("length", above="0 m", at_most="5 m")]
+Inertia = Annotated[Quantity, kind("inertia", above="0 kg m2", at_most="1e8 kg m2")]
+Mass = Annotated[Quantity, kind("mass", above="0 kg", at_most="500 t")]
+Stiffness = Annotated[Quantity, kind("stiffness", above="0 N/m", at_most="1e10 N/m")]
+Damping = Annotated[Quantity, kind("damping", at_least="0 N s/m", at_most="1e8 N s/m")]
+
+
+class Body(Section):
+    """The car body."""
+
+    mass: Mass = Field(description="Mass of the car body, loaded as tested.")
+    pitch_inertia: Inertia = Field(description="Moment of inertia in pitch about the centre of gravity.")
+    height: Height = Field(description="Height of the centre of gravity above the rail.")
+
+
+class Bogie(Section):
+    """One of the two bogies, without its wheelsets."""
+
+    mass: Mass = Field(description="Mass of one bogie without wheelsets.")
+    pitch_inertia: Inertia = Field(description="Moment of inertia in pitch about the centre of gravity.")
+    height: Height = Field(description="Height of the centre of gravity above the rail.")
+    half_wheelbase: Annotated[Quantity, kind("length", above="0.3 m", at_most="5 m")] = Field(
+        description="Half the distance between the axles of a bogie."
+    )
+
+
+class Wheelset(Section):
+    """One of the four wheelsets, with its brake discs."""
+
+    mass: Mass = Field(description="Mass of one wheelset with axle boxes.")
+    rotational_inertia: Inertia = Field(description="Moment of inertia about the axle.")
+    radius: Annotated[Quantity, kind("length", above="0.1 m", at_most="1 m")] = Field(
+        description="Rolling radius."
+    )
+
+
+class PrimarySuspension(Section):
+    """Springs and dampers between axle box and bogie frame, per axle box."""
+
+    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per axle box.")
+    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per axle box.")
+    longitudinal_damping: Damping = Field(description="Longitudinal damping per axle box.")
+    vertical_damping: Damping = Field(description="Vertical damping per axle box.")
+
+
+class SecondarySuspension(Section):
+    """Springs and dampers between bogie and body, per side of a bogie."""
+
+    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per side of a bogie.")
+    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per side of a bogie.")
+    longitudinal_damping: Damping = Field(description="Longitudinal damping per side of a bogie.")
+    vertical_damping: Damping = Field(description="Vertical damping per side of a bogie.")
+    height: Height = Field(description="Height above the rail at which the longitudinal force acts.")
+
+
+class TractionLink(Section):
+    """The rod that carries longitudinal force between a bogie and the body."""
+
+    stiffness: Stiffness = Field(description="Longitudinal stiffness of the link of one bogie.")
+    damping: Damping = Field(description="Longitudinal damping of the link of one bogie.")
+    height: Height = Field(description="Height of the link above the rail.")
+
+
+class RunningResistance(Section):
+    """Resistance of the whole car: constant + linear v + quadratic v2."""
+
+    constant: Annotated[Quantity, kind("force", at_least="0 N", at_most="100 kN")] = Field(
+        description="Part that does not depend on speed."
+    )
+    linear: Annotated[Quantity, kind("damping", at_least="0 N s/m", at_most="10 kN s/m")] = Field(
+        description="Part that grows with speed."
+    )
+    quadratic: Annotated[
+        Quantity, kind("quadratic resistance", at_least="0 N s2/m2", at_most="1000 N s2/m2")
+    ] = Field(description="Part that grows with the square of speed (air drag).")
+
+
+class Vehicle(Part):
+    """A car of two bogies and four wheelsets."""
+
+    folder: ClassVar[str] = "vehicles"
+
+    schema_id: Literal["uictest/vehicle/1"] = Field(
+        default="uictest/vehicle/1", alias="schema", description="What the file holds: uictest/vehicle/1."
+    )
+    body: Body = Field(description="The car body.")
+    bogie: Bogie = Field(description="One bogie; both are alike.")
+    half_pivot_distance: Annotated[Quantity, kind("length", above="0.5 m", at_most="20 m")] = Field(
+        description="Half the distance between the bogie pivots."
+    )
+    wheelset: Wheelset = Field(description="One wheelset; all four are alike.")
+    primary: PrimarySuspension = Field(description="Primary suspension, per axle box.")
+    secondary: SecondarySuspension = Field(description="Secondary suspension, per side of a bogie.")
+    traction_link: TractionLink = Field(description="Traction rod between bogie and body, one per bogie.")
+    running_resistance: RunningResistance = Field(description="Running resistance of the whole car.")
+
+    @property
+    def total_mass(self) -> float:
+        """Mass of the car, kg."""
+        return self.body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield what cannot be built: wheels or bogies that overlap, more inertia than the mass allows."""
+        yield from super().contradictions()
+        if self.bogie.half_wheelbase <= self.wheelset.radius:
+            yield Contradiction(
+                ("bogie", "half_wheelbase"),
+                "the wheels of a bogie overlap: half_wheelbase must exceed wheelset.radius",
+            )
+        if self.half_pivot_distance <= self.bogie.half_wheelbase + self.wheelset.radius:
+            yield Contradiction(
+                ("half_pivot_distance",),
+                "the bogies overlap: it must exceed bogie.half_wheelbase + wheelset.radius",
+            )
+        if self.wheelset.rotational_inertia > self.wheelset.mass * self.wheelset.radius**2:
+            yield Contradiction(
+                ("wheelset", "rotational_inertia"),
+                "no wheelset of this mass and radius has this inertia",
+                f"at most mass x radius2 = {self.wheelset.mass * self.wheelset.radius**2:.4g} kg m2",
+            )

@@ -1,0 +1,138 @@
+"""Physical quantities: a number in an SI unit that remembers how it was written and where it comes from."""
+
+import math
+import re
+from fractions import Fraction
+from typing import Final, Self
+
+from uictest.scenario.units import KINDS, Kind
+from uictest.scenario.wording import nearest, quoted
+
+SCENARIO_SOURCE: Final = "scenario"
+"""Source of a number that a user wrote in a scenario."""
+DEFAULT_SOURCE: Final = "default"
+"""Source of a number that nobody wrote: the default of a field."""
+
+# Bounded digits and exponent: an exact fraction of 1e999999999 would fill the memory.
+NUMBER_PATTERN: Final = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
+_WRITTEN = re.compile(rf"\s*({NUMBER_PATTERN})(?![0-9.])\s*(\S.*)?", re.DOTALL)
+_NOT_FINITE = re.compile(r"\s*[-+]?\.?(?:nan|inf|infinity)\b", re.IGNORECASE)
+_DECIMAL_COMMA = re.compile(r"\s*[-+]?[0-9]+,[0-9]+")
+
+
+class Quantity(float):
+    """A float in its canonical SI unit.
+
+    ``text`` is the value as written, ``unit`` the canonical unit, ``source`` a key of the part's ``sources``
+    or ``"scenario"`` or ``"default"``.
+    """
+
+    __slots__ = ("source", "text", "unit")
+
+    text: str
+    unit: str
+    source: str
+
+    def __new__(cls, value: float, text: str, unit: str, source: str = SCENARIO_SOURCE) -> Self:
+        """A quantity of ``value`` in the canonical ``unit``, written as ``text``."""
+        quantity = super().__new__(cls, value)
+        quantity.text = text
+        quantity.unit = unit
+        quantity.source = source
+        return quantity
+
+    def __getnewargs__(self) -> tuple[float, str, str, str]:  # type: ignore[override]
+        return float(self), self.text, self.unit, self.source
+
+
+class QuantityError(ValueError):
+    """A text that is not a quantity of the kind asked for; ``hint`` says what would be accepted."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+def parse_quantity(text: str, kind: str, source: str = SCENARIO_SOURCE) -> Quantity:
+    """Read ``text`` (number and unit, blanks between them optional) as a quantity of the named kind.
+
+    Raises QuantityError when it is not one.
+    """
+    accepted = KINDS[kind]
+    number, symbol = _split(text, accepted)
+    value = _canonical(number, symbol, accepted, text)
+    if not math.isfinite(value):
+        raise QuantityError(f"{quoted(text)} is not a finite number")
+    return Quantity(value, text.strip(), accepted.canonical, source)
+
+
+def _split(text: str, kind: Kind) -> tuple[Fraction, str]:
+    match = _WRITTEN.fullmatch(text)
+    if match is None or _DECIMAL_COMMA.match(text):
+        raise _not_a_number(text, kind)
+    return Fraction(match[1]), " ".join((match[2] or "").split())
+
+
+def _not_a_number(text: str, kind: Kind) -> QuantityError:
+    if _NOT_FINITE.match(text):
+        return QuantityError(f"{quoted(text)} is not a finite number", f"write {example(kind)}")
+    if _DECIMAL_COMMA.match(text):
+        return QuantityError(
+            f"{quoted(text)} is not a number", f"write {quoted(text.replace(',', '.'))}, with a decimal point"
+        )
+    return QuantityError(f"{quoted(text)} is not {described(kind)}", f"write {example(kind)}")
+
+
+def _canonical(number: Fraction, symbol: str, kind: Kind, text: str) -> float:
+    if kind.bare:
+        if symbol:
+            raise QuantityError(
+                f"{quoted(text)} has a unit where a bare number belongs", f"write {float(number):g}"
+            )
+        return _as_float(number)
+    if not symbol:
+        raise QuantityError(f"{quoted(text)} has no unit", _hint_for_bare(text, number, kind))
+    unit = kind.units.get(symbol)
+    if unit is None:
+        raise QuantityError(
+            f"unknown unit {quoted(symbol)} for {described(kind)}", _hint_for_unit(symbol, kind)
+        )
+    return _as_float(number * unit.factor + unit.offset)
+
+
+def _as_float(number: Fraction) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf
+
+
+def _hint_for_bare(text: str, number: Fraction, kind: Kind) -> str:
+    first, *others = kind.units.values()
+    choices = [f"{text.strip()} {first.symbol}"]
+    for other in others[:1]:
+        converted = _as_float((number * first.factor + first.offset - other.offset) / other.factor)
+        choices.append(f"{converted:.4g} {other.symbol}")
+    return "write " + " or ".join(choices)
+
+
+def _hint_for_unit(symbol: str, kind: Kind) -> str:
+    accepted = "accepted: " + ", ".join(kind.units)
+    guess = nearest(symbol, kind.units)
+    return f"did you mean {quoted(guess)}? {accepted}" if guess else accepted
+
+
+def described(kind: Kind) -> str:
+    """What a quantity of this kind is called in a message."""
+    if kind.bare:
+        return "a whole number" if kind.name == "count" else "a number"
+    article = "an" if kind.name[0] in "aeiou" else "a"
+    return f"{article} {kind.name}"
+
+
+def example(kind: Kind) -> str:
+    """A short text saying how a quantity of this kind is written."""
+    if kind.bare:
+        return "a bare number such as 4" if kind.name == "count" else "a bare number such as 0.1"
+    return f"a number with a unit ({', '.join(kind.units)})"

@@ -1,0 +1,155 @@
+"""References to parts: a library name, a relative path, or an inline mapping that may extend either."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path, PureWindowsPath
+from typing import Any, Final
+
+from uictest import library
+from uictest.scenario.diagnostics import refusal
+from uictest.scenario.inheritance import inherit
+from uictest.scenario.model_keys import models_in
+from uictest.scenario.parts.model import Key
+from uictest.scenario.reading import is_file, read_file, read_library
+from uictest.scenario.tree import Document, Map, Node, Scalar, describe, plain
+from uictest.scenario.validation import validated
+from uictest.scenario.wording import nearest, quoted, suggestion
+
+KIND_OF_FOLDER: Final = {
+    "brakes": "brake",
+    "calipers": "caliper",
+    "compensations": "compensation",
+    "controllers": "controller",
+    "criteria": "criteria",
+    "measures": "measures",
+    "rails": "rail",
+    "sensors": "sensors",
+    "vehicles": "vehicle",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """A part and the documents it was made of."""
+
+    part: Any
+    documents: tuple[Document, ...]
+
+
+class Files:
+    """Every file that is read in one go, read once."""
+
+    def __init__(self) -> None:
+        self._trees: dict[str, Map] = {}
+
+    def at(self, path: Path) -> Map:
+        """The tree of the file at ``path``."""
+        return self._once(str(path), partial(read_file, path))
+
+    def in_library(self, folder: str, name: str) -> Map:
+        """The tree of a library file."""
+        return self._once(f"library:{folder}/{name}", partial(read_library, folder, name))
+
+    def beside(self, reference: Scalar, key: str) -> Map:
+        """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
+        name = reference.text
+        if Path(name).is_absolute() or PureWindowsPath(name).is_absolute():
+            hint = "write it relative to the file that names it, so that it holds on every machine"
+            raise refusal(reference.place, f"{quoted(name)} is an absolute path", key, hint)
+        path = reference.place.document.folder / name
+        if not is_file(path):
+            raise refusal(reference.place, f"no such file: {quoted(name)}", key, _nearest_file(path))
+        return self.at(path)
+
+    def _once(self, name: str, read: Callable[[], Map]) -> Map:
+        if name not in self._trees:
+            self._trees[name] = read()
+        return self._trees[name]
+
+
+def _nearest_file(path: Path) -> str:
+    try:
+        guess = nearest(path.name, (each.name for each in path.parent.iterdir()))
+    except (OSError, ValueError):
+        return "paths start at the folder of the file that names them"
+    return (
+        f"did you mean {quoted(guess)}?" if guess else "paths start at the folder of the file that names them"
+    )
+
+
+class Parts:
+    """Resolves references to parts; a part that is referred to again is not read again."""
+
+    def __init__(self, files: Files) -> None:
+        self._files = files
+        self._by_name: dict[tuple[str, str], Resolved] = {}
+        # Keyed by identity; the node is kept beside the part so that its identity stays taken.
+        self._inline: dict[int, tuple[Node, Resolved]] = {}
+
+    def resolve(self, node: Node, model: Any, key: Key) -> Resolved:
+        """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
+        dotted = ".".join(map(str, key))
+        if isinstance(node, Map):
+            return self._resolve_inline(node, model, key)
+        if not isinstance(node, Scalar) or not isinstance(node.value, str):
+            message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
+            raise refusal(node.place, message, dotted)
+        if is_path(node.text):
+            return self._made(self._fetch(node, model, dotted), model, (), dotted)
+        name = (folder_of(model), node.text)
+        if name not in self._by_name:
+            self._by_name[name] = self._made(self._fetch(node, model, dotted), model, (), dotted)
+        return self._by_name[name]
+
+    def _resolve_inline(self, node: Map, model: Any, key: Key) -> Resolved:
+        if id(node) not in self._inline:
+            self._inline[id(node)] = (node, self._made(node, model, key, ".".join(map(str, key))))
+        return self._inline[id(node)][1]
+
+    def _made(self, tree: Map, model: Any, key: Key, dotted: str) -> Resolved:
+        merged, documents = inherit(
+            tree, lambda reference: self._fetch(reference, model, f"{dotted}.extends")
+        )
+        return Resolved(validated(model, plain(merged), merged, key), documents)
+
+    def _fetch(self, reference: Scalar, model: Any, dotted: str) -> Map:
+        folder = folder_of(model)
+        if is_path(reference.text):
+            tree = self._files.beside(reference, dotted)
+        else:
+            _refuse_unknown_name(reference, folder, dotted)
+            tree = self._files.in_library(folder, reference.text)
+        _refuse_other_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
+        return tree
+
+
+def folder_of(model: Any) -> str:
+    """The folder of the library that holds parts of this type."""
+    folder: str = models_in(model)[0].folder
+    return folder
+
+
+def is_path(reference: str) -> bool:
+    """Whether a reference is a path rather than a library name."""
+    return reference.endswith((".yaml", ".yml"))
+
+
+def _refuse_unknown_name(reference: Scalar, folder: str, dotted: str) -> None:
+    if reference.text in library.names(folder):
+        return
+    hint = suggestion(reference.text, library.names(folder))
+    if "/" in reference.text or "\\" in reference.text:
+        hint = "a path ends in .yaml; " + hint
+    raise refusal(
+        reference.place, f"no {KIND_OF_FOLDER[folder]} {quoted(reference.text)} in the library", dotted, hint
+    )
+
+
+def _refuse_other_schema(tree: Map, expected: str) -> None:
+    schema = tree.get("schema")
+    if schema is None:
+        raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {expected}`")
+    if not isinstance(schema, Scalar) or schema.value != expected:
+        found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        raise refusal(schema.place, f"expected {expected}, found {found}", "schema")

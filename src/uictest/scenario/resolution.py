@@ -1,0 +1,78 @@
+"""The tree of one case to its scenario: parts in place of references, everything checked."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, refusal
+from uictest.scenario.model import Scenario
+from uictest.scenario.part_keys import PART_KEYS, part_nodes
+from uictest.scenario.parts.model import Key
+from uictest.scenario.references import Parts, Resolved
+from uictest.scenario.tree import Document, Map, Node, plain
+from uictest.scenario.tree import Sequence as List
+from uictest.scenario.validation import dotted, validated
+
+
+def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
+    """The scenario and the documents its parts came from.
+
+    Raises ScenarioErrors; errors in parts and errors in the scenario do not hide each other.
+    """
+    data: dict[str, Any] = plain(tree)
+    found: list[Diagnostic] = []
+    failed: set[str] = set()
+    documents: list[Document] = []
+    for key, node in part_nodes(tree):
+        try:
+            _put(data, key, _part(parts, key, node, documents))
+        except ScenarioErrors as errors:
+            found.extend(errors.diagnostics)
+            failed.add(dotted(key))
+            _leave_out(data, key)
+    try:
+        scenario = validated(Scenario, data, tree)
+    except ScenarioErrors as errors:
+        found.extend(each for each in errors.diagnostics if each.key not in failed)
+    if found:
+        raise ScenarioErrors(found)
+    return scenario, tuple(documents)
+
+
+def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
+    """The part, or the tuple of parts, that stands at ``key``."""
+    reference = PART_KEYS[key]
+    nodes = node.items if reference.several and isinstance(node, List) else (node,)
+    if not nodes:
+        raise refusal(node.place, "an empty list", dotted(key), "name at least one")
+    listed = nodes[0] is not node
+    resolved = _each(parts, reference.model, key, nodes, listed=listed)
+    documents.extend(document for each in resolved for document in each.documents)
+    return tuple(each.part for each in resolved) if reference.several else resolved[0].part
+
+
+def _each(parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool) -> list[Resolved]:
+    """Every reference resolved; the errors of all of them are told."""
+    resolved: list[Resolved] = []
+    found: list[Diagnostic] = []
+    for number, node in enumerate(nodes):
+        try:
+            resolved.append(parts.resolve(node, model, (*key, number) if listed else key))
+        except ScenarioErrors as errors:
+            found.extend(errors.diagnostics)
+    if found:
+        raise ScenarioErrors(found)
+    return resolved
+
+
+def _put(data: dict[str, Any], key: Key, part: Any) -> None:
+    _mapping_of(data, key)[str(key[-1])] = part
+
+
+def _leave_out(data: dict[str, Any], key: Key) -> None:
+    del _mapping_of(data, key)[str(key[-1])]
+
+
+def _mapping_of(data: dict[str, Any], key: Key) -> dict[str, Any]:
+    for element in key[:-1]:
+        data = data[str(element)]
+    return data

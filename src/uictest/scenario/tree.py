@@ -1,0 +1,167 @@
+"""What a YAML file says, with the place of every key and value; changed by copying, never in place."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+# libyaml counts these as line breaks, so excerpts must too.
+_LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """One text that was read: a file, a library file, or an option of the command line."""
+
+    display: str
+    """Name shown in messages."""
+    folder: Path
+    """Where relative paths inside it start."""
+    text: str
+    sha256: str = ""
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """The lines of the text as YAML counts them."""
+        return _LINE_BREAK.split(self.text)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A position in a document, counted from one."""
+
+    document: Document
+    line: int = 1
+    column: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A single value; ``text`` is what the file says."""
+
+    value: str | int | float | bool | None
+    text: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A list."""
+
+    items: tuple["Node", ...]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A value with the place of its key."""
+
+    key: Place
+    node: "Node"
+
+
+@dataclass(frozen=True, slots=True)
+class Map:
+    """A mapping."""
+
+    entries: Mapping[str, Entry]
+    place: Place
+
+    def get(self, key: str) -> "Node | None":
+        """The value at ``key``."""
+        entry = self.entries.get(key)
+        return None if entry is None else entry.node
+
+    def with_entry(self, key: str, entry: Entry) -> "Map":
+        """A copy in which ``key`` has another value."""
+        return replace(self, entries={**self.entries, key: entry})
+
+    def without(self, *keys: str) -> "Map":
+        """A copy without ``keys``."""
+        return replace(self, entries={key: entry for key, entry in self.entries.items() if key not in keys})
+
+
+Node = Scalar | Sequence | Map
+
+
+class WrittenFloat(float):
+    """A float that remembers its digits as written."""
+
+    __slots__ = ("text",)
+    text: str
+
+
+def plain(node: Node) -> Any:
+    """The node as Python data: str, int, WrittenFloat, bool, None, tuple and dict."""
+    if isinstance(node, Map):
+        return {key: plain(entry.node) for key, entry in node.entries.items()}
+    if isinstance(node, Sequence):
+        return tuple(plain(item) for item in node.items)
+    if isinstance(node.value, float):
+        number = WrittenFloat(node.value)
+        number.text = node.text
+        return number
+    return node.value
+
+
+def as_written(node: Node) -> str:
+    """The node in one line, as a flow of YAML."""
+    if isinstance(node, Map):
+        return (
+            "{" + ", ".join(f"{key}: {as_written(entry.node)}" for key, entry in node.entries.items()) + "}"
+        )
+    if isinstance(node, Sequence):
+        return "[" + ", ".join(map(as_written, node.items)) + "]"
+    return node.text
+
+
+def describe(node: Node) -> str:
+    """What sort of node this is, in the words of a message."""
+    if isinstance(node, Map):
+        return "a mapping"
+    if isinstance(node, Sequence):
+        return "a list"
+    if node.value is None:
+        return "nothing"
+    names: dict[type, str] = {bool: "true or false", str: "a text"}
+    return names.get(type(node.value), "a number")
+
+
+def merge(parent: Node, child: Node) -> Node:
+    """``child`` laid over ``parent``: maps merge, everything else is replaced by the child's."""
+    if not isinstance(parent, Map) or not isinstance(child, Map) or _is_marked(parent) or _is_marked(child):
+        return child
+    entries = dict(parent.entries)
+    for key, entry in child.entries.items():
+        below = entries.get(key)
+        entries[key] = entry if below is None else Entry(entry.key, merge(below.node, entry.node))
+    return Map(entries, child.place)
+
+
+def _is_marked(node: Map) -> bool:
+    # A number with its source is one value: a changed number must not keep the source of the old one.
+    return "value" in node.entries
+
+
+def entry_at(node: Node, key: tuple[str | int, ...]) -> tuple[Entry, int]:
+    """The entry nearest to ``key`` and how many elements of the key lead to it.
+
+    Elements that name nothing are passed over: a validator's location has tags for members of unions.
+    """
+    entry, depth = Entry(node.place, node), 0
+    for count, element in enumerate(key, start=1):
+        inner = _child(entry.node, element)
+        if inner is not None:
+            entry, depth = inner, count
+    return entry, depth
+
+
+def _child(node: Node, element: str | int) -> Entry | None:
+    if isinstance(node, Map) and isinstance(element, str):
+        return node.entries.get(element)
+    if isinstance(node, Sequence) and isinstance(element, int) and 0 <= element < len(node.items):
+        item = node.items[element]
+        return Entry(item.place, item)
+    return None

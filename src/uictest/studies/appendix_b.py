@@ -1,0 +1,124 @@
+"""The limits of UIC 541-05 Appendix B: a dry stop and a slip-brake test from 120 km/h."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from uictest.studies.figures.appendix_b import draw
+from uictest.studies.laboratory import seeded
+from uictest.studies.quantity import NOT_ASKED, Quantity, Reading, spread
+from uictest.studies.replay import CYCLE
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import KILOMETRE_PER_HOUR, shown
+
+if TYPE_CHECKING:
+    from uictest.evaluation import Verdict
+    from uictest.recording import Recording
+    from uictest.scenario import Case
+    from uictest.studies.laboratory import Laboratory
+
+SEEDS = range(5)
+
+DISTANCES = (440.0, 490.0)
+SLIDE = 35.0
+
+QUANTITIES = (
+    Quantity(
+        "braking_distance",
+        "braking distance, position R, dry",
+        "m",
+        "440-490 m",
+        *DISTANCES,
+        reason="source",
+    ),
+    Quantity(
+        "off_the_middle",
+        "its distance from the middle of the band",
+        "m",
+        NOT_ASKED,
+        upper=15.0,
+        reason="ours: near the middle",
+    ),
+    Quantity(
+        "initial_adhesion",
+        "deceleration in the first phase of the slip-brake test",
+        "g",
+        "below 0.08 g",
+        upper=0.08,
+        below=True,
+        digits=4,
+        reason="source",
+    ),
+    Quantity(
+        "minimum_slide",
+        "slide that half of the wheelsets exceed",
+        "%",
+        "above 35 %",
+        lower=SLIDE,
+        reason="source",
+    ),
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Judge both stops by the shipped profile of Appendix B."""
+    (dry,) = laboratory.cases("dry-120")
+    (slip,) = laboratory.cases("slip-120")
+    distance = _values(laboratory, dry, "braking-distance", [0])[0]
+    dry_stop, slip_stop = laboratory.recordings([dry, slip], CYCLE)
+    return Findings(
+        {
+            "braking_distance": Reading(distance),
+            "off_the_middle": Reading(abs(distance - sum(DISTANCES) / 2.0)),
+            "initial_adhesion": spread(_values(laboratory, slip, "initial-adhesion", SEEDS)),
+            "minimum_slide": spread(_values(laboratory, slip, "minimum-slide", SEEDS)),
+        },
+        tables={"dry-stop": _table(dry_stop), "slip-brake-test": _table(slip_stop)},
+        drawings={"appendix-b": partial(draw, dry_stop, slip_stop, DISTANCES, SLIDE)},
+        notes=(
+            (
+                "The leaflet itself was not available: what the first phase is, and down to which speed "
+                "slides count, are definitions of the profile uic-541-05-appendix-b."
+            ),
+            f"Slip-brake test: {len(SEEDS)} stops that differ in the noise of the sensors, median and range.",
+        ),
+    )
+
+
+def _values(laboratory: Laboratory, case: Case, criterion: str, seeds: range | list[int]) -> list[float]:
+    """Return what a criterion found under every seed, in its own unit; NaN where it does not apply."""
+    from uictest.evaluation import judge
+
+    (repeats,) = laboratory.repeated([case], seeds)
+    found = []
+    for seed, stop in zip(seeds, repeats.stops, strict=True):
+        verdicts = judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
+        found.append(_value(verdicts, criterion))
+    return found
+
+
+def _value(verdicts: list[Verdict], criterion: str) -> float:
+    value = next(verdict.value for verdict in verdicts if verdict.id == criterion)
+    return float("nan") if value is None else value
+
+
+def _table(recording: Recording) -> Table:
+    columns: dict[str, list[float]] = {
+        "time_s": shown(recording["time"], 1.0, 3),
+        "distance_m": shown(recording["distance"], 1.0, 3),
+        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+    }
+    for n in (1, 2, 3, 4):
+        columns[f"wheel_speed_{n}_kmh"] = shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+        columns[f"slide_{n}"] = shown(recording[f"slide_{n}"], 1.0, 4)
+    return columns
+
+
+STUDY = Study(
+    "appendix-b",
+    "UIC 541-05 Appendix B: dry stop and slip-brake test from 120 km/h",
+    "below 0.08 g in the first phase, slide above 35 % on at least half of the wheelsets, 440-490 m",
+    QUANTITIES,
+    conduct,
+)

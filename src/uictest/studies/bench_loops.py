@@ -1,0 +1,77 @@
+"""The caliper alone, the WSP bypassed, under stepwise, triangular and random pressure."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from uictest.studies.figures.bench_loops import draw
+from uictest.studies.phases import lines_of
+from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import BAR, KILONEWTON, shown
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+    from uictest.studies.laboratory import Laboratory
+
+TESTS = ("stepwise", "triangular", "random")
+"""Bench recipes of the library: the kinds of pressure are the source's, levels, rates and times are ours."""
+_EVERY = 20
+"""Steps between two samples in the table."""
+
+QUANTITIES = (
+    Quantity(
+        "loop_width",
+        "width of the loop at high force, triangular pressure",
+        "bar",
+        "about 0.5 bar",
+        lower=0.45,
+        upper=0.55,
+        digits=3,
+        reason="source, within 0.05 bar",
+    ),
+    Quantity("loop_width_stepwise", "the same, stepwise pressure", "bar", digits=3),
+    Quantity("loop_width_random", "the same, random pressure", "bar", digits=3),
+    Quantity("largest_force", "largest clamping force", "kN", digits=2),
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Apply the three pressures to the caliper and find its loop in each."""
+    from uictest.rig.bench_loading import load_bench, recipe_path, run_test
+
+    recipes = [load_bench(recipe_path(name)) for name in TESTS]
+    tests = dict(zip(TESTS, laboratory.each(run_test, recipes), strict=True))
+    found = {name: lines_of(recording) for name, recording in tests.items()}
+    widths = {name: lines.loop_widths["bc"] / BAR for name, lines in found.items()}
+    return Findings(
+        {
+            "loop_width": Reading(widths["triangular"]),
+            "loop_width_stepwise": Reading(widths["stepwise"]),
+            "loop_width_random": Reading(widths["random"]),
+            "largest_force": Reading(found["triangular"].largest_force / KILONEWTON),
+        },
+        tables={name: _table(recording) for name, recording in tests.items()},
+        drawings={"bench-loops": partial(draw, tests, found["triangular"])},
+        notes=("The width is that between the two lines of the loop at nine tenths of the largest force.",),
+    )
+
+
+def _table(recording: Recording) -> Table:
+    part = slice(None, None, _EVERY)
+    return {
+        "time_s": shown(recording["time"][part], 1.0, 3),
+        "demanded_pressure_bar": shown(recording["demanded_pressure"][part], BAR, 4),
+        "measured_pressure_1_bar": shown(recording["measured_pressure_1"][part], BAR, 4),
+        "clamping_force_1_kn": shown(recording["clamping_force_1"][part], KILONEWTON, 4),
+    }
+
+
+STUDY = Study(
+    "bench-loops",
+    "Clamping force against pressure on the bench, three kinds of pressure",
+    "WSP bypassed, no vehicle: force against pressure shows hysteresis, about 0.5 bar wide at high force",
+    QUANTITIES,
+    conduct,
+)

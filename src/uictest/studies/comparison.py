@@ -1,0 +1,78 @@
+"""Source beside here, put into words: the same in the table, the lines and the files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from uictest.studies.quantity import Comparison, Quantity
+    from uictest.studies.study import Conducted, Study, Table
+
+
+def found_text(comparison: Comparison) -> str:
+    """Return the figure as found with its range and unit, e.g. `18.1 (17.9 .. 18.3) s`."""
+    quantity, found = comparison.quantity, comparison.found
+    text = _number(found.value, quantity)
+    if found.low is not None and found.high is not None:
+        text += f" ({_number(found.low, quantity)} .. {_number(found.high, quantity)})"
+    return _with_unit(text, quantity)
+
+
+def band_text(quantity: Quantity) -> str:
+    """Return the band, e.g. `16.5 .. 19 s`, `< 2 %`, `-` where there is none."""
+    if quantity.lower is not None and quantity.upper is not None:
+        return _with_unit(f"{quantity.lower:g} .. {quantity.upper:g}", quantity)
+    if quantity.upper is not None:
+        return _with_unit(f"{'<' if quantity.below else '<='} {quantity.upper:g}", quantity)
+    if quantity.lower is not None:
+        return _with_unit(f">= {quantity.lower:g}", quantity)
+    return "-"
+
+
+def source_text(study: Study) -> str:
+    """Return the sentence that says what the source has on the matter of a study."""
+    if not study.source:
+        return "A study of ours: the source has no figure to set beside it."
+    return f"Figure and table data of the source are not public; its text says: {study.source}."
+
+
+def lines(conducted: Conducted) -> list[str]:
+    """Return a study as lines of text: its name and title, a line for every quantity, the notes."""
+    study = conducted.study
+    shown = [f"{study.name}: {study.title}", f"  {source_text(study)}"]
+    for comparison in conducted.comparisons:
+        quantity = comparison.quantity
+        parts = [f"{quantity.title}: source {quantity.source}", f"here {found_text(comparison)}"]
+        if band_text(quantity) != "-":
+            parts.append(f"band {band_text(quantity)} ({quantity.reason})")
+        shown.append(f"  {comparison.verdict:6}  " + "; ".join(parts))
+    return shown + [f"  {note}" for note in conducted.findings.notes]
+
+
+def comparison_table(conducted: Sequence[Conducted]) -> Table:
+    """Return every comparison of every study as columns."""
+    rows = [(each.study, comparison) for each in conducted for comparison in each.comparisons]
+    quantities = [comparison.quantity for _, comparison in rows]
+    return {
+        "study": [study.name for study, _ in rows],
+        "quantity": [quantity.key for quantity in quantities],
+        "title": [quantity.title for quantity in quantities],
+        "unit": [quantity.unit for quantity in quantities],
+        "source": [quantity.source for quantity in quantities],
+        "here": [comparison.found.value for _, comparison in rows],
+        "here_low": [comparison.found.low for _, comparison in rows],
+        "here_high": [comparison.found.high for _, comparison in rows],
+        "band_lower": [quantity.lower for quantity in quantities],
+        "band_upper": [quantity.upper for quantity in quantities],
+        "band_from": [quantity.reason for quantity in quantities],
+        "verdict": [comparison.verdict for _, comparison in rows],
+    }
+
+
+def _number(value: float, quantity: Quantity) -> str:
+    return "-" if value != value else f"{value:.{quantity.digits}f}"
+
+
+def _with_unit(text: str, quantity: Quantity) -> str:
+    return f"{text} {quantity.unit}" if quantity.unit else text

@@ -1,0 +1,226 @@
+"""The real train's stop as the only data: friction profiles that agree with it, the rig's stop beside it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.scenario import Case
+from uictest.scenario.friction import FrictionProfile
+from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.replay import CYCLE
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import KILOMETRE_PER_HOUR, shown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from uictest.recording import Recording
+    from uictest.rig import Stop
+    from uictest.studies.laboratory import Laboratory
+
+REAL_TRAIN = {
+    "braking_time": 17.6,
+    "braking_distance": 197.0,
+    "minimum_deceleration": 0.98,
+    "maximum_deceleration": 1.52,
+}
+"""Stated by Lee and Kang (2015) of a stop from 80 km/h: s, m, m/s2, m/s2."""
+_INITIAL_SPEED = 80.0 * KILOMETRE_PER_HOUR
+TOLERANCES = {
+    "braking_time": 0.35,
+    "braking_distance": 4.0,
+    "minimum_deceleration": 0.1,
+    "maximum_deceleration": 0.1,
+}
+"""Ours: 2 % of time and distance, and what the unknown filter behind the decelerations may do."""
+
+LEVELS = (0.11, 0.12, 0.13, 0.14, 0.15, 0.16, 0.17, 0.18)
+DRY = 0.30
+"""Nothing slides on it, however strong the pads here are: more friction would change nothing."""
+BREAKS = (110.0, 140.0, 170.0)
+"""Places, m, where friction may change; a stop takes about 200 m."""
+PAD_FACTORS = (1.0, 1.1, 1.2)
+"""On the friction of the rig's pads: the source does not say how strong the real train's brake was."""
+
+_CAVEAT = (
+    "Four figures do not determine a profile: friction, its place and the strength of the brake stand in for"
+    " each other. The filter behind the source's decelerations is not public."
+)
+
+QUANTITIES = (
+    Quantity("braking_time", "braking time of the closest stop", "s", "17.6 s"),
+    Quantity("braking_distance", "braking distance of the closest stop", "m", "197 m"),
+    Quantity("minimum_deceleration", "its least deceleration", "m/s2", "0.98 m/s2", digits=2),
+    Quantity("maximum_deceleration", "its greatest deceleration", "m/s2", "1.52 m/s2", digits=2),
+    Quantity("pad_factor", "its pad friction over the rig's", source="ours", digits=2),
+    Quantity("profiles", "profiles tried", source="ours", digits=0),
+    Quantity("consistent", "profiles that agree in all four figures", source="ours", digits=0),
+    Quantity("agree_in_run", "profiles that agree in time and distance", source="ours", digits=0),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Friction before and after a place on the track (m; None: constant), and the pads' strength."""
+
+    before: float
+    after: float
+    place: float | None
+    pad_factor: float
+
+    def __str__(self) -> str:
+        """Return the profile for a reader."""
+        pads = f", pads x {self.pad_factor:g}"
+        if self.place is None:
+            return f"{self.before:g} everywhere{pads}"
+        return f"{self.before:g} up to {self.place:g} m, {self.after:g} beyond{pads}"
+
+
+def profiles() -> Iterator[Profile]:
+    """Yield constant friction, dry before slippery track and after it, with all strengths of the pads."""
+    for factor in PAD_FACTORS:
+        yield from (Profile(level, level, None, factor) for level in (*LEVELS, DRY))
+        for level, place in itertools.product(LEVELS, BREAKS):
+            yield Profile(DRY, level, place, factor)
+            yield Profile(level, DRY, place, factor)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Stop on every profile, and keep those that agree with the real train."""
+    base = laboratory.cases("slide-80")[0]
+    tried = list(profiles())
+    stops = laboratory.each(_stop, [_on(base, profile) for profile in tried])
+    misfits = [misfit(stop) for stop in stops]
+    closest = int(np.argmin([max(each.values()) for each in misfits]))
+    recording = laboratory.recordings([_on(base, tried[closest])], CYCLE)[0]
+    consistent = [k for k, each in enumerate(misfits) if max(each.values()) <= 1.0]
+    in_run = [
+        k for k, each in enumerate(misfits) if max(each["braking_time"], each["braking_distance"]) <= 1.0
+    ]
+    figures = {name: Reading(float(stops[closest].measures[name])) for name in REAL_TRAIN}
+    figures["pad_factor"] = Reading(tried[closest].pad_factor)
+    counts = {"profiles": len(tried), "consistent": len(consistent), "agree_in_run": len(in_run)}
+    return Findings(
+        figures | {name: Reading(float(count)) for name, count in counts.items()},
+        tables={"profiles": _table(tried, stops, misfits, in_run), "closest-stop": _stop_table(recording)},
+        drawings={"field-against-rig": partial(_draw, recording)},
+        notes=(
+            f"The closest stop: friction {tried[closest]}.",
+            _what_time_and_distance_tell(),
+            *_what_the_data_tell([tried[k] for k in consistent], [tried[k] for k in in_run]),
+            _CAVEAT,
+        ),
+    )
+
+
+def _what_time_and_distance_tell() -> str:
+    """Say after which delay an even deceleration gives T = v / a + delay and D = v (T + delay) / 2."""
+    delay = 2.0 * REAL_TRAIN["braking_distance"] / _INITIAL_SPEED - REAL_TRAIN["braking_time"]
+    return (
+        f"After a delay of {delay:.2f} s an even deceleration would take the source's time and distance: less"
+        " than a brake takes to build up, so the real train braked harder first than last."
+    )
+
+
+def misfit(stop: Stop) -> dict[str, float]:
+    """Return how far each figure of a stop is from the real train's, in tolerances."""
+    found = {name: float(stop.measures[name]) for name in REAL_TRAIN}
+    off = {name: abs(found[name] - REAL_TRAIN[name]) / TOLERANCES[name] for name in REAL_TRAIN}
+    return {name: value if np.isfinite(value) else float("inf") for name, value in off.items()}
+
+
+def _what_the_data_tell(consistent: list[Profile], in_run: list[Profile]) -> Iterator[str]:
+    for words, agreeing in (("all four figures", consistent), ("time and distance", in_run)):
+        if not agreeing:
+            yield f"No profile agrees in {words}."
+            continue
+        frictions = [mu for profile in agreeing for mu in (profile.before, profile.after)]
+        pads = sorted({profile.pad_factor for profile in agreeing})
+        constant = [f"{profile.before:g}" for profile in agreeing if profile.place is None]
+        yield (
+            f"Profiles that agree in {words}: {len(agreeing)}, with friction"
+            f" {min(frictions):g} to {max(frictions):g} and pads x {pads[0]:g} to {pads[-1]:g};"
+            f" constant friction among them: {', '.join(constant) or 'none'}."
+        )
+
+
+def _on(base: Case, profile: Profile) -> Case:
+    scenario = base.scenario
+    friction = FrictionProfile.model_validate(_points(profile))
+    disc = scenario.brake.system.disc
+    stronger = {"pad_friction": type(disc.pad_friction)(profile.pad_factor * disc.pad_friction, "", "1")}
+    system = scenario.brake.system.model_copy(update={"disc": disc.model_copy(update=stronger)})
+    changes = {
+        "rail": scenario.rail.model_copy(update={"friction": friction}),
+        "brake": scenario.brake.model_copy(update={"system": system}),
+    }
+    return replace(base, scenario=scenario.model_copy(update=changes))
+
+
+def _points(profile: Profile) -> dict[str, object]:
+    places = [0.0] if profile.place is None else [0.0, profile.place]
+    values = (profile.before, profile.after)
+    points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(places, values, strict=False)]
+    return {"points": tuple(points), "interpolation": "steps"}
+
+
+def _stop(case: Case) -> Stop:
+    from uictest.rig import simulate
+
+    return simulate(case)
+
+
+def _table(
+    tried: list[Profile], stops: list[Stop], misfits: list[dict[str, float]], kept: list[int]
+) -> Table:
+    order = sorted(kept, key=lambda k: max(misfits[k].values()))
+    columns: dict[str, list[object]] = {"profile": [str(tried[k]) for k in order]}
+    units = {"braking_time": "s", "braking_distance": "m"}
+    for name in REAL_TRAIN:
+        columns[f"{name}_{units.get(name, 'mps2')}"] = [
+            round(float(stops[k].measures[name]), 3) for k in order
+        ]
+    columns["misfit_in_tolerances"] = [round(max(misfits[k].values()), 3) for k in order]
+    return columns
+
+
+def _stop_table(recording: Recording) -> Table:
+    return {
+        "time_s": shown(recording["time"], 1.0, 3),
+        "distance_m": shown(recording["distance"], 1.0, 3),
+        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+        **{
+            f"wheel_speed_{n}_kmh": shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+            for n in (1, 2, 3, 4)
+        },
+    }
+
+
+def _draw(recording: Recording, figure: Figure) -> None:
+    axes = figure.add_subplot()
+    for n in (1, 2, 3, 4):
+        axes.plot(
+            recording["time"], recording[f"wheel_speed_{n}"] / KILOMETRE_PER_HOUR, linewidth=0.7, alpha=0.7
+        )
+    axes.plot(recording["time"], recording["speed"] / KILOMETRE_PER_HOUR, color="black", label="rig")
+    axes.axvline(
+        REAL_TRAIN["braking_time"], color="tab:red", linestyle=":", label="standstill of the real train"
+    )
+    axes.set_xlabel("time since the brake command, s")
+    axes.set_ylabel("speed, km/h")
+    axes.legend()
+
+
+STUDY = Study(
+    "field-against-rig",
+    "Field against rig: friction profiles that agree with the real train's stop from 80 km/h",
+    "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; its rail is not described",
+    QUANTITIES,
+    conduct,
+)

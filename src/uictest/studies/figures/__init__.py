@@ -1,0 +1,1 @@
+"""Figures of the studies. They draw into a figure that is given; only writing one needs matplotlib."""

@@ -1,0 +1,51 @@
+"""Force over pressure in a stop with sliding: samples by phase, and the lines found in them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
+from uictest.studies.phases import TITLES, on_phases
+from uictest.studies.units import BAR, KILONEWTON
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from uictest.identification import HysteresisResult
+    from uictest.recording import Recording
+
+_EVERY = 10
+
+
+def draw(recording: Recording, found: HysteresisResult, figure: Figure) -> None:
+    """Draw the BC phases on the left and the WSP phases on the right."""
+    figure.set_size_inches(WIDTH, 3.5)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    _draw_pair(left, recording, found, "bc")
+    _draw_pair(right, recording, found, "wsp")
+    left.set(title="Ordinary braking (BC)", xlabel="cylinder pressure, bar", ylabel="clamping force, kN")
+    right.set(title="While the WSP acts", xlabel="cylinder pressure, bar")
+    from_zero(left)
+
+
+def _draw_pair(axes: Axes, recording: Recording, found: HysteresisResult, pair: str) -> None:
+    pressure, force = recording["measured_pressure_1"] / BAR, recording["clamping_force_1"] / KILONEWTON
+    axes.plot(pressure[::_EVERY], force[::_EVERY], color=MUTED, alpha=0.35, linewidth=0.7)
+    for phase, mask in on_phases(recording).items():
+        if phase.startswith(pair):
+            points = np.flatnonzero(mask)[::_EVERY]
+            axes.plot(pressure[points], force[points], ".", color=PHASES[phase], markersize=2.5)
+    for phase, line in found.lines.items():
+        if phase.startswith(pair):
+            ends = np.array([line.pressure(1e-9), line.pressure(found.largest_force)])
+            slope = line.slope * BAR / KILONEWTON
+            intercept = line.intercept / KILONEWTON
+            label = f"{TITLES[phase]}: {slope:.2f} kN/bar, {intercept:.2f} kN".replace("-", "\N{MINUS SIGN}")
+            axes.plot(ends / BAR, line.force(ends) / KILONEWTON, color=PHASES[phase], label=label)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper left")
+    else:
+        axes.text(0.05, 0.95, "not in this stop", transform=axes.transAxes, va="top", color=MUTED)

@@ -1,0 +1,48 @@
+"""Force over pressure, a panel for each level of what was varied, with the lines of the four phases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
+from uictest.studies.phases import TITLES
+from uictest.studies.units import BAR, KILONEWTON
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from uictest.studies.slopes import Loop
+
+_EVERY = 10
+_WIDTHS = {"bc": 2.6, "ws": 1.0}
+"""The lines of the WSP lie over those of the BC, which stay visible beneath."""
+
+
+def draw(found: Sequence[Loop], title: str, figure: Figure) -> None:
+    """Draw one panel per stop; `title` takes the level in place of its braces."""
+    figure.set_size_inches(WIDTH, 3.1)
+    panels = figure.subplots(1, len(found), sharex=True, sharey=True)
+    for axes, loop in zip(panels, found, strict=True):
+        pressure = loop.recording["measured_pressure_1"][::_EVERY] / BAR
+        force = loop.recording["clamping_force_1"][::_EVERY] / KILONEWTON
+        axes.plot(pressure, force, color=MUTED, alpha=0.5, linewidth=0.7)
+        for phase, line in loop.lines.lines.items():
+            ends = np.array([line.pressure(1e-9), line.pressure(loop.lines.largest_force)])
+            axes.plot(
+                ends / BAR,
+                line.force(ends) / KILONEWTON,
+                color=PHASES[phase],
+                linewidth=_WIDTHS[phase[:2]],
+                label=TITLES[phase],
+                zorder=3,
+            )
+        axes.set(title=title.format(loop.level), xlabel="pressure, bar")
+    from_zero(panels[0])
+    panels[0].set_ylabel("clamping force, kN")
+    handles = {
+        label: line for axes in panels for line, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)

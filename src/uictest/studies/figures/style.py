@@ -1,0 +1,83 @@
+"""How every figure looks: sizes for a printed page, one palette, a colour for each part throughout."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDTH = 6.9
+"""Width of a figure, in: 175 mm, the type area of a page."""
+
+INK = "#22303c"
+MUTED = "#7b8894"
+BAND = "#e4eef5"
+BLUE, ORANGE, GREEN, PINK, SKY = "#0b6fb3", "#d4580a", "#0a8f6c", "#b8518f", "#6fb1dd"
+"""After Okabe and Ito, darkened for print: told apart by readers who see few colours."""
+
+MEASURED = INK
+WHEELSETS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
+SETTINGS = {"none": ORANGE, "hysteresis": PINK, "cylinder": GREEN, "full": BLUE, "four-caliper": INK}
+PHASES = {
+    "bc_squeezing": BLUE,
+    "bc_releasing": SKY,
+    "wsp_squeezing": ORANGE,
+    "wsp_releasing": "#f0a463",
+}
+
+RC: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8.0,
+    "axes.titlesize": 8.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 8.0,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#e3e7ea",
+    "grid.linewidth": 0.6,
+    "text.color": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "lines.linewidth": 1.1,
+    "lines.solid_capstyle": "round",
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "legend.handlelength": 1.8,
+    "figure.facecolor": "white",
+    "savefig.dpi": 200,
+    # An SVG is the same to the byte whenever and wherever it is drawn.
+    "svg.hashsalt": "uictest",
+}
+"""Settings of matplotlib."""
+
+
+def from_zero(axes: Axes, *, across: bool = True, up: bool = True) -> None:
+    """Let axes begin at zero."""
+    if across:
+        axes.set_xlim(left=0.0)
+    if up:
+        axes.set_ylim(bottom=0.0)
+
+
+def title_and_legend(axes: Axes, title: str, columns: int) -> None:
+    """Put the title above the axes and the legend, in one row, between the two: it covers nothing."""
+    axes.set_title(title, pad=17.0)
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=columns,
+        borderaxespad=0.1,
+        borderpad=0.2,
+        columnspacing=1.6,
+    )

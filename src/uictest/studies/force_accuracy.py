@@ -1,0 +1,97 @@
+"""The computed clamping force against that of the loadcells."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.studies.figures.force_accuracy import draw
+from uictest.studies.laboratory import seeded
+from uictest.studies.quantity import Quantity, repeats_note, spread
+from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import KILONEWTON, PERCENT, shown
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+    from uictest.studies.laboratory import Laboratory
+
+SEEDS = range(5)
+_EVERY = 20
+_UNIT = "% of largest force"
+
+LIMIT = 8.0
+"""The source's bound on the error of the computed force, % of the largest force."""
+
+QUANTITIES = (
+    Quantity(
+        "module_1",
+        "largest error, from the pressure of module 1",
+        _UNIT,
+        "within +-8 % of the measured force",
+        upper=LIMIT,
+        reason="source",
+    ),
+    Quantity(
+        "full",
+        "largest error, from tank 2 by both models",
+        _UNIT,
+        "within +-8 % of the measured force",
+        upper=LIMIT,
+        reason="source",
+    ),
+    Quantity("hysteresis", "largest error, from tank 2 by the hysteresis alone", _UNIT),
+    Quantity("cylinder", "largest error, from tank 2 by the cylinder dynamics alone", _UNIT),
+    Quantity("none", "largest error, from tank 2 by a straight line", _UNIT),
+)
+CHANNELS = {"module_1": "computed_force_1"} | {
+    setting: f"computed_force_{setting}_2" for setting in ("full", "hysteresis", "cylinder", "none")
+}
+"""Channel of the bench that holds the computed force."""
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Replay the commands of module 1 in the slide test and compute its force in every way."""
+    case = laboratory.cases("slide-80")[0]
+    cases = [seeded(case, seed) for seed in SEEDS]
+    stops = laboratory.recordings(cases, CYCLE)
+    replays = laboratory.each(
+        lambda given: replayed(given[0], given[1], 1), list(zip(cases, stops, strict=True))
+    )
+    return Findings(
+        {
+            key: spread([largest_error(recording, channel) / PERCENT for recording in replays])
+            for key, channel in CHANNELS.items()
+        },
+        tables={"forces": _table(replays[0])},
+        drawings={"force-accuracy": partial(draw, replays[0], LIMIT)},
+        notes=(
+            repeats_note(len(SEEDS)),
+            "All forces are held against those of the loadcells under the same valve commands.",
+        ),
+    )
+
+
+def largest_error(recording: Recording, channel: str) -> float:
+    """Return the largest difference of a force from that of the loadcells, a share of their largest."""
+    measured = recording["clamping_force_1"]
+    return float(np.abs(recording[channel] - measured).max() / measured.max())
+
+
+def _table(recording: Recording) -> Table:
+    part = slice(None, None, _EVERY)
+    columns = {"clamping_force_1": "clamping_force_1"} | {name: name for name in CHANNELS.values()}
+    return {"time_s": shown(recording["time"][part], 1.0, 3)} | {
+        f"{name}_kn": shown(recording[channel][part], KILONEWTON, 4) for name, channel in columns.items()
+    }
+
+
+STUDY = Study(
+    "force-accuracy",
+    "Computed against measured clamping force",
+    "the force computed with both models lies within +-8 % of the measured one",
+    QUANTITIES,
+    conduct,
+)

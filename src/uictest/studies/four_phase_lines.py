@@ -1,0 +1,107 @@
+"""The lines of the four-phase hysteresis model, from a stop with sliding."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.studies.figures.four_phase_lines import draw
+from uictest.studies.phases import TITLES, lines_of, on_phases
+from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, shown
+
+if TYPE_CHECKING:
+    from uictest.identification import HysteresisResult
+    from uictest.recording import Recording
+    from uictest.studies.laboratory import Laboratory
+
+_NAN = float("nan")
+_EVERY = 20
+
+QUANTITIES = tuple(
+    quantity
+    for phase, title in TITLES.items()
+    for quantity in (
+        Quantity(f"{phase}_slope", f"{title}, slope", "kN/bar", digits=3),
+        Quantity(f"{phase}_intercept", f"{title}, intercept", "kN", digits=3),
+    )
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Find the four lines in module 1 of a slide test, the brake released after the standstill."""
+    case = laboratory.cases("slide-80")[0]
+    stop = laboratory.recordings([case], CYCLE)[0]
+    recording = replayed(case, stop, 1, release=True)
+    found = lines_of(recording)
+    return Findings(
+        dict(_figures(found)),
+        tables={"lines": _lines_table(found), "samples": _samples_table(recording)},
+        drawings={"four-phase-lines": partial(draw, recording, found)},
+        notes=(_order(found),),
+    )
+
+
+def _figures(found: HysteresisResult) -> list[tuple[str, Reading]]:
+    figures = []
+    for phase in TITLES:
+        line = found.lines.get(phase)
+        slope = line.slope / KILONEWTON_PER_BAR if line else _NAN
+        intercept = line.intercept / KILONEWTON if line else _NAN
+        figures += [(f"{phase}_slope", Reading(slope)), (f"{phase}_intercept", Reading(intercept))]
+    return figures
+
+
+def _order(found: HysteresisResult) -> str:
+    """Say which releasing line lies above the other: the source says both."""
+    if "wsp_releasing" not in found.lines:
+        return "The stop holds no WSP releasing, so that the order of the releasing lines stays open."
+    force = found.high_force
+    above = found.lines["wsp_releasing"].pressure(force) < found.lines["bc_releasing"].pressure(force)
+    upper, lower = ("WSP", "BC") if above else ("BC", "WSP")
+    return (
+        "The text of the source orders the releasing lines of BC and WSP both ways; "
+        f"here, at high force, that of the {upper} lies above that of the {lower}."
+    )
+
+
+def _lines_table(found: HysteresisResult) -> Table:
+    lines = [found.lines.get(phase) for phase in TITLES]
+    return {
+        "phase": list(TITLES),
+        "slope_kn_per_bar": [line.slope / KILONEWTON_PER_BAR if line else _NAN for line in lines],
+        "slope_confidence_kn_per_bar": [
+            line.slope_confidence / KILONEWTON_PER_BAR if line else _NAN for line in lines
+        ],
+        "intercept_kn": [line.intercept / KILONEWTON if line else _NAN for line in lines],
+        "intercept_confidence_kn": [
+            line.intercept_confidence / KILONEWTON if line else _NAN for line in lines
+        ],
+        "points": [line.points if line else 0 for line in lines],
+    }
+
+
+def _samples_table(recording: Recording) -> Table:
+    part = slice(None, None, _EVERY)
+    names = np.full(len(recording), "inside the loop", dtype=object)
+    for phase, mask in on_phases(recording).items():
+        names[mask] = phase
+    return {
+        "time_s": shown(recording["time"][part], 1.0, 3),
+        "measured_pressure_1_bar": shown(recording["measured_pressure_1"][part], BAR, 4),
+        "clamping_force_1_kn": shown(recording["clamping_force_1"][part], KILONEWTON, 4),
+        "phase": names[part].tolist(),
+    }
+
+
+STUDY = Study(
+    "four-phase-lines",
+    "Slope and intercept of force against pressure in four phases",
+    "clamping force is linear in pressure, with a slope and an intercept of its own in each of four phases",
+    QUANTITIES,
+    conduct,
+)

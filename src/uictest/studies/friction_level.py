@@ -1,0 +1,56 @@
+"""Stops at full command with four initial friction coefficients."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from uictest.studies.figures.levels import draw
+from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.slopes import loops, slope_spread, slopes_table
+from uictest.studies.study import Findings, Study
+from uictest.studies.units import PERCENT
+
+if TYPE_CHECKING:
+    from uictest.studies.laboratory import Laboratory
+
+_LEVELS = ("009", "010", "011", "012")
+
+QUANTITIES = (
+    Quantity(
+        "slope_spread",
+        "largest change of a slope among the friction coefficients",
+        "%",
+        upper=5.0,
+        reason="ours",
+    ),
+    *(
+        Quantity(f"distance_at_{level}", f"braking distance at {level[0]}.{level[1:]}", "m")
+        for level in _LEVELS
+    ),
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Find the slopes at every friction coefficient, and how far the train runs."""
+    cases = laboratory.cases("wet-80-friction")
+    found = loops(laboratory, cases)
+    stops = laboratory.repeated(cases, [0])
+    distances = [Reading(float(one.stops[0].measures.braking_distance)) for one in stops]
+    return Findings(
+        {
+            "slope_spread": Reading(slope_spread(found) / PERCENT),
+            **dict(zip((f"distance_at_{level}" for level in _LEVELS), distances, strict=True)),
+        },
+        tables={"lines": slopes_table(found, "friction")},
+        drawings={"friction-level": partial(draw, found, "friction {}")},
+    )
+
+
+STUDY = Study(
+    "friction-level",
+    "Force against pressure with initial friction coefficients from 0.09 to 0.12",
+    "stops at full command with initial friction coefficients 0.09, 0.10, 0.11 and 0.12",
+    QUANTITIES,
+    conduct,
+)

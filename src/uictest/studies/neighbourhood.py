@@ -1,0 +1,64 @@
+"""The slide test and its neighbours in friction and command, on both topologies, under many seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from uictest.scenario import Case
+
+if TYPE_CHECKING:
+    from uictest.rig import Stop
+    from uictest.studies.laboratory import Laboratory
+
+SETTINGS = ("none", "hysteresis", "cylinder", "full")
+"""Settings of the compensation."""
+FOUR_CALIPER = "four-caliper"
+SEEDS = range(10)
+_FRICTION_STEPS = (-0.005, 0.0, 0.005)
+_COMMANDS = ("95 %", "97.5 %", "100 %")
+"""Commands next to the full one all lie below it."""
+WITHOUT_CALIPER = (2, 3, 4)
+"""Modules that are tanks on the rig with one caliper."""
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One place of the neighbourhood: friction and command as written, and the repeats on every rig.
+
+    `stops` holds the four settings of the rig with one caliper by name, and the rig with four calipers.
+    """
+
+    friction: str
+    command: str
+    case: Case
+    stops: dict[str, Sequence[Stop]]
+
+    @property
+    def title(self) -> str:
+        """Short name for tables and figures."""
+        return f"{self.friction}, {self.command}"
+
+
+def neighbourhood(laboratory: Laboratory) -> list[Point]:
+    """Return the nine points, friction slowest; what another study has run is not run again."""
+    changes = (_frictions(laboratory), f"brake.command={','.join(_COMMANDS)}")
+    one = laboratory.cases("slide-80", *changes, f"rig.compensation={','.join(SETTINGS)}")
+    four = laboratory.cases("slide-80-four-caliper", *changes)
+    repeats = laboratory.repeated([*one, *four], SEEDS)
+    of_one, of_four = repeats[: len(one)], repeats[len(one) :]
+    points = []
+    for k, reference in enumerate(of_four):
+        settings = of_one[k * len(SETTINGS) : (k + 1) * len(SETTINGS)]
+        stops = {name: each.stops for name, each in zip(SETTINGS, settings, strict=True)}
+        stops[FOUR_CALIPER] = reference.stops
+        friction, command = reference.case.parameters.values()
+        points.append(Point(friction, command, reference.case, stops))
+    return points
+
+
+def _frictions(laboratory: Laboratory) -> str:
+    calibrated = laboratory.cases("slide-80")[0].scenario.rail.friction
+    assert isinstance(calibrated, float)
+    return "rail.friction=" + ",".join(f"{calibrated + step:.4g}" for step in _FRICTION_STEPS)

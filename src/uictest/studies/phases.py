@@ -1,0 +1,47 @@
+"""The four lines of force against pressure in a bench recording, and the samples that lie on them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from uictest.identification import HysteresisResult
+    from uictest.recording import Recording
+
+TITLES = {
+    "bc_squeezing": "BC squeezing",
+    "bc_releasing": "BC releasing",
+    "wsp_squeezing": "WSP squeezing",
+    "wsp_releasing": "WSP releasing",
+}
+"""The phases of the source's hysteresis model, in its order."""
+
+
+def lines_of(recording: Recording) -> HysteresisResult:
+    """Return the lines that the force of the caliper follows, as `uictest identify hysteresis` finds them."""
+    from uictest.identification import identify_hysteresis
+
+    return identify_hysteresis(
+        recording["time"],
+        recording["measured_pressure_1"],
+        recording["clamping_force_1"],
+        recording["wsp_acting"] > 0.0,
+    )
+
+
+def on_phases(recording: Recording) -> dict[str, NDArray[np.bool_]]:
+    """Return which samples lie on the line of each phase; those inside the loop lie on none."""
+    from uictest.identification.phases import on_lines
+
+    step = float(recording["time"][1] - recording["time"][0])
+    squeezing, releasing = on_lines(recording["measured_pressure_1"], recording["clamping_force_1"], step)
+    acting = recording["wsp_acting"] > 0.0
+    return {
+        "bc_squeezing": squeezing & ~acting,
+        "bc_releasing": releasing & ~acting,
+        "wsp_squeezing": squeezing & acting,
+        "wsp_releasing": releasing & acting,
+    }

@@ -1,0 +1,164 @@
+"""One caliper and three tanks against four calipers: how far every figure of a stop moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from statistics import median
+from typing import TYPE_CHECKING
+
+from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
+from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
+from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
+from uictest.studies.quantity import NOT_ASKED, Quantity, Reading, spread
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import LITRE, PERCENT, STANDARD_AIR
+
+if TYPE_CHECKING:
+    from uictest.rig import Stop
+    from uictest.studies.laboratory import Laboratory
+
+RIGS = (*SETTINGS, FOUR_CALIPER)
+"""The settings of the rig with one caliper, and the rig with four against itself: what chance alone does."""
+TRAIN = 0
+"""Stands in for the number of the wheelset where a figure is one of the train."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A figure that is compared: its name, title and unit, and whether each wheelset has its own."""
+
+    key: str
+    title: str
+    unit: str
+    of_wheelsets: bool = False
+    digits: int = 1
+
+
+MEASURES = (
+    Measure("braking_distance", "braking distance", "m"),
+    Measure("braking_time", "braking time", "s", digits=2),
+    Measure("air_consumed", "air taken", "NL"),
+    Measure("maximum_slide", "largest slide", "percentage points", of_wheelsets=True),
+    Measure("valve_actuations", "valve actuations", "", of_wheelsets=True),
+)
+ERRORS = (
+    Measure("pressure_error", "pressure error", UNITS_OF_ERRORS["pressure_error"], of_wheelsets=True),
+    Measure("force_error", "force error", UNITS_OF_ERRORS["force_error"], of_wheelsets=True),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """What repeats of one rig show at one point, less the median of the rig with four calipers."""
+
+    rig: str
+    friction: str
+    command: str
+    measure: str
+    wheelset: int
+    reference: float
+    values: Sequence[float]
+
+
+def _quantities() -> Iterator[Quantity]:
+    for measure in MEASURES:
+        for rig in RIGS:
+            title = f"{measure.title}, {rig}"
+            yield Quantity(f"{measure.key}_{rig}", title, measure.unit, NOT_ASKED, digits=measure.digits)
+    for error in ERRORS:
+        for setting in SETTINGS:
+            yield Quantity(
+                f"{error.key}_{setting}", f"{error.title}, {setting}", error.unit, NOT_ASKED, digits=1
+            )
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Compare the rigs at every point, then the models along the commands of the rig with four calipers."""
+    points = neighbourhood(laboratory)
+    found = [difference for point in points for difference in differences(point)]
+    found += [
+        Difference(error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values)
+        for error in model_errors(laboratory, points)
+    ]
+    return Findings(
+        {f"{measure.key}_{rig}": overall(found, measure.key, rig) for measure in MEASURES for rig in RIGS}
+        | {f"{error.key}_{name}": overall(found, error.key, name) for error in ERRORS for name in SETTINGS},
+        tables={"differences": _table(found)},
+        drawings={
+            "rig-equivalence": partial(draw_train, found, (*MEASURES, *ERRORS)),
+            "rig-equivalence-wheelsets": partial(
+                draw_wheelsets, found, [each for each in (*MEASURES, *ERRORS) if each.of_wheelsets]
+            ),
+        },
+        notes=_notes(len(points)),
+    )
+
+
+def _notes(points: int) -> tuple[str, ...]:
+    differences = (
+        "Differences from the median of the rig with four calipers at the same friction and command; median "
+        f"and range over {points} points, {len(SEEDS)} seeds of the sensors' noise and all wheelsets. "
+        f"The lines '{FOUR_CALIPER}' hold that rig against itself: what lies within their range is chance."
+    )
+    errors = (
+        "Pressure and force errors are the largest of a stop, without the feedback of the cycling: the valve "
+        f"commands of the rig with four calipers ({len(REPLAYED_SEEDS)} seeds) are given to a module with a "
+        "caliper and to a tank."
+    )
+    return differences, errors
+
+
+def differences(point: Point) -> Iterator[Difference]:
+    """Yield the differences of all rigs at one point."""
+    for measure in MEASURES:
+        for wheelset in (1, 2, 3, 4) if measure.of_wheelsets else (TRAIN,):
+            reference = median(_values(point.stops[FOUR_CALIPER], measure, wheelset))
+            for rig in RIGS:
+                values = [value - reference for value in _values(point.stops[rig], measure, wheelset)]
+                yield Difference(rig, point.friction, point.command, measure.key, wheelset, reference, values)
+
+
+def overall(found: Sequence[Difference], measure: str, rig: str) -> Reading:
+    """Return median and range over points, repeats and wheelsets."""
+    return spread(
+        [value for each in found if (each.measure, each.rig) == (measure, rig) for value in each.values]
+    )
+
+
+def _values(stops: Sequence[Stop], measure: Measure, wheelset: int) -> list[float]:
+    return [_value(stop, measure.key, wheelset) for stop in stops]
+
+
+def _value(stop: Stop, key: str, wheelset: int) -> float:
+    if wheelset != TRAIN:
+        value = float(stop.wheelset_measures[wheelset - 1][key])
+        return value / PERCENT if key == "maximum_slide" else value
+    value = float(stop.measures[key])
+    return value / STANDARD_AIR / LITRE if key == "air_consumed" else value
+
+
+def _table(found: Sequence[Difference]) -> Table:
+    readings = [spread(each.values) for each in found]
+    return {
+        "rig": [each.rig for each in found],
+        "friction": [each.friction for each in found],
+        "command": [each.command for each in found],
+        "measure": [each.measure for each in found],
+        "wheelset": ["train" if each.wheelset == TRAIN else each.wheelset for each in found],
+        "reference": [each.reference for each in found],
+        "difference_median": [reading.value for reading in readings],
+        "difference_low": [reading.low for reading in readings],
+        "difference_high": [reading.high for reading in readings],
+        "repeats": [len(each.values) for each in found],
+    }
+
+
+STUDY = Study(
+    "rig-equivalence",
+    "One caliper and three tanks against four calipers",
+    "",
+    tuple(_quantities()),
+    conduct,
+)

@@ -1,0 +1,123 @@
+"""The slide test from 80 km/h against that of the real train."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from uictest.studies.figures.slide_test import draw
+from uictest.studies.quantity import Quantity, Reading, repeats_note, spread
+from uictest.studies.replay import CYCLE
+from uictest.studies.study import Findings, Study, Table
+from uictest.studies.units import BAR, KILOMETRE_PER_HOUR, shown
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+    from uictest.rig import Stop
+    from uictest.studies.laboratory import Laboratory
+
+SEEDS = range(10)
+WHEELSETS = (1, 2, 3, 4)
+
+REAL_TRAIN_TIME = 17.6
+"""Braking time of the real train, s."""
+
+QUANTITIES = (
+    Quantity(
+        "braking_time",
+        "braking time",
+        "s",
+        "17.6 s, real train",
+        16.5,
+        19.0,
+        reason="ours, about the source's",
+    ),
+    Quantity(
+        "braking_distance",
+        "braking distance",
+        "m",
+        "197 m, real train",
+        185.0,
+        215.0,
+        reason="ours, about the source's",
+    ),
+    Quantity("minimum_deceleration", "least deceleration", "m/s2", "0.98 m/s2, real train", digits=2),
+    Quantity("maximum_deceleration", "greatest deceleration", "m/s2", "1.52 m/s2, real train", digits=2),
+    Quantity(
+        "likeness",
+        "largest difference between the mean speeds of two wheelsets",
+        "km/h",
+        "the four wheelset speeds look alike",
+        upper=2.0,
+        digits=2,
+        reason="ours",
+    ),
+    Quantity("maximum_slide", "largest slide of a wheelset", "%"),
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Stop from 80 km/h on the rig with one caliper and the full compensation."""
+    case = laboratory.cases("slide-80")[0]
+    stops = laboratory.repeated([case], SEEDS)[0].stops
+    recording = laboratory.recordings([case], CYCLE)[0]
+    return Findings(
+        {
+            name: spread([_figure(stop, name) for stop in stops])
+            for name in (
+                "braking_time",
+                "braking_distance",
+                "minimum_deceleration",
+                "maximum_deceleration",
+            )
+        }
+        | {
+            "likeness": Reading(unlikeness(recording) / KILOMETRE_PER_HOUR),
+            "maximum_slide": spread(
+                [100.0 * float(stop.wheelset_measures.maximum_slide.max()) for stop in stops]
+            ),
+        },
+        tables={"stop": _table(recording)},
+        drawings={"slide-test": partial(draw, recording, REAL_TRAIN_TIME)},
+        notes=(
+            f"{repeats_note(len(SEEDS))} The figure shows the first.",
+            (
+                "The filter behind the source's decelerations is not public; here they are low-pass filtered "
+                "as the measures of the scenario define."
+            ),
+        ),
+    )
+
+
+def _figure(stop: Stop, name: str) -> float:
+    return float(stop.measures[name])
+
+
+def unlikeness(recording: Recording) -> float:
+    """Return the largest difference between the mean circumferential speeds of two wheelsets, m/s."""
+    means = [float(np.mean(recording[f"wheel_speed_{n}"])) for n in WHEELSETS]
+    return max(means) - min(means)
+
+
+def _table(recording: Recording) -> Table:
+    columns: dict[str, list[float]] = {
+        "time_s": shown(recording["time"], 1.0, 3),
+        "distance_m": shown(recording["distance"], 1.0, 3),
+        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+    }
+    for n in WHEELSETS:
+        columns[f"wheel_speed_{n}_kmh"] = shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+    for n in WHEELSETS:
+        columns[f"tank_pressure_{n}_bar"] = shown(recording[f"tank_pressure_{n}"], BAR, 4)
+    return columns
+
+
+STUDY = Study(
+    "slide-test",
+    "Slide test from 80 km/h: speeds of train and wheelsets",
+    "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; on the rig the four wheelset speeds look alike",
+    QUANTITIES,
+    conduct,
+)

@@ -1,0 +1,66 @@
+"""How far the slopes of force against pressure move from one stop to another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from uictest.studies.phases import TITLES, lines_of
+from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.units import KILONEWTON, KILONEWTON_PER_BAR
+
+if TYPE_CHECKING:
+    from uictest.identification import HysteresisResult
+    from uictest.recording import Recording
+    from uictest.scenario import Case
+    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.study import Table
+
+_NAN = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """One stop: what was varied, as written, the caliper under its commands, and the lines found there."""
+
+    level: str
+    recording: Recording
+    lines: HysteresisResult
+
+
+def loops(laboratory: Laboratory, cases: Sequence[Case]) -> list[Loop]:
+    """Return the loop of module 1 in the stop of every case, the brake released after the standstill."""
+    stops = laboratory.recordings(cases, CYCLE)
+    return laboratory.each(lambda given: _loop(*given), list(zip(cases, stops, strict=True)))
+
+
+def _loop(case: Case, stop: Recording) -> Loop:
+    recording = replayed(case, stop, 1, release=True)
+    return Loop(" ".join(case.parameters.values()), recording, lines_of(recording))
+
+
+def slope_spread(found: Sequence[Loop]) -> float:
+    """Return the largest range of a phase's slope among the stops that hold it, a share of its mean."""
+    spreads = []
+    for phase in TITLES:
+        slopes = [loop.lines.lines[phase].slope for loop in found if phase in loop.lines.lines]
+        if len(slopes) > 1:
+            spreads.append((max(slopes) - min(slopes)) * len(slopes) / sum(slopes))
+    return max(spreads, default=_NAN)
+
+
+def slopes_table(found: Sequence[Loop], varied: str) -> Table:
+    """Return slope and intercept of every phase of every stop; `varied` names what was varied."""
+    rows = [
+        (loop.level, phase, loop.lines.lines.get(phase), loop.lines.largest_force)
+        for loop in found
+        for phase in TITLES
+    ]
+    return {
+        varied: [level for level, _, _, _ in rows],
+        "phase": [phase for _, phase, _, _ in rows],
+        "slope_kn_per_bar": [line.slope / KILONEWTON_PER_BAR if line else _NAN for _, _, line, _ in rows],
+        "intercept_kn": [line.intercept / KILONEWTON if line else _NAN for _, _, line, _ in rows],
+        "largest_force_kn": [force / KILONEWTON for _, _, _, force in rows],
+    }

@@ -1,0 +1,86 @@
+"""A study: one experiment of the source, or of our own about it, and what it finds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from uictest.studies.quantity import Comparison, Quantity, Reading, Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from uictest.studies.laboratory import Laboratory
+
+Table = Mapping[str, Sequence[Any]]
+"""Columns of equal length; a name ends in the unit, as in `pressure_bar`."""
+
+Drawing = Callable[["Figure"], None]
+"""Draws into an empty figure, whose size it may set."""
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a study comes to.
+
+    Args:
+        figures: what was found for every quantity of the study, by key.
+        tables: data, by the name of the file.
+        drawings: figures to be drawn, by the name of the file.
+        notes: sentences about what was found.
+    """
+
+    figures: Mapping[str, Reading]
+    tables: Mapping[str, Table] = field(default_factory=dict)
+    drawings: Mapping[str, Drawing] = field(default_factory=dict)
+    notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """An experiment.
+
+    Args:
+        name: what it is called on the command line.
+        title: one line for people.
+        source: what the text of the source says, whose figure and table data are not public; empty where
+            the study is ours alone.
+        quantities: what is compared.
+        conduct: runs it.
+    """
+
+    name: str
+    title: str
+    source: str
+    quantities: Sequence[Quantity]
+    conduct: Callable[[Laboratory], Findings]
+
+
+@dataclass(frozen=True, slots=True)
+class Conducted:
+    """A study and what it came to."""
+
+    study: Study
+    findings: Findings
+
+    @property
+    def comparisons(self) -> list[Comparison]:
+        """Source beside here, one for every quantity of the study, in its order."""
+        figures = self.findings.figures
+        return [Comparison(quantity, figures[quantity.key]) for quantity in self.study.quantities]
+
+    @property
+    def verdict(self) -> Verdict:
+        """`misses` if any quantity does, `shown` if none has a band, else `holds`."""
+        verdicts = {comparison.verdict for comparison in self.comparisons}
+        return "misses" if "misses" in verdicts else "holds" if "holds" in verdicts else "shown"
+
+
+def conduct(study: Study, laboratory: Laboratory) -> Conducted:
+    """Run a study. Raises KeyError if it finds no figure for one of its quantities."""
+    findings = study.conduct(laboratory)
+    missing = [quantity.key for quantity in study.quantities if quantity.key not in findings.figures]
+    if missing:
+        raise KeyError(f"{study.name} finds no figure for {', '.join(missing)}")
+    return Conducted(study, findings)

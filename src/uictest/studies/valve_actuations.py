@@ -1,0 +1,66 @@
+"""How often the WSP valves act in one slide test, by what gives the clamping force of the module."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from uictest.studies.figures.valve_actuations import Trace, draw
+from uictest.studies.quantity import NOT_ASKED, Quantity, repeats_note, spread
+from uictest.studies.replay import CYCLE
+from uictest.studies.study import Findings, Study
+
+if TYPE_CHECKING:
+    from uictest.studies.laboratory import Laboratory
+
+SEEDS = range(10)
+_OURS = "ours, about the source's"
+
+QUANTITIES = (
+    Quantity("caliper", "module 1, real caliper", "", "11", 10.0, 12.0, reason=_OURS),
+    Quantity("none", "module 2 without hysteresis and cylinder models", "", "21", 19.0, 23.0, reason=_OURS),
+    Quantity("full", "module 2 with both models", "", "11", 10.0, 12.0, reason=_OURS),
+    Quantity("reference", "module 2 with a caliper of its own (four-caliper rig)", "", NOT_ASKED),
+)
+
+
+def conduct(laboratory: Laboratory) -> Findings:
+    """Count the openings of the vent in repeats of the slide test, with one caliper and with four."""
+    none, full = laboratory.cases("slide-80", "rig.compensation=none,full")
+    (four,) = laboratory.cases("slide-80-four-caliper")
+    of_none, of_full, of_four = (one.stops for one in laboratory.repeated([none, full, four], SEEDS))
+    counts = {
+        "caliper": [_actuations(stop, 1) for stop in of_full],
+        "none": [_actuations(stop, 2) for stop in of_none],
+        "full": [_actuations(stop, 2) for stop in of_full],
+        "reference": [_actuations(stop, 2) for stop in of_four],
+    }
+    recorded_none, recorded_full = laboratory.recordings([none, full], CYCLE)
+    traces = [
+        Trace("module 1, real caliper", recorded_full, 1),
+        Trace("module 2, no model", recorded_none, 2),
+        Trace("module 2, hysteresis and cylinder dynamics", recorded_full, 2),
+    ]
+    return Findings(
+        {name: spread(values) for name, values in counts.items()},
+        tables={"actuations": {"seed": list(SEEDS), **counts}},
+        drawings={"valve-actuations": partial(draw, traces)},
+        notes=(
+            f"{repeats_note(len(SEEDS))} The figure shows the first.",
+            "Cycling amplifies small differences: one stop says little.",
+        ),
+    )
+
+
+def _actuations(stop: object, wheelset: int) -> float:
+    measures = stop.wheelset_measures  # type: ignore[attr-defined]
+    return float(measures[wheelset - 1].valve_actuations)
+
+
+STUDY = Study(
+    "valve-actuations",
+    "WSP valve actuations in one slide test from 80 km/h",
+    "11 (module 1, real caliper), 21 (module 2 without both models), 11 (module 2 with both)",
+    QUANTITIES,
+    conduct,
+)

@@ -1,0 +1,209 @@
+"""The values of a sweep's parameters, checked one by one against the scenario's models."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Annotated, Any, get_args
+
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose, refusal
+from uictest.scenario.expansion import Setting
+from uictest.scenario.identifiers import value_label
+from uictest.scenario.parts.model import Model
+from uictest.scenario.physical import Physical
+from uictest.scenario.scalars import resolve as plain_scalar
+from uictest.scenario.tree import Document, Entry, Map, Node, Scalar, as_written, entry_at, plain
+from uictest.scenario.tree import Sequence as List
+from uictest.scenario.validation import validated
+from uictest.scenario.wording import quoted
+from uictest.sweep.amount import Amount, common_unit, evenly, stepwise, written
+from uictest.sweep.base import Base
+from uictest.sweep.model import Distribution, Range, Sample
+from uictest.sweep.plan import Draw, Listed, Sampled, Value
+from uictest.sweep.variation import refusals, value_at, varied
+
+
+class Axes:
+    """Reads groups of parameters for one base, gathering errors instead of stopping at one."""
+
+    def __init__(self, base: Base) -> None:
+        self._base = base
+        self.found: list[Diagnostic] = []
+        self.documents: list[Document] = []
+
+    def listed(self, entries: Mapping[str, Entry]) -> Listed | None:
+        """Return the group in which the given lists go together; None, and errors told, where they cannot."""
+        columns = [(key, entry, _items(entry.node)) for key, entry in entries.items()]
+        if not self._equally_long(columns):
+            return None
+        rows: list[tuple[Value, ...]] = []
+        for number, nodes in enumerate(zip(*(items for _, _, items in columns), strict=True), start=1):
+            row = {key: Entry(entry.key, node) for (key, entry, _), node in zip(columns, nodes, strict=True)}
+            try:
+                rows.append(self._row(row, number))
+            except ScenarioErrors as errors:
+                self.found.extend(errors.diagnostics)
+        self._refuse_repeated(rows, columns)
+        return Listed(tuple(entries), tuple(rows)) if len(rows) == len(columns[0][2]) else None
+
+    def sampled(self, sample: Sample, tree: Map) -> Sampled | None:
+        """Return the group that a sample draws; `tree` is its section of the file."""
+        draws: list[Draw] = []
+        for key, distribution in sample.parameters.items():
+            entry, _ = entry_at(tree, ("parameters", key))
+            try:
+                draws.append(self._draw(key, entry, distribution))
+            except ScenarioErrors as errors:
+                self.found.extend(errors.diagnostics)
+        if len(draws) != len(sample.parameters):
+            return None
+        keys = tuple(sample.parameters)
+        return Sampled(keys, tuple(draws), sample.method, sample.cases, sample.size, sample.seed)
+
+    def _equally_long(self, columns: Sequence[tuple[str, Entry, Sequence[Node]]]) -> bool:
+        first, _, items = columns[0]
+        unequal = [column for column in columns if len(column[2]) != len(items)]
+        for key, entry, others in unequal:
+            message = f"{len(others)} values where {quoted(first)} has {len(items)}"
+            hint = "lists under zip must be equally long; grid combines lists of any length"
+            self.found.append(diagnose(entry.key, message, f"zip.{key}", hint))
+        return not unequal
+
+    def _row(self, row: Mapping[str, Entry], number: int) -> tuple[Value, ...]:
+        contents = self._plain_quantities(row) or self._resolved(row)
+        return tuple(
+            Value(as_written(entry.node), contents[key], value_label(Setting(key, entry, number)))
+            for key, entry in row.items()
+        )
+
+    def _resolved(self, row: Mapping[str, Entry]) -> dict[str, Any]:
+        scenario, documents = self._base.scenario_with(row)
+        self.documents.extend(documents)
+        return {key: value_at(scenario, key) for key in row}
+
+    def _plain_quantities(self, row: Mapping[str, Entry]) -> dict[str, Any] | None:
+        """Return the values of quantities without reading the scenario again; None where that is needed."""
+        scenario = self._base.case.scenario
+        contents: dict[str, Any] = {}
+        for key, entry in row.items():
+            field = quantity_field(scenario, key)
+            if field is None or not isinstance(entry.node, Scalar) or entry.node.value is None:
+                return None
+            contents[key] = validated(field, plain(entry.node), entry.node, tuple(key.split(".")))
+        if next(refusals(varied(scenario, contents), row), None) is not None:
+            return None  # the scenario itself says best what is wrong, and where
+        return contents
+
+    def _refuse_repeated(
+        self, rows: Iterable[tuple[Value, ...]], columns: Sequence[tuple[str, Entry, Sequence[Node]]]
+    ) -> None:
+        seen: set[tuple[str, ...]] = set()
+        for row in rows:
+            labels = tuple(value.label for value in row)
+            if labels in seen:
+                key, entry, _ = columns[0]
+                message = f"{quoted(', '.join(value.text for value in row))} is there twice"
+                self.found.append(diagnose(entry.key, message, key, "case ids would be the same"))
+            seen.add(labels)
+
+    def _draw(self, key: str, entry: Entry, distribution: Distribution) -> Draw:
+        """Check the ends of a distribution: a field accepts an interval, so what lies between is as good."""
+        if distribution.choice is not None:
+            listed, _ = entry_at(entry.node, ("choice",))
+            return Draw(distribution, choices=self._choices(key, Entry(entry.key, listed.node)))
+        for text, place in _ends(distribution, entry.node):
+            self._row({key: Entry(entry.key, _scalar(text, place))}, 1)
+        kind = self._kind(key, entry)
+        unit = common_unit(list(_amounts(distribution)))
+        assert unit is not None
+        return Draw(distribution, unit, kind)
+
+    def _choices(self, key: str, entry: Entry) -> tuple[Value, ...]:
+        return tuple(
+            self._row({key: Entry(entry.key, node)}, number)[0]
+            for number, node in enumerate(_items(entry.node), start=1)
+        )
+
+    def _kind(self, key: str, entry: Entry) -> str:
+        field = quantity_field(self._base.case.scenario, key)
+        physical = None if field is None else _physical(field)
+        if physical is None or physical.kind.name == "count":
+            raise refusal(
+                entry.key,
+                "only a quantity can be drawn from a distribution",
+                key,
+                "take `choice` and list values",
+            )
+        return physical.kind.name
+
+
+def range_node(given: Range, place_of: Node) -> List:
+    """Return the list of values that a range stands for, in the place of the range."""
+    first, last, unit = given.first.number, given.last.number, given.first.unit
+    numbers = evenly(first, last, given.count) if given.count else stepwise(first, last, _step(given))
+    texts = [written(number, unit) for number in numbers]
+    return List(tuple(_scalar(text, place_of) for text in texts), place_of.place)
+
+
+def _scalar(text: str, place_of: Node) -> Scalar:
+    return Scalar(plain_scalar(text), text, place_of.place)
+
+
+def _step(given: Range) -> Any:
+    assert given.step is not None
+    return given.step.number
+
+
+def quantity_field(scenario: Any, key: str) -> Any:
+    """Return the annotation of the field at a dotted key where it may hold a quantity, else None.
+
+    Raises nothing: a key that leads nowhere has no field.
+    """
+    *above, last = key.split(".")
+    try:
+        model = value_at(scenario, ".".join(above)) if above else scenario
+    except KeyError:
+        return None
+    field = type(model).model_fields.get(last) if isinstance(model, Model) else None
+    if field is None:
+        return None
+    annotation = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+    return None if _physical(annotation) is None else annotation
+
+
+def _physical(annotation: Any) -> Physical | None:
+    if isinstance(annotation, Physical):
+        return annotation
+    if isinstance(annotation, type) and issubclass(annotation, Model):
+        return None  # the quantities inside a mapping are not the field itself
+    for inner in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
+        found = _physical(inner)
+        if found is not None:
+            return found
+    return None
+
+
+def _items(node: Node) -> Sequence[Node]:
+    return node.items if isinstance(node, List) else (node,)
+
+
+def _amounts(distribution: Distribution) -> Iterator[Amount]:
+    amounts = distribution.uniform or distribution.log_uniform or distribution.triangular
+    if amounts is not None:
+        yield from amounts
+    elif distribution.normal is not None:
+        yield from (distribution.normal.lower, distribution.normal.upper)
+
+
+def ends_of(distribution: Distribution) -> tuple[Amount, Amount]:
+    """Return the smallest and the largest value of a distribution that is no choice."""
+    first, *_, last = _amounts(distribution)
+    return first, last
+
+
+def _ends(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:
+    """Yield the smallest and the largest value with the place that they stand at."""
+    amounts = list(_amounts(distribution))
+    name = "log-uniform" if distribution.log_uniform else distribution.form
+    for amount, place in ((amounts[0], 0), (amounts[-1], len(amounts) - 1)):
+        key = ("lower", "upper")[min(place, 1)] if distribution.normal else place
+        yield str(amount), entry_at(node, (name, key))[0].node

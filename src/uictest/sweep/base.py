@@ -1,0 +1,85 @@
+"""The scenario that a sweep varies, as a tree: where a new value is written, and what it then means."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from uictest.scenario import Case, Scenario, load
+from uictest.scenario.assignment import with_value
+from uictest.scenario.diagnostics import refusal
+from uictest.scenario.discovery import SWEEP_SUFFIXES
+from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand
+from uictest.scenario.inheritance import inherit
+from uictest.scenario.overrides import Override, apply_overrides
+from uictest.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.scenario.references import Files, Parts
+from uictest.scenario.resolution import resolve
+from uictest.scenario.tree import Document, Entry, Map, Scalar
+from uictest.scenario.validation import dotted
+from uictest.scenario.wording import quoted, suggestion
+from uictest.sweep.variation import outside_in
+
+DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
+
+
+@dataclass(frozen=True)
+class Base:
+    """A case and the tree that it came from."""
+
+    case: Case
+    tree: Map
+    parts: Parts
+
+    def scenario_with(self, settings: Mapping[str, Entry]) -> tuple[Scenario, tuple[Document, ...]]:
+        """Return the scenario in which the dotted keys have other values, and the documents read for it.
+
+        Raises ScenarioErrors as if the scenario's file had said so.
+        """
+        tree = self.tree
+        for key in outside_in(settings):
+            tree = with_value(tree, key, settings[key], DOTTED_PART_KEYS)
+        return resolve(tree, self.parts)
+
+
+def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Override]) -> Base:
+    """Return the case that the file named by `reference` holds, or the `wanted` one of several.
+
+    `overrides` have one value each. Raises ScenarioErrors.
+    """
+    files = Files()
+    if reference.text.endswith(SWEEP_SUFFIXES):
+        raise refusal(reference.place, f"{quoted(reference.text)} is a sweep, not a scenario", "scenario")
+    own = files.beside(reference, "scenario")
+    texts = [each.place.document.text for each in overrides if each.place.document.display == "--set"]
+    seed = next((each.values[0] for each in overrides if each.place.document.display == "--seed"), None)
+    given = int(seed.text) if isinstance(seed, Scalar) else None
+    cases = load([reference.place.document.folder / reference.text], texts, given)
+    place = _wanted(cases, wanted, reference)
+    merged, _ = inherit(own, lambda parent: files.beside(parent, "extends"))
+    merged = merged.with_entry("name", own.entries["name"])
+    tree = apply_overrides(with_default_parts(merged), overrides, DOTTED_PART_KEYS)
+    variants = distinct(expand(tree)) if overrides else expand(tree)
+    return Base(cases[place], _fixed(tree.without(*SECTIONS), variants[place]), Parts(files))
+
+
+def _fixed(tree: Map, variant: Variant) -> Map:
+    for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
+        tree = with_value(tree, setting.key, setting.value, DOTTED_PART_KEYS)
+    return tree
+
+
+def _wanted(cases: Sequence[Case], wanted: Scalar | None, reference: Scalar) -> int:
+    ids = [case.id for case in cases]
+    if wanted is None and len(ids) == 1:
+        return 0
+    if wanted is None:
+        hint = f"add one of them as `case`: {', '.join(ids[:8])}{', ...' if len(ids) > 8 else ''}"
+        message = f"{quoted(reference.text)} has {len(ids)} cases, a sweep starts from one"
+        raise refusal(reference.place, message, "scenario", hint)
+    if wanted.text not in ids:
+        raise refusal(
+            wanted.place, f"no case {quoted(wanted.text)} there", "case", suggestion(wanted.text, ids)
+        )
+    return ids.index(wanted.text)

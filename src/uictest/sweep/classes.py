@@ -1,0 +1,66 @@
+"""Classes to count cases by: listed values as they are, drawn numbers in ten stretches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.sweep.amount import rounded, written
+from uictest.sweep.axes import ends_of
+from uictest.sweep.plan import Draw, Listed, Plan
+from uictest.sweep.table import text_column
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+STRETCHES: Final = 10
+
+
+@dataclass(frozen=True)
+class Classes:
+    """The classes of one parameter."""
+
+    key: str
+    labels: tuple[str, ...]
+    place: tuple[int, int]
+    """Which group of the plan the parameter is in, and where in it."""
+    edges: tuple[float, ...] = ()
+    """Where stretches of drawn numbers meet, in the unit of their distribution; none for listed values."""
+
+    def of(self, plan: Plan, indices: NDArray[np.int64], table: pa.Table) -> NDArray[np.int64]:
+        """Return the class of each row; `indices` are those of the rows of the table."""
+        if isinstance(plan.groups[self.place[0]], Listed):
+            return plan.rows(indices)[self.place[0]]
+        texts = table.column(text_column(self.key)).to_pylist()
+        if not self.edges:
+            numbered = {label: number for number, label in enumerate(self.labels)}
+            return np.array([numbered[text] for text in texts], np.int64)
+        values = np.array([float(text.split(" ", 1)[0]) for text in texts])
+        return np.searchsorted(self.edges, values, side="right").astype(np.int64)
+
+
+def classes_of(plan: Plan) -> dict[str, Classes]:
+    """Return the classes of every parameter of a plan."""
+    found: dict[str, Classes] = {}
+    for number, group in enumerate(plan.groups):
+        for place, key in enumerate(group.keys):
+            if isinstance(group, Listed):
+                labels = tuple(row[place].text for row in group.rows)
+                found[key] = Classes(key, labels, (number, place))
+            else:
+                found[key] = _drawn(key, group.draws[place], (number, place))
+    return found
+
+
+def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:
+    if draw.choices:
+        return Classes(key, tuple(value.text for value in draw.choices), place)
+    low, high = ends_of(draw.distribution)
+    ends: Any = np.linspace(float(low.number), float(high.number), STRETCHES + 1).tolist()
+    shown = [written(rounded(end).normalize(), "") for end in ends]
+    unit = f" {low.unit}" if low.unit else ""
+    labels = tuple(f"{shown[k]} .. {shown[k + 1]}{unit}" for k in range(STRETCHES))
+    return Classes(key, labels, place, tuple(ends[1:-1]))

@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from uictest.campaign import ExpressionError, by_expression, by_id, by_tag
+
+MakeCase = Callable[..., Any]
+
+
+@pytest.fixture
+def cases(make_case: MakeCase) -> list[Any]:
+    return [
+        make_case("dry-120", "uic-541-05", "dry", file="stops.yaml"),
+        make_case("slip-120[friction=0.10]", "uic-541-05", "slip", file="slip.yaml"),
+        make_case("slide-80", "slip", "long", file="slide.yaml"),
+    ]
+
+
+def _ids(cases: list[Any]) -> list[str]:
+    return [case.id for case in cases]
+
+
+@pytest.mark.parametrize(
+    ("expression", "ids"),
+    [
+        ("120", ["dry-120", "slip-120[friction=0.10]"]),
+        ("DRY", ["dry-120"]),
+        ("stops", ["dry-120"]),
+        ("long", ["slide-80"]),
+        ("slip and not long", ["slip-120[friction=0.10]"]),
+        ("friction=0.10]", ["slip-120[friction=0.10]"]),
+        ("snow", []),
+    ],
+)
+def test_a_word_is_sought_in_id_file_name_and_tags(cases: list[Any], expression: str, ids: list[str]) -> None:
+    assert _ids(by_expression(cases, expression)) == ids
+
+
+@pytest.mark.parametrize(
+    ("tag", "ids"),
+    [
+        ("slip", ["slip-120[friction=0.10]", "slide-80"]),
+        ("sli", []),
+        ("slip and not long", ["slip-120[friction=0.10]"]),
+    ],
+)
+def test_a_tag_is_matched_whole(cases: list[Any], tag: str, ids: list[str]) -> None:
+    assert _ids(by_tag(cases, tag)) == ids
+
+
+def test_ids_keep_the_order_of_the_cases(cases: list[Any]) -> None:
+    assert _ids(by_id(cases, frozenset({"slide-80", "dry-120", "gone"}))) == ["dry-120", "slide-80"]
+
+
+def test_a_malformed_expression_is_an_error_even_without_cases() -> None:
+    with pytest.raises(ExpressionError):
+        by_expression([], "and")

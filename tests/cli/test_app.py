@@ -1,0 +1,30 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import uictest
+
+Call = Callable[..., Any]
+
+
+def test_the_version(call: Call) -> None:
+    assert call("--version").out == f"uictest {uictest.__version__}\n"
+
+
+@pytest.mark.parametrize("option", ["-h", "--help"])
+def test_help_names_commands_and_exit_codes(call: Call, option: str) -> None:
+    answer = call(option)
+    assert answer.code == 0
+    for word in ("run", "check", "list", "schema", "init", "library", "5 nothing selected"):
+        assert word in " ".join(answer.out.split())
+
+
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["run\x1b[2J"], ["--nonsense"], ["library", "fly"]])
+def test_a_usage_error_exits_4_and_shows_the_way_to_help(call: Call, arguments: list[str]) -> None:
+    answer = call(*arguments)
+    assert (answer.code, answer.out) == (4, "")
+    assert "--help" in answer.err
+    assert "\x1b" not in answer.err

@@ -1,0 +1,85 @@
+"""`uictest bench`."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording, read_parquet, write_parquet
+
+RECIPE = """\
+schema: uictest/bench/1
+name: short
+inputs:
+  - {kind: triangular, peaks: [2 bar], floor: 0 bar, ramp: 0.5 s}
+"""
+
+
+@pytest.fixture
+def recipe(workplace):
+    path = workplace / "short.yaml"
+    path.write_text(RECIPE, "utf-8")
+    return path
+
+
+def test_a_recipe_leaves_a_recording_and_a_summary(call, recipe, workplace):
+    answer = call("bench", "short.yaml")
+    assert answer.code == 0, answer.err
+    assert "largest error against module 1" in answer.out
+    recording = read_parquet(workplace / "short.parquet")
+    assert recording["clamping_force_1"].max() > 1000.0
+    assert "sha256 of short.yaml" in recording.metadata
+
+
+def test_the_same_recipe_gives_the_same_recording(call, recipe, workplace):
+    for name in ("a", "b"):
+        assert call("bench", "short.yaml", "-o", f"{name}.parquet").code == 0
+    assert (workplace / "a.parquet").read_bytes() == (workplace / "b.parquet").read_bytes()
+
+
+def test_a_csv_is_written_for_a_name_in_csv(call, recipe, workplace):
+    assert call("bench", "short.yaml", "-o", "short.csv").code == 0
+    assert "tank_pressure_1 [Pa]" in (workplace / "short.csv").read_text("utf-8")
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
+    time = np.arange(0.0, 2.001, 0.01)
+    demand = np.minimum(time, 1.0) * 2.0
+    if suffix == "csv":
+        rows = "\n".join(f"{t:.2f},{p:.3f}" for t, p in zip(time, demand, strict=True))
+        (workplace / "demand.csv").write_text(f"time [s],demand [bar]\n{rows}\n", "utf-8")
+    else:
+        channels = {"time": time, "demand": demand}
+        write_parquet(Recording(channels, {"time": "s", "demand": "bar"}), workplace / "demand.parquet")
+    answer = call("bench", "--trace", f"demand.{suffix}", "--pressure", "demand", "-o", "out.parquet")
+    assert answer.code == 0, answer.err
+    recording = read_parquet(workplace / "out.parquet")
+    assert recording["demanded_pressure"][-1] == pytest.approx(2e5)
+    assert recording["brake_line_pressure"][-1] == pytest.approx(2e5, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ((), "name one recipe"),
+        (("stepwize",), "stepwise"),
+        (("missing.yaml",), "missing.yaml"),
+        (("stepwise", "--trace", "x.csv"), "name one recipe"),
+        (("--trace", "x.csv"), "x.csv"),
+        (("stepwise", "-o", "x.txt"), ".parquet"),
+        (("stepwise", "-o", "nowhere/x.csv"), "no folder"),
+        (("stepwise", "--set", "rig.caliper.preload=1"), "has no unit"),
+    ],
+)
+def test_what_cannot_be_used_is_told_and_nothing_is_written(call, workplace, arguments, told):
+    answer = call("bench", *arguments)
+    assert answer.code == 4
+    assert told in answer.err
+    assert list(workplace.iterdir()) == []
+
+
+def test_the_recipes_of_the_library_are_listed(call):
+    answer = call("bench", "--list")
+    assert answer.code == 0
+    assert {"stepwise", "triangular", "random", "wsp-cycling"} <= set(answer.out.split())

@@ -1,0 +1,128 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording, write_parquet
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+
+
+def _recording(path: str, shift: float = 0.0) -> Path:
+    time = np.linspace(0.0, 10.0, 101)
+    write_parquet(
+        Recording({"time": time, "speed": 30.0 - time + shift}, {"time": "s", "speed": "m/s"}), Path(path)
+    )
+    return Path(path)
+
+
+def test_a_run_and_itself_agree_and_another_differs(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    call("run", "-o", "one")
+    scenario("a", "tags: [fail]\n")
+    call("run", "-o", "other")
+    same = call("compare", "one/latest", "one/latest")
+    assert (same.code, same.out) == (0, "")
+    assert "no difference" in same.err
+    differing = call("compare", "one/latest", "other/latest")
+    assert differing.code == 1
+    assert "DIFFERS  a     outcome" in differing.out
+    assert "note: inputs: scenarios/a.yaml" in differing.out
+
+
+def test_recordings_are_compared_channel_by_channel(call: Call) -> None:
+    first, second = _recording("a.parquet"), _recording("b.parquet", shift=0.5)
+    assert call("compare", first, first).code == 0
+    answer = call("compare", first, second, "--html", "page.html")
+    assert answer.code == 1
+    assert "speed" in answer.out
+    assert 'class="panels"' in Path("page.html").read_text()
+    assert call("compare", first, second, "--tolerance", "speed=0.6").code == 0
+    document = json.loads(call("compare", first, second, "--format", "json").out)
+    assert [each["quantity"] for each in document["differences"]] == ["speed"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["missing.parquet", "missing.parquet"],
+        ["notes.txt", "notes.txt"],
+        ["broken.parquet", "broken.parquet"],
+        ["folder", "folder"],
+        ["folder", "a.parquet"],
+        ["a.parquet", "a.parquet", "--tolerance", "much"],
+    ],
+)
+def test_what_cannot_be_compared_exits_4(call: Call, arguments: list[str]) -> None:
+    _recording("a.parquet")
+    Path("folder").mkdir()
+    for name in ("notes.txt", "broken.parquet"):
+        Path(name).write_text("notes")
+    answer = call("compare", *arguments)
+    assert (answer.code, answer.out) == (4, "")
+    assert "Traceback" not in answer.err
+
+
+@pytest.fixture
+def baseline(call: Call, scenario: Write, made_up: list[str]) -> str:
+    scenario("a")
+    assert call("run", "--baseline", "accepted", "--accept").code == 0
+    return "accepted"
+
+
+def test_a_run_like_its_baseline_exits_0_and_a_changed_one_1(
+    call: Call, scenario: Write, baseline: str
+) -> None:
+    assert call("run", "--baseline", baseline).code == 0
+    scenario("a", "tags: [fail]\nexpect: fail\n")
+    answer = call("run", "--baseline", baseline)
+    assert answer.code == 1
+    assert "DIFFERS  a     outcome   pass" in answer.err
+    assert call("run", "--baseline", baseline, "--accept").code == 0
+    assert call("run", "--baseline", baseline).code == 0
+
+
+def test_an_error_outweighs_a_difference(call: Call, scenario: Write, baseline: str) -> None:
+    scenario("a", "tags: [error]\n")
+    assert call("run", "--baseline", baseline).code == 3
+
+
+def test_accepting_does_not_make_a_missed_case_met(call: Call, scenario: Write, baseline: str) -> None:
+    scenario("a", "tags: [fail]\n")
+    assert call("run", "--baseline", baseline, "--accept").code == 1
+
+
+def test_without_a_baseline_there_is_a_way_to_one(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    answer = call("run", "--baseline", "nowhere")
+    assert answer.code == 4
+    assert "--accept makes" in answer.err
+    assert call("run", "--accept").code == 4
+
+
+def test_reports_for_people_are_chosen(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    call("run", "--report", "xlsx,md")
+    names = {path.name for path in Path("reports/latest/").iterdir()}
+    assert {"report.xlsx", "summary.md", "results.json", "summary.csv"} <= names
+    assert "index.html" not in names
+    assert call("run", "--report", "pdf").code == 4
+
+
+def test_the_summary_of_a_job_is_appended(
+    call: Call, scenario: Write, made_up: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario("a")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "step.md")
+    assert call("run").code == 0
+    assert "## uictest: 1 case: 1 met" in Path("step.md").read_text()
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "no/such/folder")
+    answer = call("run")
+    assert answer.code == 0
+    assert "GITHUB_STEP_SUMMARY cannot be written" in answer.err

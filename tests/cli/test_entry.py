@@ -1,0 +1,169 @@
+"""The installed program in a process of its own, with the real rig."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.rig.native import compiled_stop
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+
+_FORBIDDEN = {
+    ("--help",): ("numpy", "numba", "pydantic", "yaml", "rich", "pandas", "scipy", "control", "pyarrow"),
+    ("check",): ("numpy", "numba", "rich", "pandas", "scipy", "control", "pyarrow"),
+    ("list",): ("numpy", "numba", "rich", "pandas", "scipy", "control", "pyarrow"),
+    ("run",): ("numba", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly", "rich"),
+}
+
+
+@pytest.mark.parametrize("arguments", _FORBIDDEN)
+def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[str, ...]) -> None:
+    scenario("stop")
+    compiled_stop()  # only the first start of all needs the compiler
+    program = """if True:
+        import sys
+        from uictest.cli.entry import execute
+        code = execute(sys.argv[2:])
+        print([name for name in sys.argv[1].split() if name in sys.modules], file=sys.stderr)
+        sys.exit(code)
+    """
+    command = [sys.executable, "-c", program, " ".join(_FORBIDDEN[arguments]), *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(("given", "kept"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_a_process_has_no_threads_for_matrices_unless_told_to(given: dict[str, str], kept: str) -> None:
+    environment = {name: os.environ[name] for name in os.environ if name != "OPENBLAS_NUM_THREADS"} | given
+    program = "import os; os._exit = print; from uictest.cli import main; main(); "
+    program += "print(os.environ['OPENBLAS_NUM_THREADS'])"
+    command = [sys.executable, "-c", program, "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout.splitlines()[-1] == kept
+
+
+def test_met_0_and_missed_1_with_a_recording(process: Call, scenario: Write) -> None:
+    scenario("stop")
+    answer = process("run")
+    assert answer.code == 0, answer.err
+    assert answer.out.startswith("met stop outcome=pass expect=pass braking_distance_m=")
+    assert not Path("reports/latest/recordings").exists()
+    scenario("stop", "expect: invalid\n")
+    answer = process("run")
+    assert answer.code == 1, answer.err
+    assert Path("reports/latest/recordings/stop.parquet").is_file()
+
+
+def test_json_on_stdout_and_messages_on_stderr(process: Call, scenario: Write) -> None:
+    scenario("stop")
+    answer = process("run", "--format", "json")
+    assert json.loads(answer.out)["cases"][0]["id"] == "stop"
+    assert "1 case: 1 met" in answer.err
+
+
+def test_recordings_when_asked(process: Call, scenario: Write) -> None:
+    scenario("stop", "matrix:\n  brake.command: [80 %, 90 %]\n")
+    assert process("run", "--record", "all", "--record-rate", "50").code == 0
+    names = sorted(path.name for path in Path("reports/latest/recordings").iterdir())
+    assert names == ["stop[command=80].parquet", "stop[command=90].parquet"]
+
+
+def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(
+    process: Call, scenario: Write
+) -> None:
+    scenario("stop", "matrix:\n  rail.friction: [0.05, 0.1]\n  rail.condition: [wet]\n")
+    texts = []
+    for name, options in {
+        "a": ["-n1"],
+        "b": ["-n2"],
+        "c": ["--record", "all", "--record-rate", "200"],
+    }.items():
+        process("run", "-o", name, *options)
+        texts.append(json.loads(Path(name, "latest", "results.json").read_text())["cases"])
+    assert texts[0] == texts[1] == texts[2]
+
+
+def test_an_invalid_file_exits_4(process: Call, scenario: Write) -> None:
+    scenario("stop", "brake: {command: 200 %}\n")
+    answer = process("run")
+    assert (answer.code, answer.out) == (4, "")
+    assert "scenarios/stop.yaml:4:" in answer.err
+    assert not Path("reports").exists()
+
+
+def test_a_full_disk_exits_3_and_leaves_nothing(process: Call, scenario: Write) -> None:
+    scenario("stop", "expect: invalid\n")
+
+    def small_files() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+
+    answer = process("run", preexec_fn=small_files, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    assert answer.code == 3, answer.err
+    assert "File too large" in answer.err
+    assert "Traceback" not in answer.err
+    assert not Path("reports").exists()
+
+
+def test_a_stdout_that_takes_no_more_exits_3(process: Call, scenario: Write) -> None:
+    scenario("stop")
+    with Path("/dev/full").open("w") as full:
+        for arguments in (["list"], ["run"], ["--help"]):
+            answer = process(*arguments, stdout=full)
+            assert answer.code == 3, arguments
+            assert "No space left on device" in answer.err
+
+
+def test_a_reader_that_leaves_is_no_error(process: Call, scenario: Write) -> None:
+    scenario("stop")
+    for arguments in (["list"], ["run"], ["--help"]):
+        reading, writing = os.pipe()
+        os.close(reading)
+        answer = process(*arguments, stdout=writing)
+        os.close(writing)
+        assert answer.code == 0, arguments
+        assert "Traceback" not in answer.err
+
+
+def test_ctrl_c_reports_what_is_finished_and_exits_2(program: Path, scenario: Write) -> None:
+    scenario("stop", "rail: {condition: wet}\n")
+    sweep = ["--set", "rail.friction=range(0.1,0.3,0.0001)"]
+    command = [program, "run", "-n1", *sweep]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline().startswith("met stop[friction=0.1000]")
+        running.send_signal(signal.SIGINT)
+        out, err = running.communicate(timeout=60)
+    assert running.returncode == 2, err
+    assert "interrupted" in err
+    document = json.loads(Path("reports/latest/results.json").read_text())
+    assert document["complete"] is False
+    assert len(document["cases"]) == 1 + len(out.splitlines())
+    assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []
+
+
+def test_hostile_file_names_are_shown_as_text(process: Call, scenario: Write) -> None:
+    scenario("stop", file="[red]\x1b[31m\n::error::=1+1.yaml")
+    scenario("other", "nonsense: 1\n", file="[bold]\x1b[2J.yaml")
+    for arguments in (["check"], ["check", "--format", "github"], ["run"]):
+        answer = process(*arguments)
+        assert answer.code == 4
+        assert "\x1b" not in answer.out + answer.err
+        assert r"\x1b[2J" in answer.out + answer.err
+    Path("scenarios", "[bold]\x1b[2J.yaml").unlink()
+    for arguments in (["run", "--format", "text"], ["run", "--format", "github", "--set", "expect=fail"]):
+        answer = process(*arguments)
+        assert "\x1b" not in answer.out + answer.err
+        assert not [line for line in answer.out.splitlines() if line.startswith("::error::")]

@@ -1,0 +1,159 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.recording.formats import writer_of
+
+Call = Callable[..., Any]
+STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
+
+
+def _recording(end: float = 10.5, **changes: Any) -> Recording:
+    """A train of rolling wheels that stops from 10 m/s within ten seconds."""
+    time = np.arange(0.0, end, 0.01)
+    speed = np.maximum(10.0 - time, 0.0)
+    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
+    units = {name: "s" if name == "time" else "m/s" for name in channels}
+    return Recording(channels, units, {"brake_command_time": "0 s"})
+
+
+@pytest.fixture
+def stop(workplace: Path) -> Path:
+    path = workplace / "Stop 1.csv"
+    writer_of("csv")(_recording(), path)
+    return path
+
+
+def test_a_stop_is_judged_and_reported_as_by_run(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, *STATED)
+    assert answer.code == 0
+    assert answer.out.startswith("met stop-1 outcome=pass")
+    assert "trigger: at 0 s, stated by the file; raster: 10 ms" in answer.err
+    assert "distance: integrated from speed" in answer.err
+    files = {path.name for path in Path("reports/latest/").iterdir()}
+    assert {"results.json", "junit.xml", "summary.csv", "manifest.json", "criteria.csv"} <= files
+    manifest = json.loads(Path("reports/latest/manifest.json").read_text())
+    assert {"Stop 1.csv", "library:channel_maps/uictest.yaml"} <= manifest["inputs"].keys()
+
+
+def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path) -> None:
+    document = json.loads(call("evaluate", stop, *STATED, "--format", "json", "--low-pass", "5 Hz").out)
+    [case] = document["cases"] if "cases" in document else document["results"]
+    assert case["criteria"][0]["definition"]["filter"].startswith("low-pass 5 Hz")
+    assert case["measures"]["energy_residual"] is None
+    assert case["wheelsets"][0]["valve_actuations"] is None
+
+
+def test_a_scenario_states_everything(call: Call, stop: Path, scenario: Callable[..., Path]) -> None:
+    path = scenario("a", "rail: {condition: wet}\n")
+    assert call("evaluate", stop, "--scenario", path).code == 0
+
+
+def test_a_scenario_of_several_cases_needs_a_choice(
+    call: Call, stop: Path, scenario: Callable[..., Path]
+) -> None:
+    path = scenario("a", "matrix: {brake.command: [80 %, 90 %]}\n")
+    answer = call("evaluate", stop, "--scenario", path)
+    assert answer.code == 4
+    assert "has 2 cases" in answer.err
+    assert call("evaluate", stop, "--scenario", path, "-k", "command=80").code == 0
+
+
+def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace: Path) -> None:
+    locked = np.where(np.arange(1050) < 200, _recording()["speed"], 0.0)
+    writer_of("parquet")(_recording(wheel_speed_3=locked), workplace / "locked.parquet")
+    answer = call("evaluate", "locked.parquet", *STATED)
+    assert answer.code == 1
+    assert "locked-wheels" in answer.err + answer.out or "MISSED" in answer.out
+    assert Path("reports/latest/recordings/locked.parquet").exists()
+
+
+def test_an_unusable_record_is_an_error_that_names_the_defect(call: Call, workplace: Path) -> None:
+    lines = ["time [s],speed [m/s]", "0,10", "1,9", "1,8", "0.5,7"]
+    (workplace / "bad.csv").write_text("\n".join(lines) + "\n")
+    answer = call("evaluate", "bad.csv", *STATED)
+    assert answer.code == 3
+    assert "time-backwards" in answer.out
+    assert "time-duplicate" in answer.err
+
+
+def test_unstated_circumstances_are_asked_for(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, "--rail", "dry")
+    assert answer.code == 4
+    assert "--position, --wsp, --criteria" in answer.err
+    assert not Path("reports").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["missing.csv", *STATED],
+        ["Stop 1.csv", *STATED, "--map", "nothing"],
+        ["Stop 1.csv", *STATED, "--map", "missing.yaml"],
+        ["Stop 1.csv", *STATED, "--trigger", "sometime"],
+        ["Stop 1.csv", *STATED, "--trigger", "12"],
+        ["Stop 1.csv", *STATED, "--trigger", "pressure"],
+        ["Stop 1.csv", *STATED, "--raster", "0 ms"],
+        ["Stop 1.csv", *STATED, "--low-pass", "nan Hz"],
+        ["Stop 1.csv", *STATED, "--rail", "icy"],
+        ["Stop 1.csv", *STATED, "--set", "rail.friction=0.1,0.2"],
+        ["Stop 1.csv", "--scenario", "missing.yaml"],
+        ["."],
+    ],
+)
+def test_what_cannot_be_used_exits_4_with_a_message(call: Call, stop: Path, arguments: list[str]) -> None:
+    answer = call("evaluate", *arguments)
+    assert (answer.code, answer.out) == (4, "")
+    assert answer.err
+    assert "Traceback" not in answer.err
+    assert not Path("reports").exists()
+
+
+def test_list_shows_channels_and_the_preset_that_fits(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, "--list")
+    assert answer.code == 0
+    assert "speed\tm/s\t1050\t0 .. 10" in answer.out
+    assert answer.out.splitlines()[-1] == "the preset uictest fits (--map uictest)"
+
+
+def test_list_proposes_a_map_where_no_preset_fits(call: Call, workplace: Path) -> None:
+    (workplace / "run.csv").write_text("t [s],vZug\n0,10\n1,9\n")
+    assert "schema: uictest/channel-map/1" in call("evaluate", "run.csv", "--list").out
+
+
+def test_list_says_how_a_table_of_another_dialect_is_declared(call: Call, workplace: Path) -> None:
+    (workplace / "run.csv").write_text("t [s];v [km/h]\n0,0;10,5\n1,0;9,5\n")
+    answer = call("evaluate", "run.csv", "--list")
+    assert (answer.code, answer.out) == (4, "")
+    assert 'set csv: {delimiter: ";", decimal: ","} in a channel map' in answer.err
+
+
+def test_a_channel_map_with_a_dialect(call: Call, workplace: Path) -> None:
+    lines = [
+        "Zeit;vZug",
+        "s;km/h",
+        *(f"{k / 10:.1f};{max(36.0 - 3.6 * k / 10, 0.0):.2f}" for k in range(110)),
+    ]
+    (workplace / "zug.csv").write_text("\n".join(line.replace(".", ",") for line in lines) + "\n")
+    (workplace / "map.yaml").write_text(
+        "schema: uictest/channel-map/1\nname: zug\nextends: common-names\n"
+        'csv: {delimiter: ";", decimal: ",", header_line: 1, unit_line: 2}\npreparation: {trigger: start}\n'
+    )
+    answer = call("evaluate", "zug.csv", "--map", "map.yaml", *STATED)
+    assert answer.code == 0
+    assert "braking_time_s=10" in answer.out
+    assert "the record begins with it; raster: 100 ms" in answer.err
+
+
+def test_files_of_one_name_get_different_ids(call: Call, stop: Path, workplace: Path) -> None:
+    (workplace / "other").mkdir()
+    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
+    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
+    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]

@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording, write_parquet
+from uictest.recording.formats import Dialect
+from uictest.recording.formats.reader import read_here
+
+Call = Callable[..., Any]
+
+
+@pytest.fixture
+def recording(workplace: Path) -> Path:
+    path = workplace / "a[friction=0.10].parquet"
+    time = np.arange(10) * 0.1
+    write_parquet(
+        Recording({"time": time, "speed": 1.0 - time}, {"time": "s", "speed": "m/s"}, {"case": "a"}), path
+    )
+    return path
+
+
+def test_every_format_is_written_with_its_provenance(call: Call, recording: Path) -> None:
+    answer = call("export", recording, "--to", "mdf,tdms", "--to", "mat,csv", "-o", "out/deep")
+    assert answer.code == 0
+    names = ["a[friction=0.10].mf4", "a[friction=0.10].tdms", "a[friction=0.10].mat", "a[friction=0.10].csv"]
+    assert [Path(line).name for line in answer.out.splitlines()] == names
+    for name, file in zip(("mdf", "tdms", "mat", "csv"), names, strict=True):
+        facts = read_here(name, Path("out/deep", file), Dialect()).metadata
+        assert facts["case"] == "a"
+        assert facts["source"] == recording.name
+        assert facts["program"].startswith("uictest ")
+
+
+def test_nothing_is_overwritten_unless_forced(call: Call, recording: Path) -> None:
+    assert call("export", recording, "--to", "csv").code == 0
+    answer = call("export", recording, "--to", "csv")
+    assert answer.code == 4
+    assert "already there" in answer.err
+    assert call("export", recording, "--to", "csv", "--force").code == 0
+
+
+@pytest.mark.parametrize(
+    "arguments", [["--to", "xlsx"], ["--to", ""], ["missing.parquet", "--to", "csv"], []]
+)
+def test_usage_errors_exit_4(call: Call, recording: Path, arguments: list[str]) -> None:
+    before = sorted(Path().iterdir())
+    assert call("export", recording, *arguments).code == 4
+    assert sorted(Path().iterdir()) == before
+
+
+def test_what_is_no_recording_exits_4(call: Call, workplace: Path) -> None:
+    Path("table.csv").write_text("a,b\n1,2\n")
+    answer = call("export", "table.csv", "--to", "mat")
+    assert answer.code == 4
+    assert "no channel 'time' in seconds" in answer.err
+    assert not Path("table.mat").exists()
+
+
+def test_two_files_for_one_target_are_refused(call: Call, recording: Path, workplace: Path) -> None:
+    (workplace / "b").mkdir()
+    copy = workplace / "b" / recording.name
+    copy.write_bytes(recording.read_bytes())
+    assert call("export", recording, copy, "--to", "csv").code == 4

@@ -1,0 +1,116 @@
+"""`uictest identify`."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.identification.lines import Line
+from uictest.identification.play import computed_force
+from uictest.recording import Recording, write_parquet
+from uictest.scenario import load_part
+from uictest.scenario.parts.compensation import Compensation
+
+STEP = 0.001
+SQUEEZING, RELEASING = Line(0.042, -1800.0), Line(0.0475, -1650.0)
+
+
+@pytest.fixture
+def record(workplace):
+    """A caliper with known lines, whose cylinder lags 30 ms behind the tank."""
+    corners = [(0, 0), (5, 4e5), (10, 0), (13, 3e5), (16, 0.5e5), (19, 4e5), (22, 0)]
+    time = np.arange(round(corners[-1][0] / STEP) + 1) * STEP
+    pressure = np.interp(time, *np.array(corners, dtype=float).T)
+    lines = {
+        "bc_squeezing": SQUEEZING,
+        "bc_releasing": RELEASING,
+        "wsp_squeezing": SQUEEZING,
+        "wsp_releasing": RELEASING,
+    }
+    force = computed_force(pressure, np.zeros(len(time), bool), lines, 0.0, STEP, 0.0)
+    channels = {
+        "time": time,
+        "cylinder_pressure_1": pressure / 1e5,
+        "clamping_force_1": force / 1e3,
+        "valve_command_1": np.zeros(len(time)),
+        "measured_pressure_2": np.interp(time + 0.03, time, pressure) / 1e5,
+    }
+    units = {
+        "time": "s",
+        "cylinder_pressure_1": "bar",
+        "clamping_force_1": "kN",
+        "valve_command_1": "1",
+        "measured_pressure_2": "bar",
+    }
+    write_parquet(Recording(channels, units), workplace / "record.parquet")
+    return workplace / "record.parquet"
+
+
+def read(path) -> Compensation:
+    from uictest.identification.compensation_base import load_compensation
+
+    return load_compensation(str(path))
+
+
+def test_hysteresis_writes_a_compensation_with_provenance(call, record, workplace):
+    answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml", "--date", "2026-01-02")
+    assert answer.code == 0, answer.err
+    assert "bc loop width" in answer.out
+    found = read(workplace / "found.yaml")
+    assert found.hysteresis.bc_squeezing.slope == pytest.approx(SQUEEZING.slope, rel=0.01)
+    assert found.hysteresis.wsp_releasing.intercept == pytest.approx(RELEASING.intercept, abs=100.0)
+    assert found.provenance["hysteresis date"] == "2026-01-02"
+    assert found.provenance["hysteresis command"].startswith("uictest identify hysteresis record.parquet")
+    assert len(found.provenance["hysteresis record sha256"]) == 64
+    library = load_part("compensations/six-inch")
+    assert tuple(found.cylinder.numerator) == tuple(library.cylinder.numerator)
+
+
+def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
+    assert call("identify", "hysteresis", "record.parquet", "-o", "found.yaml").code == 0
+    lines = read(workplace / "found.yaml").hysteresis
+    answer = call("identify", "cylinder", "record.parquet", "--base", "found.yaml", "-o", "found.yaml")
+    assert answer.code == 0, answer.err
+    assert "poles" in answer.out
+    found = read(workplace / "found.yaml")
+    assert found.hysteresis == lines
+    assert found.sampling_time == pytest.approx(STEP)
+    assert {"hysteresis command", "cylinder command"} <= set(found.provenance)
+
+
+def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace):
+    time = np.arange(0.0, 12.0, 0.005)
+    pressure = 2.0 - 2.0 * np.cos(time)
+    rows = "\n".join(
+        f"{t:.3f},{p:.6f},{max(4.5 * p - 1.8, 0.0):.6f}" for t, p in zip(time, pressure, strict=True)
+    )
+    (workplace / "m.csv").write_text(f"time [s],BC [bar],F [kN]\n{rows}\n", "utf-8")
+    answer = call("identify", "hysteresis", "m.csv", "--pressure", "BC", "--force", "F", "--wsp", "100..101")
+    assert answer.code == 0, answer.err
+    assert "4.5" in answer.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("hysteresis", "missing.parquet"), "no such file"),
+        (("hysteresis", "record.parquet", "--force", "kraft"), "no channel 'kraft'"),
+        (("hysteresis", "record.parquet", "--pressure", "clamping_force_1"), "unit 'kN'"),
+        (("hysteresis", "record.parquet", "--wsp", "3"), "--wsp"),
+        (("hysteresis", "record.parquet", "--base", "seven-inch"), "six-inch"),
+        (("cylinder", "record.parquet", "--input", "valve_command_1"), "unit '1'"),
+        (("hysteresis", "record.parquet", "-o", "nowhere/x.yaml"), "no folder"),
+    ],
+)
+def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workplace, arguments, told):
+    answer = call("identify", *arguments)
+    assert answer.code == 4
+    assert told in answer.err
+    assert [path.name for path in workplace.iterdir()] == ["record.parquet"]
+
+
+def test_a_file_that_is_no_recording_is_refused(call, workplace):
+    (workplace / "x.parquet").write_bytes(b"PAR1 and nothing else")
+    answer = call("identify", "cylinder", "x.parquet")
+    assert answer.code == 4
+    assert "x.parquet" in answer.err

@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+pytestmark = pytest.mark.usefixtures("made_up")
+
+
+@pytest.fixture
+def run(call: Call, scenario: Write) -> Path:
+    scenario("a", "tags: [fail]\n")
+    call("run", "--report", "csv")
+    return Path("reports/latest")
+
+
+def test_further_formats_are_written_into_the_run_and_named(call: Call, run: Path) -> None:
+    answer = call("report", run, "--format", "xlsx,html,md")
+    assert answer.code == 0
+    names = ["report.xlsx", "index.html", "summary.md"]
+    assert [Path(line).name for line in answer.out.splitlines()] == names
+    assert all((run / name).stat().st_size for name in names)
+
+
+def test_they_can_go_elsewhere(call: Call, run: Path) -> None:
+    assert call("report", run, "--format", "csv", "-o", "elsewhere/deep").code == 0
+    assert sorted(path.name for path in Path("elsewhere/deep").iterdir()) == [
+        "criteria.csv",
+        "summary.csv",
+        "wheelsets.csv",
+    ]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["missing"], ["scenarios"], ["reports/latest", "--format", "pdf"], ["reports/latest", "-o", "a.txt"]],
+)
+def test_what_is_no_run_or_no_format_is_refused(call: Call, run: Path, arguments: list[str]) -> None:
+    Path("a.txt").touch()
+    answer = call("report", *arguments)
+    assert answer.code in (3, 4)
+    assert answer.out == ""
+    assert "Traceback" not in answer.err
+
+
+def test_a_run_that_names_the_newest_in_a_file_is_found(call: Call, run: Path) -> None:
+    target = run.resolve()
+    run.unlink()
+    run.write_text(f"{target.name}\n")
+    assert call("report", run, "--format", "md").code == 0
+    assert (target / "summary.md").exists()

@@ -1,0 +1,25 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+Call = Callable[..., Any]
+
+
+def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call: Call) -> None:
+    printed = call("schema").out
+    assert call("schema", "-o", "schema.json").out == ""
+    assert Path("schema.json").read_text("utf-8") == printed
+    schema = json.loads(printed)
+    assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
+    jsonschema.Draft7Validator.check_schema(schema)
+
+
+def test_a_file_that_cannot_be_written_exits_3(call: Call) -> None:
+    answer = call("schema", "-o", "missing/schema.json")
+    assert answer.code == 3
+    assert "No such file or directory" in answer.err

@@ -1,0 +1,264 @@
+"""`uictest sweep`: the same files whatever happened on the way, and an exit code for everything."""
+
+from __future__ import annotations
+
+import errno
+import json
+import random
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest import sweep as room
+from uictest.sweep.part import Worker
+
+Call = Callable[..., Any]
+TEXT = """\
+schema: uictest/sweep/1
+name: study
+scenario: scenarios/stop.yaml
+grid:
+  rail.friction: [0.06, 0.09, 0.12]
+sample: {size: 32, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
+"""
+FILE = "study.sweep.yaml"
+
+
+@pytest.fixture
+def study(scenario: Callable[..., Path]) -> Path:
+    """A sweep of 96 stops from 15 km/h in six parts."""
+    scenario("stop", "rail: {condition: wet}\n")
+    path = Path("scenarios/stop.yaml")
+    path.write_text(path.read_text().replace("30 km/h", "15 km/h"))
+    Path(FILE).write_text(TEXT)
+    return Path(FILE)
+
+
+def contents(folder: str | Path = "reports/study") -> dict[str, bytes]:
+    """Every file of a result by its name."""
+    root = Path(folder)
+    return {
+        path.relative_to(root).as_posix(): path.read_bytes() for path in root.rglob("*") if path.is_file()
+    }
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The numbers of cases that were simulated, part by part."""
+    sizes: list[int] = []
+    part = Worker.part
+
+    def counting(self: Worker, indices: Any) -> bytes:
+        sizes.append(len(indices))
+        return part(self, indices)
+
+    monkeypatch.setattr(Worker, "part", counting)
+    return sizes
+
+
+def test_results_are_the_same_for_any_number_of_threads(call: Call, study: Path) -> None:
+    assert call("sweep", study, "-n", "1", "-o", "one").code == 0
+    assert call("sweep", study, "-n", "3", "-o", "three").code == 0
+    one = contents("one/study")
+    assert one == contents("three/study")
+    assert {"manifest.json", "summary.csv", "summary.parquet", "rates.csv", "sweep.json", "junit.xml"} <= set(
+        one
+    )
+    assert sum(name.startswith("parts/") for name in one) == 6
+
+
+def test_a_finished_sweep_is_not_done_again(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    before = contents()
+    counted.clear()
+    answer = call("sweep", study)
+    assert (answer.code, counted) == (0, [])
+    assert "96 of 96 cases are finished already" in answer.err
+    assert contents() == before
+
+
+def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study, "-o", "whole")
+    for number in (1, 2, 3):
+        answer = call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
+        assert answer.code == 0
+        assert f"share {number} of 3 is finished" in answer.err
+    counted.clear()
+    shares = [word for number in (1, 2, 3) for word in ("--merge", f"share{number}/study")]
+    assert call("sweep", study, "-o", "merged", *shares).code == 0
+    assert counted == []
+    assert contents("merged/study") == contents("whole/study")
+    assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
+
+
+def test_changed_inputs_are_refused_until_told_otherwise(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "seed: 5\n")
+    answer = call("sweep", study)
+    assert answer.code == 4
+    assert "inputs: scenarios/stop.yaml" in answer.err
+    counted.clear()
+    assert call("sweep", study, "--restart").code == 0
+    assert sum(counted) == 96
+
+
+def test_a_damaged_part_is_found_and_done_again(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    before = contents()
+    damaged = sorted(Path("reports/study/parts").iterdir())[2]
+    damaged.write_bytes(damaged.read_bytes()[:-100])
+    counted.clear()
+    answer = call("sweep", study)
+    assert (answer.code, counted) == (0, [16])
+    assert "is damaged; its part is worked out again" in answer.err
+    assert contents() == before
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), 3, "No space left on device"),
+        (KeyboardInterrupt(), 2, "interrupted; finished parts are kept"),
+    ],
+)
+def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: Any, code: int, said: str
+) -> None:
+    call("sweep", study, "-o", "whole")
+    write = room.Store.write
+
+    def breaks(self: room.Store, number: int, content: bytes) -> None:
+        if number == 3:
+            raise error
+        write(self, number, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(room.Store, "write", breaks)
+        answer = call("sweep", study, "-n", "1")
+    assert answer.code == code
+    assert said in answer.err
+    kept = {path: path.stat().st_mtime_ns for path in Path("reports/study/parts").iterdir()}
+    assert len(kept) == 3
+    assert not Path("reports/study/summary.csv").exists()
+    assert call("sweep", study).code == 0
+    assert all(path.stat().st_mtime_ns == written for path, written in kept.items())
+    assert contents() == contents("whole/study")
+
+
+def killed_at_random(program: Path, times: int) -> int:
+    """Start the sweep and kill it at a random moment, several times; how often it was still at work."""
+    moments = random.Random(4)
+    hit = 0
+    for _ in range(times):
+        command = [program, "sweep", FILE, "-n", "2", "-q", "-o", "broken"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(moments.uniform(0.3, 1.6))
+        process.send_signal(signal.SIGKILL)
+        hit += process.wait() == -signal.SIGKILL
+    return hit
+
+
+@pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
+def test_killed_and_resumed_gives_the_same_bytes(call: Call, program: Path, study: Path, times: int) -> None:
+    Path(FILE).write_text(TEXT.replace("size: 32", f"size: {32 * times}"))
+    assert call("sweep", study, "-o", "whole").code == 0
+    assert killed_at_random(program, times) > 0
+    assert call("sweep", study, "-o", "broken").code == 0
+    assert contents("broken/study") == contents("whole/study")
+
+
+def test_ctrl_c_from_a_terminal_is_2_and_resumable(program: Path, call: Call, study: Path) -> None:
+    Path(FILE).write_text(TEXT.replace("size: 32", "size: 2048"))
+    process = subprocess.Popen([program, "sweep", FILE], stderr=subprocess.PIPE, text=True)
+    while not list(Path("reports").glob("study/parts/*-*")) and process.poll() is None:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "the same command goes on" in err
+
+
+def test_a_case_in_error_is_a_row_and_3(call: Call, study: Path) -> None:
+    Path(FILE).write_text(
+        TEXT.split("grid")[0]
+        + "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
+    )
+    assert call("sweep", study).code == 3
+    document = json.loads(Path("reports/study/sweep.json").read_text())
+    assert document["outcomes"]["error"] == 1
+    assert "does not divide" in document["missed"][0]["reason"]
+
+
+def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "expect: fail\n")
+    assert call("sweep", study, "-x", "-n", "1").code == 1
+    assert len(list(Path("reports/study/parts").iterdir())) == 1
+    assert call("sweep", study, "--junitxml", "junit.xml").code == 1
+    assert 'failures="3"' in Path("junit.xml").read_text()
+
+
+def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
+    Path(FILE).write_text(
+        TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"
+    )
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text().replace("15 km/h", "40 km/h") + "rig: {wsp: bypassed}\n")
+    answer = call("sweep", study, "--frontier", "rail.friction", "--tolerance", "0.02")
+    assert "frontier along rail.friction" in answer.out
+    lines = Path("reports/study/frontier.csv").read_text().splitlines()
+    assert lines[0] == "brake.command,from,to,met_at_from,flips,note"
+    assert lines[1].startswith("100 %,0.")
+
+
+def test_list_and_dry_run_show_ids_and_run_nothing(call: Call, study: Path) -> None:
+    ids = call("sweep", study, "--dry-run", "-k", "friction=0.09").out.splitlines()
+    assert ids == [f"study[friction=0.09,sample={k}]" for k in range(32)]
+    assert call("list", study).out.splitlines()[:2] == [
+        "study[friction=0.06,sample=0]",
+        "study[friction=0.06,sample=1]",
+    ]
+    assert not Path("reports").exists()
+    assert call("sweep", study, "-k", "nothing").code == 5
+    assert call("list", study, "-k", "nothing").code == 5
+
+
+def test_stdout_is_the_document_alone(call: Call, study: Path) -> None:
+    answer = call("sweep", study, "-k", "friction=0.09", "--format", "json")
+    assert json.loads(answer.out)["cases"] == 32
+    assert answer.out == Path("reports/study/sweep.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--shard", "3/2"], "is not a share"),
+        (["--frontier", "initial_speed"], "needs two values or more"),
+        (["--frontier", "rail.friction", "--tolerance", "x"], "is not a number"),
+        (["--map", "rail.friction,brake"], "name two parameters of rail.friction, brake.command"),
+        (["--measure", "braking_distance"], "did you mean 'braking_distance_m'?"),
+        (["--device", "gpu"], "is not one of 'cpu', 'cuda'"),
+        (["-k", "("], "expected a word"),
+        (["--set", "rail.frictoin=1"], "did you mean 'friction'?"),
+    ],
+)
+def test_usage(call: Call, study: Path, options: list[str], said: str) -> None:
+    answer = call("sweep", study, *options)
+    assert answer.code == 4
+    assert said in answer.err
+
+
+def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None:
+    good = Path("scenarios", FILE)
+    good.write_text(TEXT.replace("scenarios/", ""))
+    assert "1 scenario with 1 case and 1 sweep, no error" in call("check").err
+    good.write_text(TEXT.replace("scenarios/", "").replace("0.06", "6"))
+    answer = call("check")
+    assert answer.code == 4
+    assert f"scenarios/{FILE}:5:19: rail.friction: 6 is out of range" in answer.err

@@ -1,0 +1,59 @@
+"""Runs and recordings to compare."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
+from uictest.recording import Recording
+from uictest.report import RunContent, Subject
+
+FIGURES = Figures(465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
+VERDICT = Verdict("braking-distance", "validity", 465.0, "m", 440.0, 490.0, 25.0, "pass", "")
+
+
+@pytest.fixture
+def make_run() -> Callable[..., RunContent]:
+    """A run of one case, its figures changed as asked."""
+
+    def make(
+        name: str = "run",
+        case_id: str = "dry-120",
+        outcome: str = "pass",
+        verdict: str = "pass",
+        friction: str = "0.3",
+        **figures: float,
+    ) -> RunContent:
+        wheelset = WheelsetFigures(0.02, 0.0, 11, 25e3, 1.5)
+        result = CaseResult(
+            id=case_id,
+            scenario="dry.yaml",
+            parameters={},
+            expect="pass",
+            outcome=outcome,  # type: ignore[arg-type]
+            criteria=(dataclasses.replace(VERDICT, verdict=verdict),),  # type: ignore[arg-type]
+            measures=dataclasses.replace(FIGURES, **figures),
+            wheelsets=(wheelset, wheelset),
+        )
+        manifest = {"seed": 0, "versions": {"numba": "0.68.1"}, "inputs": {"dry.yaml": "a" * 64}}
+        subject = Subject("", (), {"friction": friction})
+        return RunContent(name, [result], manifest, subjects={case_id: subject})
+
+    return make
+
+
+@pytest.fixture
+def make_recording() -> Callable[..., Recording]:
+    """Ten seconds of braking; channels given replace those there are."""
+
+    def make(interval: float = 0.1, end: float = 10.0, **channels: np.ndarray) -> Recording:
+        time = np.arange(0.0, end + interval / 2, interval)
+        own = {"time": time, "speed": 30.0 - time, "slide_1": np.sin(time)}
+        units = {"time": "s", "speed": "m/s", "slide_1": "1"}
+        return Recording({**own, **channels}, {**units, **{n: units.get(n, "1") for n in channels}}, {})
+
+    return make

@@ -1,0 +1,82 @@
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable
+
+import numpy as np
+
+from uictest.comparison import (
+    Tolerances,
+    compare_recordings,
+    compare_runs,
+    comparison_html,
+    comparison_json,
+    comparison_lines,
+    verdict_line,
+)
+from uictest.recording import Recording
+from uictest.report import RunContent
+
+MakeRun = Callable[..., RunContent]
+MakeRecording = Callable[..., Recording]
+DEFAULT = Tolerances()
+HOSTILE = "\x1b[31m=cmd() <b>x</b></script>\u202e"
+
+
+def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run: MakeRun) -> None:
+    found = compare_runs(make_run(), make_run(braking_distance_m=470.0, braking_time_s=27.51), DEFAULT)
+    heading, line = comparison_lines(found)
+    assert heading.split() == ["case", "quantity", "first", "second", "deviation", "allowed", "unit"]
+    assert line.split()[:5] == ["DIFFERS", "dry-120", "braking_distance_m", "465", "470"]
+    assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["DIFFERS", "within"]
+    assert verdict_line(found) == "22 quantities compared: 1 out of tolerance, 1 different within tolerance"
+
+
+def test_nothing_is_shown_of_what_is_the_same(make_run: MakeRun) -> None:
+    found = compare_runs(make_run(), make_run(), DEFAULT)
+    assert list(comparison_lines(found, every=True)) == []
+    assert verdict_line(found) == "22 quantities compared, no difference"
+
+
+def test_the_json_form_says_whether_they_agree(make_run: MakeRun) -> None:
+    found = compare_runs(make_run(), make_run(initial_adhesion_g=0.1), DEFAULT)
+    document = json.loads(comparison_json(found))
+    assert (document["schema"], document["agrees"]) == ("uictest/comparison/1", False)
+    assert document["differences"][0]["quantity"] == "initial_adhesion_g"
+
+
+def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page(
+    make_recording: MakeRecording,
+) -> None:
+    channels = {HOSTILE: np.zeros(101)}
+    found = compare_recordings(
+        make_recording(**channels), make_recording(**{HOSTILE: np.ones(101)}), (HOSTILE, HOSTILE), DEFAULT
+    )
+    shown = "\n".join(comparison_lines(found))
+    html = comparison_html(found)
+    for text in (shown, html):
+        assert "\x1b" not in text
+        assert "\u202e" not in text
+    assert "<b>x</b>" in shown
+    assert "<b>x" not in html.replace(html[html.index('id="plotly"') :], "")
+    assert "&lt;b&gt;x&lt;/b&gt;" in html
+
+
+def test_the_page_shows_both_sides(make_run: MakeRun, make_recording: MakeRecording) -> None:
+    html = comparison_html(compare_runs(make_run("before"), make_run("after", braking_time_s=29.0), DEFAULT))
+    assert "Out of tolerance" in html
+    assert "braking_time_s" in html
+    assert "plotly.js" not in html
+
+
+def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for(make_run: MakeRun) -> None:
+    before, after = make_run(), make_run()
+    slid = [dataclasses.replace(after.results[0].wheelsets[0], maximum_slide=slide) for slide in (0.3, 0.4)]
+    after = RunContent("after", [dataclasses.replace(after.results[0], wheelsets=tuple(slid))], {})
+    found = compare_runs(before, after, DEFAULT)
+    rows = [line.split() for line in comparison_lines(found) if line.startswith("DIFFERS")]
+    assert [row[2:5] for row in rows] == [["maximum_slide_2", "0.02", "0.4"]]
+    assert rows[0][7:] == ["1", "worst", "of", "2", "wheelsets"]
+    every = [line.split()[2] for line in comparison_lines(found, every=True) if line.startswith("DIFFERS")]
+    assert every == ["maximum_slide_1", "maximum_slide_2"]

@@ -1,0 +1,79 @@
+"""Every command line that a page shows can be typed, and every option has its place on a page."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from uictest.cli.app import app
+
+REPOSITORY = Path(__file__).parents[2]
+_CODE = re.compile(r"^```[^\n]*\n(.*?)^```|((?:^    \S[^\n]*\n)+)", re.MULTILINE | re.DOTALL)
+_CALL = re.compile(r"^\s*(?:\$ |- (?:run: )?|entry: |sh '|srun )?(?:[\w./-]*/)?uictest (\S.*)$")
+_END_OF_CALL = re.compile(r" \| |; | > | 2>| &&|  #|' *$|\\$| &$")
+_IN_PROSE = re.compile(r"`uictest ([^`]*)`")
+
+
+def leaves(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every command by the words that call it."""
+    inner = getattr(command, "commands", None)
+    if inner is None:
+        yield name, command
+        return
+    for word, each in inner.items():
+        yield from leaves(each, f"{name} {word}".strip())
+
+
+COMMANDS = dict(leaves(typer.main.get_command(app)))
+
+
+def calls(text: str) -> Iterator[str]:
+    """Yield the arguments of every call of uictest in the code of a page."""
+    for match in _CODE.finditer(text):
+        for line in "".join(group or "" for group in match.groups()).splitlines():
+            call = _CALL.match(line)
+            if call and not call[1].startswith("["):
+                yield _END_OF_CALL.split(call[1])[0]
+
+
+def command_of(arguments: str) -> tuple[str, list[str]]:
+    words = shlex.split(arguments)
+    count = 2 if " ".join(words[:2]) in COMMANDS else 1
+    return " ".join(words[:count]), words[count:]
+
+
+def options_of(name: str) -> set[str]:
+    return {option for parameter in COMMANDS[name].params for option in parameter.opts} | {"-h", "--help"}
+
+
+def test_every_call_can_be_parsed(page: Path) -> None:
+    for arguments in calls(page.read_text("utf-8")):
+        name, rest = command_of(arguments)
+        assert name in COMMANDS, arguments
+        if not {"-h", "--help"} & set(rest):
+            COMMANDS[name].make_context(name, rest)
+
+
+def test_every_command_named_in_prose_exists_with_its_options(page: Path) -> None:
+    groups = {name.split()[0] for name in COMMANDS}
+    for arguments in _IN_PROSE.findall(page.read_text("utf-8")):
+        name, rest = command_of(arguments)
+        assert name in COMMANDS or name in groups, arguments
+        assert {word for word in rest if word.startswith("-")} <= options_of(name) | {"-"}, arguments
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_is_documented(name: str) -> None:
+    """A page shows the whole of the command's help."""
+    pages = "".join(path.read_text("utf-8") for path in sorted((REPOSITORY / "docs").glob("*.md")))
+    _, heading, section = pages.partition(f"$ uictest {name} --help\n")
+    assert heading, f"no page shows `uictest {name} --help`"
+    text = re.split(r"^```$|^\$ ", section, maxsplit=1, flags=re.MULTILINE)[0]
+    shown = set(re.findall(r"(?<!\S)--?[a-zA-Z][\w-]*", text))
+    assert {option for option in options_of(name) if option.startswith("-")} <= shown

@@ -1,0 +1,89 @@
+"""Examples are files that load, and console blocks show what the program prints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from uictest import scenario
+from uictest.measured import load_map
+from uictest.rig.bench_loading import load_bench
+from uictest.scenario import ScenarioErrors
+from uictest.scenario.references import KIND_OF_FOLDER
+from uictest.sweep import load_sweep
+
+REPOSITORY = Path(__file__).parents[2]
+KEYS = {
+    "brake": "brake: {system: %s}",
+    "caliper": "rig: {caliper: %s}",
+    "compensation": "rig: {compensation_model: %s}",
+    "sensors": "rig: {sensors: %s}",
+    "rail": "rail: {condition: %s}",
+}
+
+LOADERS: dict[str, Callable[[Path], Any]] = {
+    "bench": load_bench,
+    "channel-map": lambda path: load_map(str(path)),
+    "sweep": load_sweep,
+}
+
+
+def examples(page: Path) -> list[Any]:
+    from markup import blocks  # type: ignore[import-not-found]
+
+    return list(blocks(page.read_text("utf-8"), "yaml"))
+
+
+def kind_of(text: str) -> str:
+    """What a YAML example is: the word in its schema, empty where it belongs to another program."""
+    schema = str(yaml.safe_load(text).get("schema", ""))
+    return schema.split("/")[1] if schema.startswith("uictest/") else ""
+
+
+def test_examples_load(page: Path, tmp_path: Path) -> None:
+    from consoles import prepare  # type: ignore[import-not-found]
+
+    prepare(page.read_text("utf-8"), tmp_path)
+    for block in examples(page):
+        kind = kind_of(block.text)
+        if kind == "scenario":
+            load_scenario(block, tmp_path)
+        elif kind in KIND_OF_FOLDER.values():
+            load_part(block, kind, tmp_path)
+        elif kind:
+            LOADERS[kind](tmp_path / block.file_name)
+        else:
+            assert block.file_name, f"{page.name}:{block.line}: neither ours nor a named file"
+
+
+def load_scenario(block: Any, folder: Path) -> None:
+    path = folder / (block.file_name or "example.yaml")
+    path.write_text(block.text, "utf-8")
+    if "mistakes" in path.name:
+        with pytest.raises(ScenarioErrors):
+            scenario.load([path])
+        return
+    assert scenario.load([path])
+
+
+def load_part(block: Any, kind: str, folder: Path) -> None:
+    path = folder / "with-part.yaml"
+    key = KEYS.get(kind, f"{kind}: %s") % block.file_name
+    path.write_text(f"schema: uictest/scenario/1\nname: with-part\ninitial_speed: 80 km/h\n{key}\n", "utf-8")
+    [case] = scenario.load([path])
+    assert any(name.endswith(block.file_name) for name in case.inputs)
+
+
+def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
+    """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them."""
+    from consoles import executed, prepare, shape
+    from markup import blocks
+
+    text = page.read_text("utf-8")
+    prepare(text, tmp_path)
+    for block in blocks(text, "console"):
+        assert shape(executed(block, tmp_path)) == shape(block.text), "run docs/tools/refresh.py"

@@ -1,0 +1,70 @@
+"""What every page keeps to: links that lead somewhere, lines that can be read, generated parts up to date."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from pathlib import Path
+
+import pytest
+
+from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
+from uictest.rig.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+
+REPOSITORY = Path(__file__).parents[2]
+LONGEST = 110
+_FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def prose(page: Path) -> str:
+    return _FENCED.sub("", page.read_text("utf-8"))
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors that GitHub and GitLab give to the headings of a page."""
+    headings = re.findall(r"^#+ (.+)$", prose(page), re.MULTILINE)
+    kept = (re.sub(r"[^\w\- ]", "", heading.lower()) for heading in headings)
+    return {text.strip().replace(" ", "-") for text in kept}
+
+
+def test_every_link_leads_somewhere(page: Path) -> None:
+    for target in _LINK.findall(prose(page)):
+        if target.startswith(("http://", "https://", "mailto:")):
+            continue
+        name, _, anchor = target.partition("#")
+        place = (page.parent / name).resolve() if name else page
+        assert place.exists(), target
+        assert not anchor or anchor in anchors(place), target
+
+
+def test_prose_fits_a_window(page: Path) -> None:
+    lines = [line for line in prose(page).splitlines() if not line.startswith(("|", "<!--"))]
+    assert [line for line in lines if len(line) > LONGEST] == []
+
+
+def test_generated_tables_are_those_of_the_models(page: Path) -> None:
+    from markup import with_generated  # type: ignore[import-not-found]
+    from refresh import generated  # type: ignore[import-not-found]
+
+    text = page.read_text("utf-8")
+    assert with_generated(text, generated) == text, "run docs/tools/refresh.py"
+
+
+@pytest.mark.parametrize("figures", [Figures, WheelsetFigures, CaseResult, Verdict])
+def test_every_field_of_a_result_is_described(figures: type) -> None:
+    text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
+    # How long the simulation took is not part of a result.
+    names = {field.name for field in dataclasses.fields(figures)} - {"duration"}
+    assert {name for name in names if not re.search(rf"`(?:\S*[.])?{name}`", text)} == set()
+
+
+def test_every_channel_of_a_recording_is_described() -> None:
+    text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
+    names = [name for name, _ in CAR_CHANNELS] + [f"{name}_1" for name, _ in WHEELSET_CHANNELS]
+    assert [name for name in names if f"`{name}`" not in text] == []
+
+
+def test_the_first_screen_shows_the_two_commands() -> None:
+    first = (REPOSITORY / "README.md").read_text("utf-8").splitlines()[:20]
+    assert [line.strip() for line in first if line.startswith("    ")] == ["./demo", "./test"]

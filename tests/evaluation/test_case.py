@@ -1,0 +1,104 @@
+import math
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import CaseResult, error_result, evaluate
+
+G = 9.80665
+
+
+@pytest.fixture
+def slip_test(shipped, scenario, case):
+    return case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
+
+
+def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
+    slip_test, sliding_stop, wheelsets
+) -> None:
+    records = wheelsets(
+        0.9, 0.9, 0.9, 0.9, valve_actuations=11, maximum_clamping_force=41e3, air_vented=0.01185
+    )
+    result = evaluate(slip_test, sliding_stop(0.07 * G, braking_distance=900.0), records, duration=0.25)
+    assert (result.outcome, result.expect, result.met, result.reason) == ("pass", "pass", True, "")
+    assert result.scenario == "scenarios/slip-120.yaml"
+    figures = result.measures
+    assert figures.initial_adhesion_g == pytest.approx(0.07)
+    assert figures.mean_deceleration_mps2 == pytest.approx((120 / 3.6) ** 2 / 1800)
+    assert figures.reservoir_minimum_bar == pytest.approx(7.2)
+    assert figures.air_consumed_nl == pytest.approx(100.0)
+    assert figures.air_residual == -3e-14
+    first = result.wheelsets[0]
+    assert (first.maximum_slide, first.valve_actuations, first.maximum_clamping_force_n) == (0.9, 11, 41e3)
+    assert first.air_vented_nl == pytest.approx(10.0)
+
+
+def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
+    criterion, profile, scenario, case, sliding_stop, wheelsets
+) -> None:
+    speed = [30.0, 29.0, *[20.0] * 9]
+    phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
+    slippery = profile(criterion("initial_adhesion", upper="0.2 g", definition=phase))
+    result = evaluate(case(scenario(slippery)), sliding_stop(speed_after_sliding=speed), wheelsets(0.5))
+    assert result.measures.initial_adhesion_g * G == pytest.approx(1.0)
+    assert result.criteria[0].value == result.measures.initial_adhesion_g
+
+
+def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
+    slip_test, sliding_stop, wheelsets
+) -> None:
+    result = evaluate(slip_test, sliding_stop(0.09 * G), wheelsets(0.9, 0.9, 0.9, 0.9))
+    assert (result.outcome, result.met) == ("invalid", False)
+    assert result.reason == "initial-adhesion: 0.09 g misses < 0.08 g by 0.01 g"
+
+
+@pytest.mark.parametrize(
+    ("changes", "slides", "outcome", "what"),
+    [
+        ({}, (0.1, 0.1, 0.1, 0.1), "pass", ""),
+        ({"energy_residual": -0.002}, (0.1,), "invalid", "energy-balance"),
+        ({"air_residual": np.nan}, (0.1,), "invalid", "air-balance: nan never keeps < 1e-09"),
+        ({"stopped": 0.0, "end_speed": 3.0}, (0.1,), "fail", "standstill: the train still ran at 10.8 km/h"),
+    ],
+)
+def test_our_own_profile_judges_any_stop(
+    shipped, scenario, case, stop, wheelsets, changes, slides, outcome, what
+) -> None:
+    result = evaluate(case(scenario(shipped("uictest-stop"))), stop(**changes), wheelsets(*slides))
+    assert result.outcome == outcome
+    assert what in result.reason
+
+
+def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, stop, wheelsets) -> None:
+    records = wheelsets(1.0, 1.0, 1.0, 1.0, longest_lock=[0.2, 0.0, 6.5, 0.1])
+    result = evaluate(case(scenario(shipped("uictest-stop"))), stop(), records)
+    assert result.outcome == "fail"
+    assert result.reason == "locked-wheels: 3 of 4 wheelsets keep <= 1 s, 4 needed: 0.2, 0, 6.5, 0.1 s"
+
+
+def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test) -> None:
+    result = error_result(slip_test, "diverged at 3.2 s", duration=0.1)
+    assert (result.outcome, result.met, result.reason) == ("error", False, "diverged at 3.2 s")
+    assert result.measures is None
+
+
+@pytest.mark.parametrize(
+    ("outcome", "expect", "met"),
+    [
+        ("pass", "pass", True),
+        ("fail", "pass", False),
+        ("fail", "fail", True),
+        ("invalid", "invalid", True),
+        ("invalid", "fail", False),
+        ("skipped", "pass", True),
+        ("skipped", "fail", False),
+        ("error", "fail", False),
+    ],
+)
+def test_an_expectation_is_met_by_its_own_outcome(outcome: str, expect: str, met: bool) -> None:
+    assert CaseResult("a", "a.yaml", {}, expect, outcome).met is met
+
+
+def test_a_figure_never_reached_is_nan(slip_test, stop, wheelsets) -> None:
+    figures = evaluate(slip_test, stop(), wheelsets(0.0)).measures
+    assert math.isnan(figures.initial_adhesion_g)

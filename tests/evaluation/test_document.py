@@ -1,0 +1,87 @@
+import dataclasses
+import json
+import math
+import subprocess
+import sys
+
+import pytest
+
+from uictest.evaluation import error_result, evaluate, result_document, results_of, to_json
+
+CASE = ["id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"]
+MEASURES = [
+    "braking_distance_m",
+    "braking_time_s",
+    "mean_deceleration_mps2",
+    "initial_adhesion_g",
+    "minimum_deceleration_mps2",
+    "maximum_deceleration_mps2",
+    "reservoir_minimum_bar",
+    "air_consumed_nl",
+    "energy_residual",
+    "air_residual",
+]
+WHEELSET = ["maximum_slide", "locked_time_s", "valve_actuations", "maximum_clamping_force_n", "air_vented_nl"]
+
+
+@pytest.fixture
+def results(shipped, scenario, case, stop, wheelsets):
+    slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
+    dry = case(scenario(shipped("uic-541-05-appendix-b"), shipped("uictest-stop")))
+    return [
+        evaluate(dry, stop(), wheelsets(0.0, 0.0, 0.0, 0.0), duration=1.5),
+        evaluate(slip_test, stop(minimum_deceleration=math.nan), wheelsets(0.5, math.nan, 0.5, 0.5)),
+        error_result(slip_test, "diverged"),
+    ]
+
+
+def test_a_case_has_the_fields_of_the_interface(results) -> None:
+    form = result_document(results)["cases"][0]
+    assert list(form) == CASE
+    assert list(form["measures"]) == MEASURES
+    assert list(form["wheelsets"][0]) == WHEELSET
+
+
+def test_the_document_is_json_that_any_reader_takes(results) -> None:
+    def refuse(constant: str) -> None:
+        raise AssertionError(f"{constant} is not JSON")
+
+    document = json.loads(to_json(result_document(results, seed=7, drift=math.nan)), parse_constant=refuse)
+    assert document["schema"] == "uictest/result/1"
+    assert (document["seed"], document["drift"]) == (7, None)
+    assert document["cases"][1]["measures"]["initial_adhesion_g"] is None
+    assert document["cases"][2]["measures"] is None
+
+
+def test_results_come_back_from_their_document(results) -> None:
+    back = results_of(json.loads(to_json(result_document(results))))
+    assert [result.to_dict() for result in back] == [result.to_dict() for result in results]
+    assert back[0].criteria == results[0].criteria
+    assert back[0].wheelsets == results[0].wheelsets
+
+
+def test_the_same_results_give_the_same_text_however_long_they_took(results) -> None:
+    slower = [dataclasses.replace(result, duration=60.0) for result in results]
+    assert to_json(result_document(slower)) == to_json(result_document(results))
+
+
+@pytest.mark.parametrize(
+    ("document", "message"),
+    [
+        ({}, "expected a result document of schema 'uictest/result/1', found None"),
+        ({"schema": "uictest/result/2"}, "found 'uictest/result/2'"),
+        ({"schema": "uictest/result/1"}, "'cases'"),
+        ({"schema": "uictest/result/1", "cases": [{"id": "a"}]}, "'measures'"),
+        ({"schema": "uictest/result/1", "cases": [None]}, "not as schema"),
+    ],
+)
+def test_another_document_is_refused(document, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        results_of(document)
+
+
+def test_importing_the_room_imports_nothing_heavy() -> None:
+    heavy = ("pandas", "pyarrow", "numba", "scipy", "pydantic", "numpy")
+    code = f"import sys, uictest.evaluation; print([m for m in {heavy} if m in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+    assert found.strip() == "[]"

@@ -1,0 +1,113 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.evaluation import judge
+from uictest.evaluation.decision import Decision, decide
+from uictest.evaluation.sensitivity import sensitivity
+
+G = 9.80665
+KMH = 1 / 3.6
+TOLERANCE = 1e-5
+speeds = st.lists(st.floats(0.0, 1.5), min_size=10, max_size=10).map(
+    lambda falls: 33.0 - np.cumsum([0.0, *falls])
+)
+
+
+@pytest.fixture(scope="session")
+def adhesion(criterion):
+    phase = {"first_phase_duration": {"value": "3 s", "range": ["1.5 s", "5.5 s"]}}
+    return criterion("initial_adhesion", lower="0.05 g", upper="0.08 g", definition=phase)
+
+
+@pytest.fixture(scope="session")
+def slide(criterion):
+    cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["10 km/h", "60 km/h"]}}
+    return criterion(
+        "maximum_slide", lower="35 %", strict=True, wheelsets={"at_least": "half"}, definition=cutoff
+    )
+
+
+@pytest.fixture(scope="session")
+def moved(profile, scenario):
+    """Judge a stop by one criterion; how its verdict moves with its one definition."""
+
+    def judged(criterion, measures, records):
+        (verdict,) = judge(scenario(profile(criterion)), measures, records)
+        (only,) = verdict.sensitivity
+        return only
+
+    return judged
+
+
+def test_a_verdict_that_holds_over_the_whole_range_is_one_stretch(
+    adhesion, moved, sliding_stop, wheelsets
+) -> None:
+    steady = moved(adhesion, sliding_stop(0.07 * G), wheelsets(0.5))
+    assert not steady.flips
+    assert str(steady) == "first_phase_duration 1.5 .. 5.5 s: pass throughout"
+
+
+def test_where_the_verdict_flips_is_located(adhesion, moved, sliding_stop, wheelsets) -> None:
+    # 0.07 g for two seconds, then 0.09 g: the mean reaches 0.08 g after four.
+    falls = np.array([0.07, 0.07, *[0.09] * 8]) * G
+    measures = sliding_stop(speed_after_sliding=33.0 - np.cumsum([0.0, *falls]))
+    found = moved(adhesion, measures, wheelsets(0.5))
+    assert [stretch.verdict for stretch in found.stretches] == ["pass", "fail"]
+    assert found.stretches[0].first == 1.5
+    assert found.stretches[0].last == pytest.approx(4.0, abs=1e-5)
+    assert found.stretches[1].last == 5.5
+    assert str(found) == "first_phase_duration 1.5 .. 5.5 s: pass 1.5 .. 4, fail 4 .. 5.5"
+
+
+def test_a_record_too_short_for_part_of_the_range_shows(adhesion, moved, sliding_stop, wheelsets) -> None:
+    speed = 33.0 - 0.07 * G * np.arange(11.0)
+    speed[5:] = np.nan
+    found = moved(adhesion, sliding_stop(speed_after_sliding=speed), wheelsets(0.5))
+    assert [stretch.verdict for stretch in found.stretches] == ["pass", "not_applicable"]
+    assert found.stretches[0].last == pytest.approx(4.0, abs=1e-5)
+
+
+def test_both_bounds_crossed_within_a_second_are_both_found(
+    criterion, moved, sliding_stop, wheelsets
+) -> None:
+    phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
+    narrow = criterion("initial_adhesion", lower="1.5 m/s2", upper="1.6 m/s2", definition=phase)
+    measures = sliding_stop(speed_after_sliding=[30.0, 29.0, 26.0, *[25.0] * 8])
+    found = moved(narrow, measures, wheelsets(0.5))
+    assert [stretch.verdict for stretch in found.stretches] == ["fail", "pass", "fail"]
+
+
+def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wheelsets) -> None:
+    records = wheelsets(0.9, 0.9, 0.1, 0.1)
+    records.maximum_slide_above[0, 5:] = 0.2
+    found = moved(slide, stop(), records)
+    assert str(found) == "low_speed_cutoff 10 .. 60 km/h: pass 10 .. 40, fail 50 .. 60"
+
+
+@given(speeds, st.floats(1.5, 5.5))
+def test_the_stretches_agree_with_deciding_at_any_duration(
+    adhesion, moved, sliding_stop, wheelsets, speed, duration: float
+) -> None:
+    measures = sliding_stop(speed_after_sliding=speed)
+    found = moved(adhesion, measures, wheelsets(0.5))
+    direct = decide(adhesion, {"first_phase_duration": duration}, measures, wheelsets(0.5)).verdict
+    nearby = {s.verdict for s in found.stretches if s.first - TOLERANCE <= duration <= s.last + TOLERANCE}
+    assert direct in nearby
+
+
+@given(st.lists(st.floats(0.0, 1.0), min_size=84, max_size=84), st.integers(1, 6))
+def test_the_stretches_agree_with_deciding_at_any_cutoff(
+    slide, moved, stop, wheelsets, slides, k: int
+) -> None:
+    records = wheelsets(0.0, 0.0, 0.0, 0.0)
+    records.maximum_slide_above = np.reshape(slides, (4, 21))
+    found = moved(slide, stop(), records)
+    direct = decide(slide, {"low_speed_cutoff": 10 * k * KMH}, stop(), records).verdict
+    assert [s.verdict for s in found.stretches if s.first <= 10 * k <= s.last] == [direct]
+
+
+def test_a_range_of_one_value_is_decided_there() -> None:
+    only = sensitivity("first_phase_duration", "s", 3.0, 3.0, None, lambda at: Decision("pass", at, ""))
+    assert [(s.first, s.last) for s in only.stretches] == [(3.0, 3.0)]

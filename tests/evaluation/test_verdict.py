@@ -1,0 +1,60 @@
+import math
+
+import pytest
+
+from uictest.evaluation import Sensitivity, Stretch, Verdict
+
+# The interface's names; `sensitivity` adds how firm the verdict is.
+FIELDS = [
+    "id",
+    "layer",
+    "value",
+    "unit",
+    "lower",
+    "upper",
+    "margin",
+    "verdict",
+    "reason",
+    "definition",
+    "sensitivity",
+]
+SLIDE = Sensitivity(
+    "low_speed_cutoff", "km/h", 10.0, 60.0, (Stretch(10.0, 40.0, "pass"), Stretch(50.0, 60.0, "fail"))
+)
+STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (Stretch(2.0, 5.0, "pass"),))
+
+
+def verdict(**changes: object) -> Verdict:
+    fields = {
+        "id": "minimum-slide",
+        "layer": "validity",
+        "value": 80.0,
+        "unit": "%",
+        "lower": 35.0,
+        "upper": None,
+    }
+    fields |= {"margin": 45.0, "verdict": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
+    return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
+
+
+def test_the_json_form_has_the_fields_of_the_interface_and_comes_back() -> None:
+    form = verdict().to_dict()
+    assert list(form) == FIELDS
+    assert Verdict.from_dict(form) == verdict()
+
+
+def test_nan_and_infinity_become_null() -> None:
+    form = verdict(value=math.inf, margin=math.nan).to_dict()
+    assert (form["value"], form["margin"]) == (None, None)
+
+
+def test_a_sensitivity_says_whether_it_flips() -> None:
+    assert [entry["flips"] for entry in verdict().to_dict()["sensitivity"]] == [True, False]
+    assert not verdict().firm
+    assert verdict(sensitivity=(STEADY,)).firm
+    assert verdict(sensitivity=()).firm
+
+
+def test_a_verdict_cannot_be_changed() -> None:
+    with pytest.raises(AttributeError):
+        verdict().verdict = "fail"

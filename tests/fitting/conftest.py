@@ -1,0 +1,53 @@
+"""Simulated stops as a measurement of them would come out: sensors with noise and errors of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.measured import MeasuredStop, Preparation, RawChannel, prepare, stated_case
+from uictest.recording import TIME, Recording
+from uictest.rig import simulate
+from uictest.scenario import Case
+
+NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
+"""Standard deviations, m/s and N; wheel speeds are read by the rig's toothed wheels besides."""
+LOADCELL_GAIN = 0.005
+"""Standard deviation of the gain errors of loadcells, share."""
+
+Make = Callable[..., tuple[Case, MeasuredStop]]
+
+
+def _measured(recording: Recording, dice: np.random.Generator) -> dict[str, RawChannel]:
+    time = np.asarray(recording[TIME])
+
+    def noise(kind: str) -> np.ndarray:
+        return dice.normal(0.0, NOISE[kind], len(time))
+
+    samples = {"speed": recording["speed"] + noise("speed")}
+    for n in (1, 2, 3, 4):
+        samples[f"wheel_speed_{n}"] = recording[f"measured_speed_{n}"] + noise("wheel_speed")
+        gain = 1.0 + dice.normal(0.0, LOADCELL_GAIN)
+        samples[f"clamping_force_{n}"] = gain * recording[f"clamping_force_{n}"] + noise("clamping_force")
+    return {name: RawChannel(name, name, time, np.asarray(values)) for name, values in samples.items()}
+
+
+@pytest.fixture
+def measured() -> Make:
+    """Simulate a stop from a speed in km/h on a friction, and measure it with the noise of a seed."""
+
+    def make(speed: float, friction: str, seed: int = 0, without: tuple[str, ...] = (), **facts: Any) -> Any:
+        wsp = facts.get("wsp", "active")
+        case = stated_case(
+            "stop", speed / 3.6, ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}"]
+        )
+        recording = simulate(case, record_every=0.01).recording
+        assert recording is not None
+        channels = _measured(recording, np.random.default_rng(seed))
+        kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
+        return case, prepare(kept, recording.metadata, Preparation())
+
+    return make

@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.fitting import FitError, fit_stop
+from uictest.fitting.creep import wheelset_creep
+from uictest.fitting.friction_profile import stretch_names, stretch_of
+from uictest.fitting.wheel_loads import wheel_loads
+from uictest.measured import stated_case
+from uictest.physics.polach import contact_stiffness, creep_force
+
+Make = Callable[..., Any]
+CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]
+STEPS = [(80.0, 0.10, 0.06), (80.0, 0.06, 0.09), (100.0, 0.09, 0.06), (100.0, 0.06, 0.10)]
+
+
+def _text(*levels: float, place: float = 100.0) -> str:
+    points = ", ".join(
+        f"{{position: {p} m, friction: {mu}}}" for p, mu in zip((0, place), levels, strict=True)
+    )
+    return f"{{points: [{points}], interpolation: steps}}"
+
+
+@pytest.mark.parametrize(("speed", "friction"), CONSTANT)
+def test_constant_friction_within_3_percent(measured: Make, speed: float, friction: float) -> None:
+    case, stop = measured(speed, str(friction), seed=int(1000 * friction))
+    found = fit_stop(stop, case.scenario)
+    assert found.determined
+    assert found.friction[0].value == pytest.approx(friction, rel=0.03)
+    assert 0.0 < found.friction[0].half_width < 0.03 * friction
+
+
+@pytest.mark.parametrize(("speed", "before", "after"), STEPS)
+def test_two_steps_within_5_percent(measured: Make, speed: float, before: float, after: float) -> None:
+    case, stop = measured(speed, _text(before, after), seed=7)
+    found = fit_stop(stop, case.scenario, [100.0])
+    assert [estimate.value for estimate in found.friction] == pytest.approx([before, after], rel=0.05)
+
+
+def test_without_sliding_there_is_only_a_lower_bound(measured: Make) -> None:
+    case, stop = measured(60.0, "0.5")
+    [estimate] = fit_stop(stop, case.scenario).friction
+    assert estimate.standing == "at least"
+    assert 0.02 < estimate.value < 0.5
+    assert "cannot tell" in str(estimate)
+
+
+def test_a_stretch_that_no_wheelset_reached_is_told(measured: Make) -> None:
+    case, stop = measured(60.0, "0.07")
+    found = fit_stop(stop, case.scenario, [5000.0])
+    assert [estimate.standing for estimate in found.friction] == ["found", "not reached"]
+    assert found.determined
+
+
+def test_pad_friction_beside_friction(measured: Make) -> None:
+    case, stop = measured(80.0, "0.08")
+    pads = case.scenario.brake.system.disc.pad_friction
+    system = case.scenario.brake.system
+    weaker = system.disc.model_copy(update={"pad_friction": type(pads)(0.9 * pads, "", "1")})
+    brake = case.scenario.brake.model_copy(update={"system": system.model_copy(update={"disc": weaker})})
+    found = fit_stop(stop, case.scenario.model_copy(update={"brake": brake}), with_pads=True)
+    assert found.pad_factor is not None
+    assert found.pad_factor.value == pytest.approx(1.0 / 0.9, rel=0.03)
+    assert found.friction[0].value == pytest.approx(0.08, rel=0.03)
+
+
+def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide(measured: Make) -> None:
+    case, stop = measured(80.0, "0.06", without=("clamping_force",))
+    assert fit_stop(stop, case.scenario).friction[0].value == pytest.approx(0.06, rel=0.05)
+    with pytest.raises(FitError, match="clamping forces"):
+        fit_stop(stop, case.scenario, with_pads=True)
+
+
+def test_a_fit_needs_all_speeds(measured: Make) -> None:
+    case, stop = measured(60.0, "0.07", without=("wheel_speed_2",))
+    with pytest.raises(FitError, match="not recorded: wheel_speed_2"):
+        fit_stop(stop, case.scenario)
+
+
+def test_the_creep_law_over_arrays_is_the_rigs_own() -> None:
+    rail = stated_case("rail", 20.0, ["rail.condition=wet"]).scenario.rail.condition
+    slips = np.array([0.0, 0.01, 0.5, 3.0, 15.0])
+    full = np.full(5, 1.0)
+    forces = wheelset_creep(slips, 20.0 * full, 5.5e4 * full, 0.1 * full, rail)
+    contact = rail.contact
+    area = np.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
+    reference = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
+    for slip, force in zip(slips, forces, strict=True):
+        stiffness = contact_stiffness(float(reference), 5.5e4 / float(contact.reference_wheel_load))
+        rest = (rail.friction_ratio, rail.friction_decay, rail.reduction_adhesion, rail.reduction_slip)
+        single, _ = creep_force(float(slip), 20.0, 5.5e4, stiffness, 0.1, *map(float, rest))
+        assert force == pytest.approx(2.0 * single, rel=1e-9)
+
+
+def test_braking_loads_the_leading_wheelsets_and_keeps_the_weight() -> None:
+    vehicle = stated_case("car", 20.0, []).scenario.vehicle
+    rest, braking = wheel_loads(vehicle, np.array([0.0, 1.0])).T
+    assert braking.sum() == pytest.approx(rest.sum())
+    assert braking[1] < braking[0]
+    assert braking[3] < braking[2]
+
+
+def test_stretches() -> None:
+    np.testing.assert_array_equal(
+        stretch_of(np.array([-5.0, 49.9, 50.0, 200.0]), [50.0, 120.0]), [0, 0, 1, 2]
+    )
+    assert stretch_names([50.0, 120.0]) == ["up to 50 m", "from 50 m to 120 m", "from 120 m on"]
+    assert stretch_names([]) == ["everywhere"]

@@ -1,0 +1,83 @@
+"""The transfer function that made a record is found in it again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.identification import UnsuitableRecordError, identify_cylinder
+from uictest.identification.transfer_function import assembled
+
+STEP = 0.0005
+FREQUENCIES = np.geomspace(0.05, 20.0, 60)
+
+
+def excitation(duration=40.0, step=STEP):
+    """A pressure that leaps between random levels at random times."""
+    rng = np.random.default_rng(4)
+    time = np.arange(round(duration / step) + 1) * step
+    leaps = np.cumsum(rng.uniform(0.02, 0.5, 400))
+    levels = rng.uniform(0.0, 4e5, len(leaps) + 1)
+    levels[0] = 0.0
+    return time, levels[np.searchsorted(leaps, time)]
+
+
+def known(real=True):
+    """A third-order lag with a fast part, or one with a pair of complex poles."""
+    if real:
+        return assembled(np.log([0.05, 0.32, 0.006]), np.array([0.3, 0.6, 0.1]), STEP)
+    return assembled(np.log([0.3, 0.02, 0.0004]), np.array([0.2, 0.8, 0.1]), STEP)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("real", [True, False])
+def test_a_known_response_is_recovered_within_a_per_cent_up_to_20_hz(seed, real):
+    time, given = excitation()
+    truth = known(real)
+    noise = 0.005 * given.max() * np.random.default_rng(seed).standard_normal(len(given))
+    found = identify_cylinder(time, given, truth.output(given) + noise)
+    wanted = truth.response(FREQUENCIES)
+    assert np.abs(found.transfer_function.response(FREQUENCIES) - wanted).max() < 0.01
+    assert found.fit > 95.0
+
+
+def test_unity_gain_at_rest_and_stability_hold_by_parametrisation():
+    time, given = excitation(8.0)
+    found = identify_cylinder(time, given, known().output(given)).transfer_function
+    gain = sum(found.numerator) / (1.0 + sum(found.denominator))
+    assert gain == pytest.approx(1.0, abs=1e-6)
+    assert np.all(np.abs(found.poles) < 1.0)
+    assert found.output(np.full(1000, 3e5)) == pytest.approx(3e5)
+
+
+def test_the_largest_error_is_smaller_when_it_is_what_is_made_least():
+    """A difference that is no linear lag: the tank's time runs a tenth faster."""
+    time, given = excitation(12.0)
+    given = known().output(given)
+    wanted = np.interp(time / 1.1, time, given)
+    least_squares = identify_cylinder(time, given, wanted)
+    largest = identify_cylinder(time, given, wanted, "largest-error")
+    assert largest.largest_after < 1.1 * least_squares.largest_after
+
+
+def test_the_model_is_better_than_none_on_what_was_held_out():
+    time, given = excitation(8.0)
+    found = identify_cylinder(time, given, known().output(given))
+    assert found.largest_after < 0.01 * found.largest_before
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        (lambda t, p: (t[:4000], p[:4000]), "too short"),
+        (lambda t, p: (t, np.full_like(p, 3e5)), "no excitation"),
+        (lambda t, p: (t, np.minimum(t * 1e5, 3e5)), "swings"),
+        (lambda t, p: (t[::40], p[::40]), "needs? .* or less"),
+        (lambda t, p: (np.where(t > 2.0, t + 0.01, t), p), "uneven sampling"),
+        (lambda t, p: (t, np.where(t > 2.0, np.nan, p)), "no number"),
+    ],
+)
+def test_a_record_that_cannot_support_it_is_refused_with_the_reason(spoil, reason):
+    time, pressure = spoil(*excitation(6.0))
+    with pytest.raises(UnsuitableRecordError, match=reason):
+        identify_cylinder(time, pressure, pressure)

@@ -1,0 +1,87 @@
+"""Lines that made a record are found in it again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.identification import UnsuitableRecordError, identify_hysteresis
+
+from .conftest import LINES
+
+PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
+
+
+def noisy(samples, share, seed):
+    rng = np.random.default_rng(seed)
+    return samples + share * samples.max() * rng.standard_normal(len(samples))
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_known_lines_are_recovered_under_half_a_per_cent_of_noise(pressures, force, seed):
+    time, pressure, acting = pressures
+    found = identify_hysteresis(
+        time, noisy(pressure, 0.005, seed), noisy(force, 0.005, seed + 10), acting, transition_time=0.0
+    )
+    for phase in PHASES:
+        assert found.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
+        assert found.lines[phase].intercept == pytest.approx(LINES[phase].intercept, abs=0.02 * force.max())
+    for kind in ("bc", "wsp"):
+        width = LINES[f"{kind}_squeezing"].pressure(found.high_force) - LINES[f"{kind}_releasing"].pressure(
+            found.high_force
+        )
+        assert found.loop_widths[kind] == pytest.approx(width, abs=0.03e5)
+
+
+def test_without_noise_the_computed_force_is_the_measured_one(pressures, force):
+    time, pressure, acting = pressures
+    found = identify_hysteresis(time, pressure, force, acting, transition_time=0.0)
+    assert found.largest_error < 0.005
+    assert found.rms_error <= found.largest_error
+
+
+def test_points_inside_the_loop_do_not_bias_the_lines(pressures, force):
+    """Small cycles that never reach a line are most of this record, and count for nothing."""
+    time, pressure, acting = pressures
+    extra = np.arange(1, 40_001) * 0.0005
+    ripple = pressure[-1] - 0.1e5 * (1.0 - np.cos(2.0 * np.pi * extra))
+    stuck = np.full(len(extra), force[-1])
+    found = identify_hysteresis(
+        np.concatenate([time, time[-1] + extra]),
+        np.concatenate([pressure, ripple]),
+        np.concatenate([force, stuck]),
+        np.concatenate([acting, np.ones(len(extra), bool)]),
+        transition_time=0.0,
+    )
+    for phase in PHASES:
+        assert found.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
+
+
+def test_a_record_without_wsp_gives_the_bc_lines_alone(pressures, force):
+    time, pressure, _ = pressures
+    n = 44_000
+    found = identify_hysteresis(time[:n], pressure[:n], force[:n], np.zeros(n, bool))
+    assert set(found.lines) == {"bc_squeezing", "bc_releasing"}
+    assert set(found.loop_widths) == {"bc"}
+
+
+def test_the_line_without_hysteresis_lies_midway(pressures, force):
+    found = identify_hysteresis(*pressures[:2], force, pressures[2])
+    squeezing, releasing = found.lines["bc_squeezing"], found.lines["bc_releasing"]
+    assert found.linear.slope == pytest.approx(0.5 * (squeezing.slope + releasing.slope))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        (lambda t, p, f: (t[:1000], p[:1000], f[:1000]), "too short"),
+        (lambda t, p, f: (t, p, np.where(t > 3.0, np.nan, f)), "no number"),
+        (lambda t, p, f: (t, p, 0.0 * f), "no clamping force"),
+        (lambda t, p, f: (np.where(t > 3.0, t + 0.1, t), p, f), "uneven sampling"),
+        (lambda t, p, f: (t[:8000], p[:8000], f[:8000]), "bc_releasing"),
+    ],
+)
+def test_a_record_that_cannot_support_the_fit_is_refused_with_the_reason(pressures, force, spoil, reason):
+    time, pressure, force = spoil(*pressures[:2], force)
+    with pytest.raises(UnsuitableRecordError, match=reason):
+        identify_hysteresis(time, pressure, force, np.zeros(len(time), bool))

@@ -1,0 +1,110 @@
+"""Each operation of vectors against numpy's, bit for bit."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from uictest import lanes
+
+WIDTH = 8
+PAIR = np.dtype((np.record, [("a", "f8"), ("b", "f8"), ("result", "f8")]))
+numbers = st.lists(st.floats(width=64), min_size=WIDTH, max_size=WIDTH)
+Numbers = NDArray[np.float64]
+
+
+def applied(function: Callable[..., Any]) -> Callable[[Any, Any], Numbers]:
+    """Compile ``function(a, b)`` of vectors and call it on numbers."""
+    compiled = numba.njit(error_model="numpy")(function)
+
+    @numba.njit(error_model="numpy")
+    def apply(block: Any) -> None:
+        record = lanes.vectors(block)
+        record.result = compiled(record.a, record.b)
+
+    def call(a: Any, b: Any) -> Numbers:
+        block = lanes.block(PAIR, WIDTH)
+        block["a"], block["b"] = a, b
+        apply(block)
+        return np.array(block["result"][0])
+
+    return call
+
+
+BINARY: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
+    "add": (lambda a, b: a + b, np.add),
+    "sub": (lambda a, b: a - b, np.subtract),
+    "mul": (lambda a, b: a * b, np.multiply),
+    "truediv": (lambda a, b: a / b, np.divide),
+    "minimum": (lambda a, b: lanes.minimum(a, b), lambda a, b: np.where(a < b, a, b)),
+    "maximum": (lambda a, b: lanes.maximum(a, b), lambda a, b: np.where(a > b, a, b)),
+    "lt": (lambda a, b: lanes.select(a < b, 1.0, 0.0), np.less),
+    "le": (lambda a, b: lanes.select(a <= b, 1.0, 0.0), np.less_equal),
+    "gt": (lambda a, b: lanes.select(a > b, 1.0, 0.0), np.greater),
+    "ge": (lambda a, b: lanes.select(a >= b, 1.0, 0.0), np.greater_equal),
+    "select": (lambda a, b: lanes.select(a > 0.0, a, b), lambda a, b: np.where(a > 0.0, a, b)),
+    "and": (
+        lambda a, b: lanes.select((a > 0.0) & (b > 0.0), a, b),
+        lambda a, b: np.where((a > 0.0) & (b > 0.0), a, b),
+    ),
+    "or": (
+        lambda a, b: lanes.select((a > 0.0) | (b > 0.0), a, b),
+        lambda a, b: np.where((a > 0.0) | (b > 0.0), a, b),
+    ),
+    "neg": (lambda a, b: -a, lambda a, b: -a),
+    "abs": (lambda a, b: abs(a), lambda a, b: np.abs(a)),
+    "sqrt": (lambda a, b: lanes.sqrt(a), lambda a, b: np.sqrt(a)),
+    "number on the left": (lambda a, b: 3.0 - a, lambda a, b: 3.0 - a),
+    "number on the right": (lambda a, b: a / 3, lambda a, b: a / 3),
+}
+
+
+@pytest.fixture(scope="module", params=BINARY)
+def operation(request: pytest.FixtureRequest) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    in_lanes, in_numpy = BINARY[request.param]
+    return applied(in_lanes), in_numpy
+
+
+def same_bits(a: Numbers, b: Numbers) -> bool:
+    """Equality of bits; the payload of a NaN is nobody's business."""
+    return bool(np.all((a.view(np.int64) == b.view(np.int64)) | (np.isnan(a) & np.isnan(b))))
+
+
+@given(a=numbers, b=numbers)
+@settings(deadline=None)
+def test_operations_give_the_bits_of_numpy(
+    operation: tuple[Callable[..., Any], Callable[..., Any]], a: list[float], b: list[float]
+) -> None:
+    in_lanes, in_numpy = operation
+    with np.errstate(all="ignore"):
+        expected = np.asarray(in_numpy(np.array(a), np.array(b)), np.float64)
+    assert same_bits(in_lanes(a, b), expected)
+
+
+def test_a_product_is_rounded_before_it_is_added() -> None:
+    # 1 - (1 + e) (1 - e) is e^2 when product and sum are fused, and 0 when the product is rounded.
+    difference = applied(lambda a, b: 1.0 - (1.0 + a) * (1.0 - a))
+    assert np.all(difference(2.0**-30, 0.0) == 0.0)
+
+
+def test_a_sum_is_not_reordered() -> None:
+    summed = applied(lambda a, b: (a + b) - a)
+    assert np.all(summed(1e16, 1.0) == 0.0)
+
+
+def test_operators_in_place() -> None:
+    def in_place(a: Any, b: Any) -> Any:
+        result = a
+        result += b
+        result *= 2.0
+        result -= a
+        result /= b
+        return result
+
+    a, b = np.arange(WIDTH) + 0.1, np.arange(WIDTH) + 0.7
+    assert same_bits(applied(in_place)(a, b), ((a + b) * 2.0 - a) / b)

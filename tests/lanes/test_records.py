@@ -1,0 +1,123 @@
+"""Attributes of records in lanes."""
+
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+from numba.core.errors import TypingError
+
+from uictest import lanes
+
+LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8"), ("load", "f8")]))
+WIDTHS = [2, 4, 8, 16]
+BIG = 2**62 + 1
+"""An integer that no double-precision number holds."""
+
+
+def counted(width: int) -> Any:
+    """Three records of lanes with all fields different."""
+    block = lanes.block(LAYOUT, width, 3)
+    for k, name in enumerate(("speed", "mode", "load")):
+        block[name] = np.arange(3 * width).reshape(3, width) + 1000 * k
+    return block
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_attributes_of_vectors_are_the_fields_of_all_lanes(width: int) -> None:
+    @numba.njit
+    def move(block: Any) -> None:
+        records = lanes.vectors(block)
+        for i in range(3):
+            records[i].load = records[i].speed + records[i].load
+
+    block, before = counted(width), counted(width)
+    move(block)
+    assert np.array_equal(block["load"], before["speed"] + before["load"])
+    assert np.array_equal(block["speed"], before["speed"])
+    assert np.array_equal(block["mode"], before["mode"])
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_one_lane_leaves_the_others_alone(width: int) -> None:
+    @numba.njit
+    def change(block: Any, number: int) -> None:
+        record = lanes.lane(block, number)[1]
+        record.speed = -record.speed
+        record.mode = record.mode + 1
+        record.load = 7
+
+    for number in range(width):
+        block, expected = counted(width), counted(width)
+        change(block, number)
+        expected["speed"][1, number] *= -1
+        expected["mode"][1, number] += 1
+        expected["load"][1, number] = 7
+        assert block.tobytes() == expected.tobytes()
+
+
+def test_a_number_stored_into_a_vector_fills_every_lane() -> None:
+    @numba.njit
+    def reset(block: Any) -> None:
+        lanes.vectors(block).load = 0.5
+        lanes.vectors(block)[2].load = 3
+
+    block = counted(8)
+    reset(block)
+    assert np.all(block["load"][0] == 0.5)
+    assert np.all(block["load"][2] == 3.0)
+
+
+def test_integers_keep_all_their_bits() -> None:
+    @numba.njit
+    def shift(block: Any) -> None:
+        record = lanes.lane(block, 3)
+        record.mode = (record.mode << 1) | 1
+
+    block = counted(8)
+    block["mode"][0, 3] = BIG >> 1
+    shift(block)
+    assert block["mode"][0, 3] == BIG
+
+
+def test_put_copies_every_field_of_a_record() -> None:
+    @numba.njit
+    def copy(block: Any, records: Any) -> None:
+        lanes.put(lanes.lane(block, 5)[2], records[0])
+
+    block = counted(8)
+    record = np.array([(1.5, BIG, -0.0)], LAYOUT)
+    copy(block, record)
+    assert all(block[name][2, 5].tobytes() == record[name].tobytes() for name in record.dtype.names or ())
+
+
+def test_integer_fields_are_no_vectors() -> None:
+    @numba.njit
+    def read(block: Any) -> None:
+        lanes.vectors(block).load = lanes.vectors(block).mode
+
+    with pytest.raises(TypingError, match="mode"):
+        read(counted(8))
+
+
+def test_an_unknown_field_is_named() -> None:
+    @numba.njit
+    def read(block: Any) -> None:
+        lanes.vectors(block).sped = 1.0
+
+    with pytest.raises(TypingError, match="sped"):
+        read(counted(8))
+
+
+def test_a_block_may_lie_anywhere() -> None:
+    @numba.njit
+    def double(block: Any) -> None:
+        record = lanes.vectors(block)
+        record.load = record.load * 2.0
+
+    aligned = counted(8)[:1]
+    memory = np.zeros(aligned.nbytes + 8, np.uint8)
+    shifted = memory[8:].view(aligned.dtype)
+    shifted[:] = aligned
+    double(shifted)
+    assert np.array_equal(shifted["load"], 2.0 * aligned["load"])

@@ -1,0 +1,133 @@
+"""The parts that ship: every number with its source, published numbers as published."""
+
+import pytest
+
+from uictest import library
+from uictest.scenario import ScenarioErrors, load_part, numbers
+
+REFERENCES = [f"{folder}/{name}" for folder in library.FOLDERS for name in library.names(folder)]
+
+
+def value(reference: str, key: str) -> float:
+    return {number.key: float(number.quantity) for number in numbers(load_part(reference))}[key]
+
+
+def mark(reference: str, key: str) -> str:
+    source = {number.key: number.source for number in numbers(load_part(reference))}[key]
+    assert source is not None
+    return source.mark
+
+
+@pytest.mark.parametrize("reference", REFERENCES)
+def test_every_number_has_a_described_source(reference: str) -> None:
+    assert [number.key for number in numbers(load_part(reference)) if number.source is None] == []
+
+
+@pytest.mark.parametrize("reference", REFERENCES)
+def test_every_source_is_used_and_explained(reference: str) -> None:
+    part = load_part(reference)
+    used = {number.quantity.source for number in numbers(part)}
+    used |= {criterion.source for criterion in getattr(part, "criteria", ())}
+
+    assert used == set(part.sources)
+    assert all(len(source.text) > 20 for source in part.sources.values())
+
+
+@pytest.mark.parametrize("reference", REFERENCES)
+def test_a_part_is_called_like_its_file_and_says_what_it_is(reference: str) -> None:
+    part = load_part(reference)
+
+    assert part.name == reference.split("/")[1]
+    assert part.title
+
+
+def test_the_parts_named_in_the_documents_are_there() -> None:
+    assert set(REFERENCES) >= {
+        "brakes/ep-disc",
+        "calipers/six-inch",
+        "compensations/six-inch",
+        "controllers/threshold",
+        "criteria/uic-541-05-appendix-b",
+        "criteria/uictest-stop",
+        "rails/dry",
+        "rails/wet",
+        "sensors/standard",
+        "vehicles/crh380a",
+        "vehicles/intercity-180",
+        "vehicles/manchester-benchmark",
+    }
+
+
+@pytest.mark.parametrize(
+    ("reference", "key", "published"),
+    [
+        ("vehicles/manchester-benchmark", "body.mass", 32_000.0),
+        ("vehicles/manchester-benchmark", "body.pitch_inertia", 1.97e6),
+        ("vehicles/manchester-benchmark", "primary.longitudinal_stiffness", 31.391e6),
+        ("vehicles/manchester-benchmark", "secondary.vertical_stiffness", 430e3),
+        ("vehicles/crh380a", "body.mass", 43_862.5),
+        ("vehicles/crh380a", "wheelset.radius", 0.43),
+        ("vehicles/crh380a", "secondary.vertical_damping", 40e3),
+        ("rails/dry", "friction", 0.55),
+        ("rails/dry", "friction_decay", 0.60),
+        ("rails/wet", "friction", 0.30),
+        ("rails/wet", "reduction_adhesion", 0.30),
+        ("rails/wet", "reduction_slip", 0.10),
+        ("brakes/ep-disc", "disc.mean_radius", 0.289),
+        ("brakes/ep-disc", "disc.pad_friction", 0.38),
+    ],
+)
+def test_published_numbers(reference: str, key: str, published: float) -> None:
+    assert value(reference, key) == pytest.approx(published, rel=1e-12)
+    assert mark(reference, key) == "published"
+
+
+@pytest.mark.parametrize(
+    ("reference", "key", "stated"),
+    [
+        ("brakes/ep-disc", "reservoir.volume", 0.3),
+        ("brakes/ep-disc", "reservoir.initial_pressure", 8e5),
+        ("brakes/ep-disc", "tank.volume", 2e-3),
+        ("brakes/ep-disc", "caliper_tank.ball_volume", 0.21e-3),
+        ("calipers/six-inch", "piston_area", 0.01824),
+        ("calipers/six-inch", "clearance", 2.9e-3),
+        ("compensations/six-inch", "sampling_time", 0.5e-3),
+    ],
+)
+def test_numbers_stated_in_the_source(reference: str, key: str, stated: float) -> None:
+    assert value(reference, key) == pytest.approx(stated, rel=1e-12)
+    assert mark(reference, key) == "stated"
+
+
+def test_the_balls_are_367_of_1_03_cm() -> None:
+    assert value("brakes/ep-disc", "caliper_tank.ball_volume") == pytest.approx(
+        367 * 3.141592653589793 / 6 * 0.0103**3, rel=2e-3
+    )
+
+
+def test_the_default_car_is_a_chosen_45_t() -> None:
+    car = load_part("vehicles/intercity-180")
+
+    assert car.total_mass == pytest.approx(45_000.0)  # type: ignore[attr-defined]
+    assert {source.mark for source in car.sources.values()} == {"chosen"}
+
+
+def test_all_numbers_of_controllers_are_chosen() -> None:
+    for name in library.names("controllers"):
+        marks = {source.mark for source in load_part(f"controllers/{name}").sources.values()}
+        assert marks == {"chosen"}
+
+
+def test_an_unknown_part_is_refused_with_the_nearest() -> None:
+    with pytest.raises(ScenarioErrors, match="did you mean 'intercity-180'"):
+        load_part("vehicles/intercity-108")
+    with pytest.raises(KeyError):
+        load_part("cars/intercity-180")
+
+
+@pytest.mark.parametrize(
+    ("folder", "name"), [("vehicles", "../rails/dry"), ("..", "x"), ("vehicles", "nothing")]
+)
+def test_only_what_is_listed_can_be_read(folder: str, name: str) -> None:
+    with pytest.raises(KeyError):
+        library.content(folder, name)

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.evaluation import evaluate
+from uictest.measured import judge_stop, load_map, prepare, select
+from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
+from uictest.recording.formats.reader import read_here
+from uictest.rig import Stop
+from uictest.scenario import Case
+
+BALANCES = ("energy-balance", "air-balance")
+
+# What sampling can lose, per sampling interval T: a time is known to T, a distance to v T at the place it is
+# taken, an extreme to what the signal does within T, a duration to T at each of its ends.
+RESOLUTION: dict[str, Callable[[float], float]] = {
+    "braking_time_s": lambda interval: 0.1 * interval,
+    "braking_distance_m": lambda interval: 0.1 * interval,
+    "mean_deceleration_mps2": lambda interval: 0.01 * interval,
+    "initial_adhesion_g": lambda interval: 0.05 * interval,
+    "minimum_deceleration_mps2": lambda interval: 1.0 * interval,
+    "maximum_deceleration_mps2": lambda interval: 1.0 * interval,
+    "reservoir_minimum_bar": lambda interval: 0.1 * interval,
+}
+LOCKED = 10.0
+"""Sampling intervals by which the time in a handful of locks may be off."""
+
+
+@pytest.mark.parametrize("rate", [2000.0, 100.0, 20.0])
+@pytest.mark.parametrize("name", FORMATS)
+def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one(
+    name: str, rate: float, case: Case, simulated: Callable[[float], Stop], tmp_path: Path
+) -> None:
+    stop = simulated(rate)
+    path = tmp_path / f"stop{SUFFIXES[name]}"
+    assert stop.recording is not None
+    writer_of(name)(stop.recording, path)
+    contents = read_here(name, path, Dialect())
+    channel_map, _ = load_map("uictest")
+    measured = prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
+    wanted, found = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, measured)
+    assert measured.defects == ()
+    assert found.outcome == wanted.outcome
+    verdicts = [(v.id, v.verdict) for v in found.criteria if v.id not in BALANCES]
+    assert verdicts == [(v.id, v.verdict) for v in wanted.criteria if v.id not in BALANCES]
+    _compare(found, wanted, max(1.0 / rate, 0.01))
+
+
+def _compare(found: Any, wanted: Any, interval: float) -> None:
+    for figure, resolution in RESOLUTION.items():
+        expected = getattr(wanted.measures, figure)
+        assert getattr(found.measures, figure) == pytest.approx(
+            expected, abs=resolution(interval) + 1e-3 * abs(expected) * (interval > 0.01), nan_ok=True
+        ), figure
+    for one, other in zip(found.wheelsets, wanted.wheelsets, strict=True):
+        assert one.locked_time_s == pytest.approx(other.locked_time_s, abs=LOCKED * (interval - 0.01) + 1e-6)
+        assert one.valve_actuations == pytest.approx(other.valve_actuations, abs=0 if interval == 0.01 else 2)
+        assert one.maximum_slide == pytest.approx(other.maximum_slide, abs=2.0 * (interval - 0.01) + 1e-6)
+
+
+def test_what_a_record_cannot_hold_is_not_applicable_with_the_reason(
+    case: Case, channels: Any, prepared: Any
+) -> None:
+    result = judge_stop(case, prepared({"speed": channels["speed"]}))
+    reasons = {
+        verdict.id: verdict.reason for verdict in result.criteria if verdict.verdict == "not_applicable"
+    }
+    assert reasons["energy-balance"] == "a record holds no energy balance"
+    assert "not recorded: wheel_speed_1, wheel_speed_2" in reasons["locked-wheels"]
+    assert result.measures is not None
+    assert result.measures.braking_time_s > 0.0
+    assert all(wheelset.valve_actuations != wheelset.valve_actuations for wheelset in result.wheelsets)
+
+
+def test_the_preparation_stands_in_every_verdict(case: Case, channels: Any, prepared: Any) -> None:
+    result = judge_stop(case, prepared(channels, low_pass="10 Hz", raster="20 ms"))
+    for verdict in result.criteria:
+        assert verdict.definition["trigger"] == "at 0 s, stated by the file"
+        assert verdict.definition["filter"] == "low-pass 10 Hz"
+        assert verdict.definition["raster"].startswith("20 ms")
+        assert verdict.definition["distance"] == "recorded"
+
+
+def test_a_distance_that_is_not_recorded_is_integrated(channels: Any, prepared: Any) -> None:
+    wanted = prepared(channels).standstill
+    del channels["distance"]
+    found = prepared(channels)
+    assert found.choices["distance"] == "integrated from speed"
+    assert found.standstill == pytest.approx(wanted, rel=1e-4)

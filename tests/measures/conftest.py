@@ -1,0 +1,107 @@
+"""A stop as columns of samples, fed to the streaming measures one row at a time."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from uictest.measures import (
+    DEFINITION,
+    MEASURES,
+    WHEELSET_MEASURES,
+    begin,
+    begin_wheelset,
+    observe_train,
+    observe_wheelset,
+)
+
+Column = NDArray[np.float64]
+
+_DEFINITION = {
+    "sliding_slide": 0.05,
+    "sliding_slip": 0.3,
+    "locked_speed": 0.1,
+    "moving_speed": 2.8,
+    "deceleration_filter": 0.5,
+    "developed_time": 2.0,
+}
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Columns of a stop; those of the wheelsets have four columns of their own."""
+
+    time: Column
+    distance: Column
+    speed: Column
+    wheel_speed: Column
+    venting: Column
+    clamping_force: Column
+    reservoir_pressure: Column
+
+
+def _samples() -> Samples:
+    """Half a minute of braking from 30 m/s with slides, a lock and vents, none of them regular."""
+    random = np.random.default_rng(5)
+    time = np.arange(2601) * 0.01
+    speed = 30.0 - 1.1 * np.maximum(time - 0.7, 0.0) + 0.02 * np.sin(9.0 * time)
+    slide = np.zeros((time.size, 4))
+    for i, (begin_at, depth) in enumerate(((4.0, 0.2), (2.5, 0.6), (6.0, 0.03), (3.0, 1.5))):
+        slide[:, i] = np.clip(depth * np.sin((time - begin_at) * (0.5 + 0.3 * i)), 0.0, 1.0) * (
+            time > begin_at
+        )
+    noise = 1.0 - 0.002 * random.random((time.size, 4))
+    return Samples(
+        time=time,
+        distance=np.concatenate([[0.0], np.cumsum(0.005 * (speed[1:] + speed[:-1]))]),
+        speed=speed,
+        wheel_speed=speed[:, None] * (1.0 - slide) * noise,
+        venting=(np.sin(time[:, None] * np.array([1.1, 2.3, 3.1, 0.7])) > 0.6).astype(float),
+        clamping_force=14e3
+        * np.minimum(time[:, None] / 2.0, 1.0)
+        * random.uniform(0.95, 1.0, (time.size, 4)),
+        reservoir_pressure=8e5 - 3e4 * np.sin(time / 8.0),
+    )
+
+
+def _measured(samples: Samples) -> tuple[Any, Any]:
+    """Measures of the train and of its wheelsets after all samples but the first, which begins them."""
+    definition = np.zeros(1, np.dtype((np.record, list(DEFINITION))))[0]
+    for name, value in _DEFINITION.items():
+        definition[name] = value
+    train = np.zeros(1, MEASURES)[0]
+    wheelsets = np.zeros(4, WHEELSET_MEASURES)
+    first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
+    begin(train, *map(float, first))
+    for i in range(4):
+        begin_wheelset(wheelsets[i])
+    for k in range(1, samples.time.size):
+        time, speed = float(samples.time[k]), float(samples.speed[k])
+        for i in range(4):
+            row = (samples.wheel_speed[k, i], samples.venting[k, i], samples.clamping_force[k, i])
+            observe_wheelset(wheelsets[i], train, definition, i + 1, time, speed, *map(float, row))
+        observe_train(
+            train, definition, time, float(samples.distance[k]), speed, float(samples.reservoir_pressure[k])
+        )
+    return train, wheelsets.view(np.recarray)
+
+
+@pytest.fixture(name="measured", scope="session")
+def _measured_fixture() -> Callable[[Samples], tuple[Any, Any]]:
+    """Measure samples: the record of the train and four of wheelsets."""
+    return _measured
+
+
+@pytest.fixture(name="samples", scope="session")
+def _samples_fixture() -> Samples:
+    """A stop with slides."""
+    return _samples()
+
+
+@pytest.fixture(name="stop", scope="session")
+def _stop_fixture(samples: Samples) -> tuple[Any, Any]:
+    """The measures of that stop."""
+    return _measured(samples)

@@ -1,0 +1,91 @@
+"""Measures of the train against plain numpy on the same samples."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from uictest.measures import WINDOW_SECONDS, finish
+
+Stop = tuple[Any, Any]
+Measured = Callable[[Any], Stop]
+
+
+def sliding(samples: Any) -> np.ndarray:
+    """Where which wheelset slides: by more than 5 % and 0.3 m/s while the train moves."""
+    slip = samples.speed[:, None] - samples.wheel_speed
+    moving = samples.speed[:, None] > 2.8
+    return moving & (slip / samples.speed[:, None] > 0.05) & (slip > 0.3)
+
+
+def test_first_sliding_and_who_slides_first(samples: Any, stop: Stop) -> None:
+    slides = sliding(samples)
+    first = int(np.argmax(slides.any(axis=1)))
+    assert stop[0].sliding_time == samples.time[first]
+    assert stop[0].sliding_wheelset == 1 + np.argmax(slides[first])
+
+
+def test_speed_at_whole_seconds_after_the_first_sliding(samples: Any, stop: Stop) -> None:
+    at = stop[0].sliding_time + np.arange(WINDOW_SECONDS + 1)
+    np.testing.assert_allclose(
+        stop[0].speed_after_sliding, np.interp(at, samples.time, samples.speed), rtol=1e-12
+    )
+
+
+def test_speed_after_sliding_is_nan_where_the_record_ends_earlier(samples: Any, measured: Measured) -> None:
+    short = replace(samples, **{name: column[:700] for name, column in vars(samples).items()})
+    window = measured(short)[0].speed_after_sliding
+    reached = measured(short)[0].sliding_time + np.arange(WINDOW_SECONDS + 1) <= short.time[-1] + 1e-9
+    np.testing.assert_array_equal(np.isfinite(window), reached)
+    assert 0 < reached.sum() < reached.size
+
+
+def test_window_does_not_depend_on_when_the_samples_fall(samples: Any, measured: Measured) -> None:
+    """Every third sample gives the same speeds, within what is linear between samples."""
+    sparse = replace(samples, **{name: column[::3] for name, column in vars(samples).items()})
+    train = measured(sparse)[0]
+    at = train.sliding_time + np.arange(WINDOW_SECONDS + 1)
+    np.testing.assert_allclose(
+        train.speed_after_sliding, np.interp(at, samples.time, samples.speed), atol=1e-3
+    )
+
+
+def test_extremes_of_the_filtered_deceleration(samples: Any, stop: Stop) -> None:
+    deceleration = -np.diff(samples.speed) / np.diff(samples.time)
+    share = 0.01 / (0.01 + 0.5)
+    filtered = lfilter([share], [1.0, share - 1.0], deceleration)
+    moving = samples.speed[1:] >= 2.8
+    developed = moving & (samples.time[1:] >= 2.0)
+    assert stop[0].maximum_deceleration == pytest.approx(filtered[moving].max(), rel=1e-9)
+    assert stop[0].minimum_deceleration == pytest.approx(filtered[developed].min(), rel=1e-9)
+
+
+def test_lowest_pressure_of_the_reservoir(samples: Any, stop: Stop) -> None:
+    assert stop[0].reservoir_minimum_pressure == samples.reservoir_pressure.min()
+
+
+def test_last_sample_and_count(samples: Any, stop: Stop) -> None:
+    train = stop[0]
+    last = (train.end_time, train.end_distance, train.end_speed, train.samples)
+    assert last == (samples.time[-1], samples.distance[-1], samples.speed[-1], samples.time.size)
+
+
+def test_a_train_that_never_stopped_has_no_braking_distance(stop: Stop) -> None:
+    assert stop[0].stopped == 0.0
+    assert np.isnan([stop[0].braking_time, stop[0].braking_distance]).all()
+
+
+def test_standstill_ends_the_stop(samples: Any, measured: Measured) -> None:
+    train = measured(samples)[0]
+    finish(train, 27.5, 410.0)
+    assert (train.stopped, train.braking_time, train.braking_distance) == (1.0, 27.5, 410.0)
+    assert (train.end_time, train.end_distance, train.end_speed) == (27.5, 410.0, 0.0)
+
+
+def test_nothing_slides_where_nothing_slid(samples: Any, measured: Measured) -> None:
+    rolling = replace(samples, wheel_speed=np.repeat(samples.speed[:, None], 4, axis=1))
+    train = measured(rolling)[0]
+    assert np.isnan([train.sliding_time, train.sliding_wheelset, *train.speed_after_sliding]).all()

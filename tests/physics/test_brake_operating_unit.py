@@ -1,0 +1,34 @@
+"""Pressure demand of the brake command and the relay valve that follows it."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.physics.brake_operating_unit import demand, relay_opening
+
+FULL = 3.8e5
+times = st.floats(0.0, 100.0)
+
+
+@given(times, times)
+def test_demand_never_falls_and_never_exceeds_the_command(a: float, b: float) -> None:
+    early, late = sorted((a, b))
+    assert 0.0 <= demand(early, FULL, 0.4, 1.5) <= demand(late, FULL, 0.4, 1.5) <= FULL
+
+
+@pytest.mark.parametrize(("time", "share"), [(0.0, 0.0), (0.4, 0.0), (1.15, 0.5), (1.9, 1.0), (60.0, 1.0)])
+def test_demand_waits_for_the_dead_time_and_rises_evenly(time: float, share: float) -> None:
+    assert demand(time, FULL, 0.4, 1.5) == pytest.approx(share * FULL, abs=1e-6)
+
+
+def test_relay_valve_laps_at_the_demand() -> None:
+    assert relay_opening(FULL, FULL, 2e4) == 0.0
+
+
+@given(st.floats(0.0, 1e6), st.floats(0.0, 1e6))
+def test_relay_valve_fills_towards_a_higher_demand_and_exhausts_towards_a_lower(d: float, p: float) -> None:
+    opening = relay_opening(d, p, 2e4)
+    assert -1.0 <= opening <= 1.0
+    assert opening * (d - p) >= 0.0
+    if abs(d - p) >= 2e4:
+        assert abs(opening) == 1.0

@@ -1,0 +1,85 @@
+"""ISO 6358: choked and subsonic flow of air through an orifice."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, mass_flow, orifice_law
+
+ADIABATIC = 1.4
+ISENTROPIC_RATIO = (2.0 / (ADIABATIC + 1.0)) ** (ADIABATIC / (ADIABATIC - 1.0))
+LAW = orifice_law(critical_ratio=0.35, laminar_ratio=0.995, temperature=293.15)
+pressures = st.floats(1e4, 2e6)
+
+
+def flow(pressure_1: float, pressure_2: float, law: tuple[float, float, float, float, float] = LAW) -> float:
+    return mass_flow(pressure_1, pressure_2, 1e-8, *law)
+
+
+def test_critical_pressure_ratio_of_an_ideal_nozzle() -> None:
+    assert pytest.approx(0.52828, abs=5e-6) == ISENTROPIC_RATIO
+
+
+def test_ellipse_follows_the_isentropic_nozzle_within_one_per_cent() -> None:
+    """Saint-Venant and Wantzel: the flow through an ideal nozzle, over the choked one."""
+    k = ADIABATIC
+    ratios = np.linspace(ISENTROPIC_RATIO, 0.99, 200)
+    ideal = np.sqrt(ratios ** (2 / k) - ratios ** ((k + 1) / k))
+    choked = math.sqrt(ISENTROPIC_RATIO ** (2 / k) - ISENTROPIC_RATIO ** ((k + 1) / k))
+    law = orifice_law(ISENTROPIC_RATIO, 0.999, 293.15)
+    ours = [flow(1e6, r * 1e6, law) for r in ratios.tolist()]
+    np.testing.assert_allclose(np.array(ours) / flow(1e6, 1e5, law), ideal / choked, atol=0.01)
+
+
+def test_choked_flow_is_the_conductance_at_the_reference_state() -> None:
+    """By the definition of sonic conductance: m' = p1 C rho0 at the reference temperature."""
+    assert flow(8e5, 1e5) == pytest.approx(8e5 * 1e-8 * REFERENCE_DENSITY, rel=1e-15)
+
+
+def test_warm_air_flows_more_slowly_by_the_root_of_its_temperature() -> None:
+    warm = flow(8e5, 1e5, orifice_law(0.35, 0.995, 4.0 * REFERENCE_TEMPERATURE))
+    assert warm == pytest.approx(0.5 * flow(8e5, 1e5), rel=1e-15)
+
+
+def test_choked_flow_does_not_know_the_pressure_behind_the_orifice() -> None:
+    assert flow(8e5, 0.35 * 8e5 * 0.999) == flow(8e5, 1e3)
+
+
+@given(pressures, pressures)
+def test_flow_turns_with_the_pressures(a: float, b: float) -> None:
+    assert flow(a, b) == -flow(b, a) or a == b
+
+
+@given(pressures)
+def test_no_flow_between_equal_pressures(p: float) -> None:
+    assert flow(p, p) == 0.0
+
+
+@given(pressures, st.floats(0.0, 0.9999), st.floats(0.0, 0.9999))
+def test_flow_never_grows_with_the_pressure_behind_the_orifice(p: float, a: float, b: float) -> None:
+    low, high = sorted((a, b))
+    assert flow(p, low * p) >= flow(p, high * p) * (1.0 - 1e-12)
+    assert flow(p, high * p) > 0.0
+
+
+@given(st.floats(1e5, 1e6), st.floats(1e5, 1e6))
+def test_flow_grows_with_the_pressure_ahead_of_the_orifice(a: float, b: float) -> None:
+    low, high = sorted((a, b))
+    assert flow(high, 1e5) >= flow(low, 1e5)
+
+
+def test_flow_has_no_jump_anywhere() -> None:
+    """Steps of 1e-5 in the ratio change the flow by less than a thousandth of the choked flow."""
+    ratios = np.linspace(0.2, 1.0, 80_001).tolist()
+    flows = [flow(1e6, r * 1e6) for r in ratios]
+    assert max(abs(a - b) for a, b in pairwise(flows)) < 1e-3 * flow(1e6, 1e3)
+
+
+def test_slope_stays_finite_at_equal_pressures() -> None:
+    """The subsonic law alone has an infinite slope there; the laminar patch is a straight line."""
+    slopes = [flow(1e6, (1.0 - x) * 1e6) / x for x in (1e-12, 1e-9, 1e-6, 1e-3)]
+    np.testing.assert_allclose(slopes, slopes[-1], rtol=1e-3)

@@ -1,0 +1,38 @@
+"""Geometry, forces and energies of the planar vehicle."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.physics.vehicle import kinetic_energy, longitudinal, spring_energy, suspension_force, vertical
+
+length = st.floats(-15.0, 15.0)
+
+
+@given(length, length, st.floats(-1.0, 1.0), st.floats(-0.1, 0.1))
+def test_points_move_as_on_a_rigid_body_that_lifts_its_nose_a_little(
+    ahead: float, above: float, x: float, z: float
+) -> None:
+    """The linear part of a rotation by a small angle."""
+    angle = 1e-6
+    turned_x = ahead * math.cos(angle) - above * math.sin(angle)
+    turned_z = ahead * math.sin(angle) + above * math.cos(angle)
+    assert longitudinal(x, angle, above) == pytest.approx(x + turned_x - ahead, abs=1e-10)
+    assert vertical(z, angle, ahead) == pytest.approx(z + turned_z - above, abs=1e-10)
+
+
+def test_spring_force_is_the_slope_of_its_energy() -> None:
+    k, d, h = 5e6, 0.01, 1e-6
+    slope = (spring_energy(k, d + h) - spring_energy(k, d - h)) / (2 * h)
+    assert suspension_force(k, 0.0, d, 0.0) == pytest.approx(slope, rel=1e-9)
+
+
+def test_damper_force_is_proportional_to_the_rate() -> None:
+    assert suspension_force(0.0, 2e4, 0.3, 0.5) == 1e4
+
+
+def test_energy_of_a_car_at_120_km_h() -> None:
+    """45 t at 33.3 m/s: 25 MJ."""
+    assert kinetic_energy(45e3, 120 / 3.6) == pytest.approx(25e6)

@@ -1,0 +1,40 @@
+"""A small recording in every format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.recording.formats import SUFFIXES, writer_of
+
+Written = Callable[[str], Path]
+
+
+@pytest.fixture
+def recording() -> Recording:
+    """Two seconds of a train that slows down while a valve changes state."""
+    time = np.arange(200) * 0.01
+    channels = {
+        "time": time,
+        "speed": 20.0 - time,
+        "tank_pressure_1": 3.8e5 * np.minimum(time, 1.0),
+        "valve_command_1": np.repeat([0.0, 1.0, 2.0, 0.0], 50),
+    }
+    units = {"time": "s", "speed": "m/s", "tank_pressure_1": "Pa", "valve_command_1": "1"}
+    return Recording(channels, units, {"case": "small", "brake_command_time": "0 s"})
+
+
+@pytest.fixture
+def written(recording: Recording, tmp_path: Path) -> Written:
+    """Write the recording in a format."""
+
+    def write(name: str) -> Path:
+        path = tmp_path / f"small{SUFFIXES[name]}"
+        writer_of(name)(recording, path)
+        return path
+
+    return write

@@ -1,0 +1,190 @@
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.recording.formats import (
+    FORMATS,
+    Dialect,
+    MissingExtraError,
+    UnreadableError,
+    format_of,
+    read_contents,
+    writer_of,
+)
+from uictest.recording.formats.extras import required
+from uictest.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
+from uictest.recording.formats.reader import read_here
+from uictest.recording.formats.unit_in_name import name_and_unit
+
+Written = Callable[[str], Path]
+EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_what_is_written_is_read(name: str, written: Written, recording: Recording) -> None:
+    contents = read_here(name, written(name), Dialect())
+    assert contents.metadata == recording.metadata
+    [group] = contents.groups
+    time = group.channels["time"] if group.time is None else group.time
+    np.testing.assert_allclose(time, recording["time"], atol=1e-9)
+    assert group.units["speed"] == "m/s"
+    np.testing.assert_allclose(group.channels["speed"], recording["speed"], rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_the_format_is_known_by_the_content(name: str, written: Written) -> None:
+    assert format_of(written(name)) == name
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_process_of_its_own_reads_the_same(name: str, written: Written) -> None:
+    path = written(name)
+    here, there = read_here(name, path, Dialect()), read_contents(path)
+    assert there.metadata == here.metadata
+    for one, other in zip(there.groups, here.groups, strict=True):
+        assert one.units == other.units
+        for channel in other.channels:
+            np.testing.assert_array_equal(one.channels[channel], other.channels[channel])
+
+
+def test_mdf_opens_in_its_own_library(written: Written) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    with asammdf.MDF(written("mdf")) as mdf:
+        assert mdf.version == "4.10"
+        assert len(mdf.groups) == 1
+        assert mdf.get("tank_pressure_1").unit == "Pa"
+        assert sorted(set(mdf.get("valve_command_1").samples)) == [b"fill", b"hold", b"vent"]
+        assert "case: small" in mdf.header.comment
+
+
+def test_tdms_opens_in_its_own_library(written: Written) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    tdms = nptdms.TdmsFile.read(written("tdms"))
+    channel = tdms["stop"]["speed"]
+    assert tdms.properties["case"] == "small"
+    assert channel.properties["unit_string"] == "m/s"
+    assert channel.properties["wf_increment"] == pytest.approx(0.01)
+    assert tdms["stop"]["valve_command_1"].properties["states"] == "0 = fill, 1 = hold, 2 = vent"
+
+
+def test_mat_5_opens_in_its_own_library(written: Written, recording: Recording) -> None:
+    from scipy.io import loadmat
+
+    variables = loadmat(written("mat"), simplify_cells=True)
+    assert variables["units"]["speed"] == "m/s"
+    np.testing.assert_array_equal(variables["speed"], recording["speed"])
+
+
+def test_mat_7_3(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    pytest.importorskip("pymatreader")
+    path = tmp_path / "record.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name in ("t", "v"):
+            data = file.create_dataset(name, data=np.arange(10.0).reshape(1, 10))
+            data.attrs["MATLAB_class"] = np.bytes_("double")
+    with path.open("rb+") as raw:
+        raw.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
+    contents = read_here("mat", path, Dialect())
+    np.testing.assert_array_equal(contents.groups[0].channels["v"], np.arange(10.0))
+
+
+@pytest.mark.parametrize("name", EXTRAS)
+def test_a_missing_library_is_told_with_the_line_that_installs_it(
+    name: str, written: Written, recording: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = written(name)
+    monkeypatch.setitem(sys.modules, EXTRAS[name], None)
+    with pytest.raises(MissingExtraError, match=rf"pip install 'uictest\[{name}\]'"):
+        read_here(name, path, Dialect())
+    with pytest.raises(MissingExtraError):
+        writer_of(name)(recording, tmp_path / "other")
+
+
+def test_a_module_that_lacks_another_is_no_missing_extra(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "broken_reader.py").write_text("import surely_not_there\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ModuleNotFoundError, match="surely_not_there"):
+        required("broken_reader", "x")
+
+
+def test_a_declared_dialect(tmp_path: Path) -> None:
+    path = tmp_path / "rig.txt"
+    path.write_bytes("Prüfstand 7\n\nt;v;Zustand\ns;km/h;\n0,0;80,5;zu\n0,1;80,25;auf\n".encode("latin-1"))
+    contents = read_here("csv", path, Dialect(";", ",", header_line=3, unit_line=4, encoding="latin-1"))
+    [group] = contents.groups
+    np.testing.assert_array_equal(group.channels["v"], [80.5, 80.25])
+    assert list(group.channels["Zustand"]) == ["zu", "auf"]
+    assert group.units == {"t": "s", "v": "km/h"}
+
+
+def test_names_that_are_there_twice_are_told_apart(tmp_path: Path) -> None:
+    path = tmp_path / "twice.csv"
+    path.write_text("v,v,\n1,2,3\n")
+    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["v", "v (2)", "column 3"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("speed [m/s]", ("speed", "m/s")),
+        ("p (bar)", ("p", "bar")),
+        ("plain", ("plain", "")),
+        ("[m]", ("[m]", "")),
+        ("a [b] c", ("a [b] c", "")),
+    ],
+)
+def test_units_in_names(text: str, expected: tuple[str, str]) -> None:
+    assert name_and_unit(text) == expected
+
+
+def test_sizes_are_bounded() -> None:
+    check_size([(10, 10)])
+    for shapes in ([(MOST_VALUES + 1,)], [(2,)] * (MOST_CHANNELS + 1), [(-1,)], [(2**62, 4)]):
+        with pytest.raises(UnreadableError):
+            check_size(shapes)
+
+
+def test_the_same_recording_gives_the_same_text(written: Written) -> None:
+    path: Any = written("csv")
+    first = path.read_bytes()
+    assert written("csv").read_bytes() == first
+    assert first.startswith(b"# case: small\n# brake_command_time: 0 s\ntime [s],speed [m/s]")
+
+
+@pytest.mark.parametrize(
+    ("text", "dialect", "advice"),
+    [
+        (
+            "t;v;p\n0,0;80,5;1\n",
+            Dialect(),
+            'by \';\' with decimal commas: set csv: {delimiter: ";", decimal: ","}',
+        ),
+        ("# rig\n\nt;v\n0.0;80.5\n", Dialect(), 'by \';\': set csv: {delimiter: ";", decimal: "."}'),
+        ("t\tv\n0,0\t80,5\n", Dialect(), 'by tabs with decimal commas: set csv: {delimiter: "\\t"'),
+        ("a\nt,v\n0.0,80.5\n", Dialect(";", header_line=2), "by ',': set csv"),
+    ],
+)
+def test_a_table_of_another_dialect_says_what_to_declare(
+    tmp_path: Path, text: str, dialect: Dialect, advice: str
+) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text(text)
+    with pytest.raises(UnreadableError, match=f"looks separated {re.escape(advice)}"):
+        read_here("csv", path, dialect)
+
+
+def test_semicolons_in_a_name_make_no_other_dialect(tmp_path: Path) -> None:
+    path = tmp_path / "names.csv"
+    path.write_text("t,v;w;x\n0.0,80.5\n")
+    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["t", "v;w;x"]

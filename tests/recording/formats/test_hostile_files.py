@@ -1,0 +1,144 @@
+"""Damaged and hostile files: a message within bounded time, nothing beside the file, never a traceback."""
+
+from __future__ import annotations
+
+import random
+import struct
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.recording.formats import UnreadableError, read_contents
+from uictest.recording.formats.choice import format_of
+
+Written = Callable[[str], Path]
+BINARY = ("mdf", "tdms", "mat", "parquet")
+BEGINNINGS = {"mdf": b"MDF     4.10    ", "tdms": b"TDSm", "mat": b"MATLAB 5.0 MAT-file", "parquet": b"PAR1"}
+SECONDS = 20.0
+
+
+def _refused(path: Path, seconds: float = SECONDS) -> str:
+    before = sorted(path.parent.iterdir())
+    with pytest.raises(UnreadableError) as caught:
+        read_contents(path, seconds=seconds)
+    assert sorted(path.parent.iterdir()) == before
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def _tolerated(path: Path) -> None:
+    """A file that may still hold something is read or refused, and leaves nothing behind either way."""
+    before = sorted(path.parent.iterdir())
+    try:
+        contents = read_contents(path, seconds=SECONDS)
+        assert all(len(group) for group in contents.groups)
+    except UnreadableError:
+        pass
+    assert sorted(path.parent.iterdir()) == before
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".mf4", ".tdms", ".mat", ".parquet", ""])
+def test_an_empty_file(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"empty{suffix}"
+    path.touch()
+    assert _refused(path) == "the file is empty"
+
+
+def test_another_type_of_file(tmp_path: Path) -> None:
+    path = tmp_path / "image.mf4"
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    assert "not a recording" in _refused(path)
+
+
+def test_a_folder_and_a_missing_file(tmp_path: Path) -> None:
+    with pytest.raises((UnreadableError, OSError)):
+        read_contents(tmp_path)
+    with pytest.raises(FileNotFoundError):
+        read_contents(tmp_path / "missing.csv")
+
+
+@pytest.mark.parametrize("name", BINARY)
+def test_a_beginning_and_nothing_behind_it(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "stub"
+    path.write_bytes(BEGINNINGS[name] + random.Random(name).randbytes(300))
+    assert format_of(path) == name
+    _refused(path)
+
+
+@pytest.mark.parametrize("share", [pytest.param(0.02, marks=pytest.mark.slow), 0.6])
+@pytest.mark.parametrize("name", BINARY)
+def test_a_truncated_file(written: Written, name: str, share: float) -> None:
+    path = written(name)
+    content = path.read_bytes()
+    path.write_bytes(content[: max(int(share * len(content)), len(BEGINNINGS[name]))])
+    _tolerated(path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("name", BINARY)
+def test_a_file_with_changed_bytes(written: Written, name: str, seed: int) -> None:
+    path = written(name)
+    content = bytearray(path.read_bytes())
+    dice = random.Random(f"{name} {seed}")
+    for _ in range(20):
+        content[dice.randrange(16, len(content))] = dice.randrange(256)
+    path.write_bytes(content)
+    _tolerated(path)
+
+
+def test_an_mdf_file_whose_groups_follow_each_other_in_a_circle(written: Written) -> None:
+    path = written("mdf")
+    content = bytearray(path.read_bytes())
+    group = content.index(b"##DG")
+    content[group + 24 : group + 32] = struct.pack("<Q", group)
+    path.write_bytes(content)
+    _refused(path, seconds=5.0)
+
+
+def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path: Path) -> None:
+    """A compressed variable that claims a billion values."""
+    header = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H2s", 0x0100, b"IM")
+    flags = struct.pack("<IIII", 6, 8, 6, 0)
+    shape = struct.pack("<IIii", 5, 8, 1, 10**9)
+    name = struct.pack("<HH4s", 1, 1, b"v")
+    body = flags + shape + name + struct.pack("<II", 9, 8 * 10**6) + bytes(8 * 10**6)
+    packed = zlib.compress(struct.pack("<II", 14, len(body)) + body)
+    path = tmp_path / "bomb.mat"
+    path.write_bytes(header + struct.pack("<II", 15, len(packed)) + packed)
+    assert "values; at most" in _refused(path)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"\x00" * 5000,
+        b"\xff\xfe" * 2000,
+        b"," * 200_000,
+        b"a" * 2_000_000,
+        b"a,b\n1,2\n1,2,3\n",
+        b"# only a comment\n",
+        b"a,b\n",
+        b'a,"b\n1,2\n',
+    ],
+    ids=["nul", "no-utf8", "commas", "long-line", "ragged", "comment", "no-rows", "open-quote"],
+)
+def test_texts_that_are_no_tables(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "table.csv"
+    path.write_bytes(content)
+    _refused(path)
+
+
+def test_names_never_become_paths(written: Written, tmp_path: Path) -> None:
+    path = tmp_path / "names.csv"
+    hostile = ["../../evil", "/etc/passwd", "\x1b[31m", "CON", "a" * 5000, "=cmd()"]
+    path.write_text(",".join(hostile) + "\n" + ",".join("1" * len(hostile)) + "\n")
+    contents = read_contents(path)
+    assert len(contents.groups[0].channels) == len(hostile)
+    assert sorted(tmp_path.iterdir()) == [path]
+
+
+def test_a_reader_that_takes_too_long_is_ended(written: Written) -> None:
+    assert "did not end within 0.01 s" in _refused(written("mdf"), seconds=0.01)

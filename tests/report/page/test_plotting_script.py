@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import base64
+import hashlib
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from uictest.report.page import plotting_script as module
+from uictest.report.page.plotting_script import packed, plotting_script
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    monkeypatch.setattr(module, "user_cache", lambda name: tmp_path)
+    plotting_script.cache_clear()
+    yield tmp_path
+    plotting_script.cache_clear()
+
+
+def test_a_packed_script_is_the_script() -> None:
+    found = packed("draw();\n")
+    assert zlib.decompress(base64.b64decode(found.packed)) == b"draw();\n"
+    assert base64.b64decode(found.digest) == hashlib.sha256(b"draw();\n").digest()
+
+
+def test_the_script_is_packed_once_and_kept(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = plotting_script()
+    assert len(list(place.iterdir())) == 1
+    plotting_script.cache_clear()
+    monkeypatch.setattr(module, "packed", lambda script: pytest.fail("packed again"))
+    assert plotting_script() == first
+
+
+def test_another_version_of_the_script_is_packed_anew(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for version in ("draw();", "drawn();"):
+        source = place / "plotly.min.js"
+        source.write_text(version)
+        monkeypatch.setattr(module, "_source", lambda found=source: found)
+        plotting_script.cache_clear()
+        assert plotting_script() == packed(version)
+
+
+@pytest.mark.parametrize("folder", [None, Path("/dev/null/folder")])
+def test_without_a_place_it_is_packed_each_time(
+    place: Path, monkeypatch: pytest.MonkeyPatch, folder: Path | None
+) -> None:
+    monkeypatch.setattr(module, "user_cache", lambda name: folder)
+    monkeypatch.setattr(module, "_source", lambda: Path(__file__))
+    assert plotting_script() == packed(Path(__file__).read_text("utf-8"))
+
+
+def test_without_plotly_the_reason_is_named(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "find_spec", lambda name: None)
+    with pytest.raises(ModuleNotFoundError, match="plotly is not installed"):
+        plotting_script()

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.report.escaping import csv_cell, printable, workflow_message, workflow_property, xml_text
+
+any_text = st.text(st.characters(codec=None, exclude_categories=[]))
+
+
+@given(any_text)
+def test_printable_text_is_one_line_that_cannot_drive_a_terminal(text: str) -> None:
+    assert printable(text).isprintable()
+
+
+def test_printable_spells_out_what_it_takes_away() -> None:
+    assert printable("a\x1b[2Jb\nc\u202ed\udcff") == r"a\x1b[2Jb\nc\u202ed\udcff"
+
+
+def test_printable_keeps_ordinary_text_of_any_script() -> None:
+    assert printable("Bremsweg 465 m, größer, 제동 거리") == "Bremsweg 465 m, größer, 제동 거리"
+
+
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+A1", "-A1", "@SUM(A1)", "\t=1", "\r=1", " =1", "\uff1d1", "-5 permille"]
+)
+def test_a_cell_never_begins_as_a_formula(text: str) -> None:
+    assert csv_cell(text).startswith("'")
+
+
+@pytest.mark.parametrize("text", ["90 %", "slip-120", "-5", "+0.5", "-1.5e-3", ""])
+def test_text_and_plain_numbers_are_left_as_they_are(text: str) -> None:
+    assert csv_cell(text) == text
+
+
+@given(any_text)
+def test_whatever_the_text_xml_with_it_can_be_parsed(text: str) -> None:
+    element = ElementTree.Element("failure", message=xml_text(text))
+    element.text = xml_text(text)
+    ElementTree.fromstring(ElementTree.tostring(element, encoding="utf-8"))
+
+
+@given(any_text)
+def test_a_workflow_message_stays_one_command(text: str) -> None:
+    assert "\n" not in workflow_message(text)
+    assert "\r" not in workflow_message(text)
+
+
+@given(any_text)
+def test_a_workflow_property_cannot_start_another(text: str) -> None:
+    assert not set(workflow_property(text)) & set(",:\r\n")
+
+
+def test_line_breaks_of_a_workflow_message_are_kept_as_github_reads_them() -> None:
+    assert workflow_message("100 %\nof it") == "100 %25%0Aof it"

@@ -1,0 +1,28 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from uictest.evaluation import CaseResult
+from uictest.report.github import annotation, case_annotations
+
+MakeResult = Callable[..., CaseResult]
+
+
+def test_only_cases_that_are_not_met_are_annotated(make_result: MakeResult) -> None:
+    results = [make_result(), make_result(outcome="fail", criteria=(), reason="locked")]
+    (line,) = case_annotations(results)
+    properties, message = line.removeprefix("::error ").split("::")
+    assert properties == "file=scenarios/dry/120.yaml,title=MISSED dry-120[command=90]"
+    assert message == "expected pass, came out fail%0Alocked"
+
+
+def test_an_annotation_carries_the_place_in_the_file() -> None:
+    assert annotation("a.yaml", "key", "100 %", line=3, column=7) == (
+        "::error file=a.yaml,line=3,col=7,title=key::100 %25"
+    )
+
+
+def test_a_hostile_name_cannot_start_a_command_of_its_own(make_result: MakeResult, hostile: str) -> None:
+    (line,) = case_annotations([make_result(id=hostile, scenario=hostile, outcome="error")])
+    assert line.startswith("::error file=")
+    assert "\n" not in line

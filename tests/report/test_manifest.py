@@ -1,0 +1,45 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uictest.report.manifest import digest, manifest
+
+
+def test_folders_of_the_machine_are_not_part_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    command = [
+        "run",
+        str(tmp_path / "scenarios"),
+        "-k",
+        "dry",
+        "-o",
+        "/elsewhere/out",
+        "--output=/elsewhere/out",
+    ]
+    content = manifest(command, 7, {str(tmp_path / "a.yaml"): "00", "library:x": "11"}, cases=3)
+    assert content["command"] == [
+        "uictest",
+        "run",
+        "scenarios",
+        "-k",
+        "dry",
+        "-o",
+        ".../out",
+        "--output=.../out",
+    ]
+    assert content["inputs"] == {"a.yaml": "00", "library:x": "11"}
+    assert (content["seed"], content["cases"]) == (7, 3)
+
+
+def test_versions_of_what_decides_the_numbers_are_named() -> None:
+    versions = manifest([], None, {}, cases=0)["versions"]
+    assert {"uictest", "python", "numpy", "numba"} <= versions.keys()
+    assert all(versions.values())
+
+
+def test_the_digest_is_short_and_follows_the_content() -> None:
+    assert digest({"a": 1, "b": 2}) == digest({"b": 2, "a": 1})
+    assert digest({"a": 1}) != digest({"a": 2})
+    assert len(digest({})) == 8

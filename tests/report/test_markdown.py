@@ -1,0 +1,100 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from markdown_it import MarkdownIt
+
+from uictest.evaluation import CaseResult
+from uictest.report import RunContent, append_step_summary
+from uictest.report.markdown import LIMIT, code, markdown_summary, prose
+
+MakeResult = Callable[..., CaseResult]
+MakeContent = Callable[..., RunContent]
+
+_READER = MarkdownIt("commonmark", {"html": True}).enable("table")
+
+
+def _kinds(text: str) -> set[str]:
+    """The kinds of everything that a reader of Markdown finds in a text."""
+    tokens = _READER.parse(text)
+    return {child.type for token in tokens for child in (token.children or [])} - {"softbreak"}
+
+
+def test_the_summary_is_one_table_with_cases_not_met_first(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
+    lines = markdown_summary(make_content(make_result(), missed)).splitlines()
+    assert lines[0] == "## uictest: 2 cases: 1 met, 1 missed"
+    assert lines[4].startswith("| **MISSED** | `b[x]` | fail | 465.2 |")
+    assert "locked" in lines[4]
+    assert lines[5].startswith("| met | `dry-120[command=90]` | pass | 465.2 | 27.5 | 1.195 | – |")  # noqa: RUF001
+
+
+def test_ten_thousand_cases_stay_within_the_limit_and_say_what_is_missing(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    results = [make_result(id=f"wet-80-friction[friction={n}]", outcome="fail") for n in range(10_000)]
+    text = markdown_summary(make_content(*results))
+    assert len(text.encode()) <= LIMIT
+    shown = text.count("\n| **MISSED**")
+    assert f"{10_000 - shown} more cases are in" in text
+
+
+@given(st.text())
+def test_a_text_in_a_code_span_is_only_that(text: str) -> None:
+    row = f"| a | b |\n|---|---|\n| {code(text)} | x |\n"
+    tokens = [token for token in _READER.parse(row) if token.type == "inline"]
+    assert len(tokens) == 4
+    assert {child.type for child in tokens[2].children or []} <= {"code_inline"}
+
+
+@given(st.text())
+def test_prose_holds_no_markup(text: str) -> None:
+    assert _kinds(f"x{prose(text)}x") <= {"text"}
+
+
+def test_hostile_texts_are_shown_as_text(
+    make_content: MakeContent, make_result: MakeResult, hostile: str
+) -> None:
+    bad = f"{hostile}`|\\`` <img src=x> [a](javascript:b) ![c](d) ~~e~~ @team #1 https://example.org"
+    text = markdown_summary(make_content(make_result(id=bad, outcome="fail", criteria=(), reason=bad)))
+    assert _kinds(text) <= {"text", "code_inline", "strong_open", "strong_close"}
+    assert not set("\x00\x1b\u202e") & set(text)
+
+
+def test_a_very_long_text_is_cut(make_content: MakeContent, make_result: MakeResult) -> None:
+    assert len(markdown_summary(make_content(make_result(id="x" * 100_000)))) < 1000
+
+
+def test_the_summary_is_appended_where_github_wants_it(
+    make_content: MakeContent, make_result: MakeResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = tmp_path / "summary"
+    place.write_text("# Before\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(place))
+    append_step_summary(make_content(make_result()))
+    assert place.read_text().startswith("# Before\n## uictest: 1 case: 1 met")
+
+
+def test_what_is_in_the_summary_already_counts(
+    make_content: MakeContent, make_result: MakeResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = tmp_path / "summary"
+    place.write_bytes(b"x" * 990_000)
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(place))
+    append_step_summary(make_content(*(make_result(id=f"case-{n}") for n in range(1000))))
+    assert place.stat().st_size <= LIMIT
+
+
+def test_without_github_nothing_is_written(
+    make_content: MakeContent, make_result: MakeResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
+    append_step_summary(make_content(make_result()))
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,175 @@
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+import zlib
+from collections.abc import Callable
+from html.parser import HTMLParser
+
+import pytest
+
+from uictest.evaluation import CaseResult, Verdict
+from uictest.recording import Recording
+from uictest.report import RunContent, Subject
+from uictest.report.page import DRAWN, page_html, trace_of
+
+MakeResult = Callable[..., CaseResult]
+MakeVerdict = Callable[..., Verdict]
+MakeContent = Callable[..., RunContent]
+MakeRecording = Callable[..., Recording]
+
+
+class Page(HTMLParser):
+    """The elements of a page, its text outside scripts, and the texts of its scripts."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.text = ""
+        self.scripts: list[tuple[dict[str, str | None], str]] = []
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag == "script":
+            self.scripts.append((dict(attrs), ""))
+
+    def handle_data(self, data: str) -> None:
+        if self.elements and self.elements[-1][0] == "script" and self.cdata_elem == "script":
+            attributes, text = self.scripts[-1]
+            self.scripts[-1] = (attributes, text + data)
+        else:
+            self.text += data
+
+    def count(self, tag: str) -> int:
+        return sum(1 for name, _ in self.elements if name == tag)
+
+
+@pytest.fixture
+def drawn(make_content: MakeContent, make_result: MakeResult, make_recording: MakeRecording) -> str:
+    result = make_result()
+    return page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
+
+
+def test_every_case_has_a_row_with_its_figures(make_content: MakeContent, make_result: MakeResult) -> None:
+    missed = make_result(id="b", outcome="invalid", criteria=(), reason="the rail was too dry")
+    page = Page(page_html(make_content(make_result(), missed)))
+    assert "2 cases: 1 met, 1 missed" in page.text
+    for text in ("dry-120[command=90]", "465.2", "27.5", "MISSED", "the rail was too dry"):
+        assert text in page.text
+    assert page.count("th") >= 12
+
+
+def test_a_drawn_case_can_be_read_without_javascript(drawn: str) -> None:
+    page = Page(drawn)
+    assert page.count("path") > 60
+    for title in ("Speed of train", "Slide", "Pressures", "Clamping force", "Deceleration", "WSP valves"):
+        assert title in page.text
+    for title in ("Speed over distance", "Clamping force over tank pressure", "Adhesion over slide"):
+        assert title in page.text
+    assert any(tag == "rect" and attributes.get("class") == "vent" for tag, attributes in page.elements)
+
+
+def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn: str) -> None:
+    page = Page(drawn)
+    places = [attributes.get(name) for _, attributes in page.elements for name in ("src", "href", "action")]
+    assert all(place is None or place.startswith("#") for place in places)
+    policy = next(a["content"] for tag, a in page.elements if tag == "meta" and "http-equiv" in a)
+    assert policy is not None
+    assert policy.startswith("default-src 'none'; ")
+    of_page = [text for attributes, text in page.scripts if not attributes]
+    deflated = [text for attributes, text in page.scripts if attributes.get("id") == "plotly"]
+    executable = [*of_page, *(zlib.decompress(base64.b64decode(text)).decode() for text in deflated)]
+    digests = {base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in executable}
+    assert len(digests) == 2
+    assert set(re.findall(r"'sha256-([^']+)'", policy)) == digests
+
+
+def test_without_anything_to_draw_the_plotting_script_stays_out(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    html = page_html(make_content(make_result()))
+    assert len(html) < 100_000
+    assert "1 case not drawn" in html
+
+
+def test_hostile_texts_are_shown_and_make_no_element(
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+    hostile: str,
+    drawn: str,
+) -> None:
+    bad = f"{hostile}</script></td><img src=x onerror=alert(1)>"
+    verdict = make_verdict(id=bad, reason=bad, definition={bad: bad}, verdict="fail", margin=-1.0)
+    result = make_result(
+        id=bad, scenario=bad, parameters={bad: bad}, outcome="fail", criteria=(verdict,), reason=bad
+    )
+    content = make_content(
+        result,
+        name=bad,
+        manifest={"command": [bad], "inputs": {bad: bad}, "versions": {bad: bad}, "seed": None},
+        subjects={bad: Subject(bad, (bad,), {bad: bad})},
+        traces={bad: trace_of(make_recording())},
+    )
+    html = page_html(content)
+    page, ordinary = Page(html), Page(drawn)
+    for tag in ("script", "img", "b", "svg", "iframe"):
+        assert page.count(tag) == ordinary.count(tag)
+    assert page.text.count("<img src=x onerror=alert(1)>") >= 8
+    assert not any(name.startswith("on") for _, attributes in page.elements for name in attributes)
+    assert not re.search("[\x00\x1b\u202e]", html)
+    assert "\\u202e" in page.text
+
+
+def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+) -> None:
+    reason = "0 of 4 wheelsets keep <= 1 s, 4 needed: 1.27, 1.24, 1.29, 1.32 s"
+    broken = make_verdict(verdict="fail", margin=-10.0, reason=reason)
+    results = [
+        make_result(id=f"wet-80-friction[friction=0.{n:03}]", outcome="fail", criteria=(broken,) * 7)
+        for n in range(1000)
+    ]
+    subject = Subject("Stop from 80 km/h at full command with initial friction coefficients", ("slide",))
+    trace = trace_of(make_recording(sliding_time="5"))
+    content = make_content(
+        *results,
+        traces={result.id: trace for result in results[:30]},
+        subjects={result.id: subject for result in results},
+    )
+    html = page_html(content)
+    assert len(html.encode()) < 10_000_000
+    assert html.count('<details class="stop"') == DRAWN
+    assert f"{1000 - DRAWN} cases not drawn" in html
+
+
+def test_a_verdict_that_hangs_on_a_definition_says_so(
+    make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    from uictest.evaluation import Sensitivity, Stretch
+
+    flips = Sensitivity(
+        "low_speed_cutoff", "km/h", 10, 60, (Stretch(10, 40, "pass"), Stretch(50, 60, "fail"))
+    )
+    html = page_html(make_content(make_result(criteria=(make_verdict(sensitivity=(flips,)),))))
+    assert "sensitive to definitions: braking-distance" in html
+
+
+def test_two_swept_keys_are_shown_as_a_map(make_content: MakeContent, make_result: MakeResult) -> None:
+    results = [
+        make_result(id=f"{a}{b}", parameters={"rail.friction": a, "brake.command": b})
+        for a in ("0.1", "0.2")
+        for b in ("80 %", "100 %")
+    ]
+    page = Page(page_html(make_content(*results)))
+    assert "rail.friction (down) against brake.command (across)" in page.text
+
+
+def test_an_incomplete_run_says_so(make_content: MakeContent, make_result: MakeResult) -> None:
+    assert "selected cases were not run" in page_html(make_content(make_result(), complete=False))

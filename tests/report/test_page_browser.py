@@ -1,0 +1,292 @@
+"""The page in a browser: Chromium, headless, driven by selenium; skipped where there is none."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.evaluation import CaseResult, Verdict
+from uictest.recording import Recording
+from uictest.report import RunContent, Subject
+from uictest.report.page import page_html, trace_of
+from uictest.scenario.parts.measure_catalogue import MEASURES
+
+MakeResult = Callable[..., CaseResult]
+MakeVerdict = Callable[..., Verdict]
+MakeContent = Callable[..., RunContent]
+MakeRecording = Callable[..., Recording]
+
+_ARGUMENTS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--no-first-run",
+    "--window-size=1400,1000",
+)
+
+
+def _unavailable(reason: str) -> None:
+    """Skip, or fail where UICTEST_BROWSER says that a browser must be there."""
+    if os.environ.get("UICTEST_BROWSER") == "required":
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    programs = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
+    for name, place in programs.items():
+        if place is None:
+            _unavailable(f"no {name} on the PATH (Debian: chromium, chromium-driver)")
+    try:
+        from selenium import webdriver
+    except ModuleNotFoundError:
+        _unavailable("selenium is not installed (it is in the extra 'dev')")
+    options = webdriver.ChromeOptions()
+    options.binary_location = str(programs["chromium"])
+    for argument in _ARGUMENTS:
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    service = webdriver.ChromeService(str(programs["chromedriver"]))
+    browser = webdriver.Chrome(options=options, service=service)
+    yield browser
+    browser.quit()
+
+
+@pytest.fixture
+def browser(chromium: Any) -> Iterator[Any]:
+    """The browser, as it starts: scripts allowed, light, its logs read."""
+    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+    _emulate(chromium, scheme="light")
+    for log in ("browser", "performance"):
+        chromium.get_log(log)
+    yield chromium
+    assert [entry for entry in chromium.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+    assert _requests(chromium) == []
+
+
+@pytest.fixture
+def page(
+    tmp_path: Path,
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+) -> Path:
+    """A run of three cases, one of them missed, all drawn."""
+    distance = make_verdict(definition={"measure": MEASURES["braking_distance"].meaning})
+    results = [
+        make_result(id="dry-120"),
+        make_result(id="slip-120", scenario="scenarios/slip.yaml", outcome="invalid", criteria=(distance,)),
+        make_result(id="wet-80", expect="fail", outcome="fail"),
+    ]
+    trace = trace_of(make_recording(sliding_time="5.0"))
+    traces = {result.id: trace for result in results}
+    return _written(tmp_path, make_content(*results, traces=traces))
+
+
+def _written(folder: Path, content: RunContent) -> Path:
+    path = folder / "index.html"
+    path.write_text(page_html(content), encoding="utf-8")
+    return path
+
+
+def _requests(browser: Any) -> list[str]:
+    """Return what was asked for beyond the page itself and what it holds."""
+    events = (json.loads(entry["message"])["message"] for entry in browser.get_log("performance"))
+    urls = (e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent")
+    return [url for url in urls if not url.startswith(("file:", "data:", "blob:", "about:"))]
+
+
+def _emulate(browser: Any, scheme: str = "light", media: str = "") -> None:
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
+
+
+def _run(browser: Any, script: str, *arguments: Any) -> Any:
+    return browser.execute_script(script, *arguments)
+
+
+def _wait(browser: Any, script: str) -> Any:
+    """Return what a script returns as soon as that is anything, at the latest after ten seconds."""
+    for _ in range(200):
+        found = _run(browser, script)
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError(f"nothing came of: {script}")
+
+
+_SHOWN = "return [...document.querySelectorAll('.verdicts tbody tr:not([hidden]) th')].map(h => h.innerText)"
+_PLOTTED = "return document.querySelectorAll('.panels-plot .scatterlayer .trace').length"
+
+
+def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    assert _wait(browser, _PLOTTED) > 15
+    assert _run(browser, "return [...document.querySelectorAll('details.stop[open]')].length") == 1
+    assert _run(browser, "return document.querySelectorAll('.loops-plot .scatterlayer .trace').length") >= 9
+    assert _run(browser, "return document.querySelectorAll('.panels-plot .heatmaplayer image').length") == 1
+    bands = ".loops-plot .layer-below .shapelayer path, .loops-plot .shapelayer path"
+    assert _run(browser, f"return document.querySelectorAll('{bands}').length") >= 1
+
+
+def test_a_link_from_the_table_opens_its_case(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    _wait(browser, _PLOTTED)
+    _run(browser, "document.querySelector('.verdicts a').click()")
+    assert _wait(browser, "return document.querySelector('#case-1').open")
+    assert _wait(browser, "return document.querySelectorAll('#case-1 .panels-plot .main-svg').length")
+
+
+def test_filters_and_sorting(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    assert _run(browser, _SHOWN) == ["dry-120", "slip-120", "wet-80"]
+    search = browser.find_element("name", "text")
+    search.send_keys("120 SLIP")
+    assert _run(browser, _SHOWN) == ["slip-120"]
+    assert browser.find_element("css selector", ".count").text == "1 of 3 shown"
+    _run(browser, "document.querySelector('form.filters button[type=reset]').click()")
+    _wait(browser, f"return ({_SHOWN.removeprefix('return ')}).length === 3")
+    _run(browser, "document.querySelector('input[name=word][value=met]').click()")
+    assert _run(browser, _SHOWN) == ["slip-120"]
+    _run(browser, "document.querySelector('form.filters button[type=reset]').click()")
+    _wait(browser, f"return ({_SHOWN.removeprefix('return ')}).length === 3")
+    heading = "document.querySelectorAll('.verdicts thead th')[2]"
+    _run(browser, f"{heading}.querySelector('button').click(); {heading}.querySelector('button').click()")
+    assert _run(browser, _SHOWN) == ["wet-80", "slip-120", "dry-120"]
+    assert _run(browser, f"return {heading}.ariaSort") == "descending"
+
+
+def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    _wait(browser, _PLOTTED)
+    slider = browser.find_element("css selector", "details[open] .readout input")
+    before = slider.get_attribute("aria-valuetext")
+    slider.send_keys("\ue014" * 140)  # arrow right, 7 s
+    assert slider.get_attribute("aria-valuetext") != before
+    cells = _run(
+        browser, "return [...document.querySelectorAll('details[open] .readout td')].map(c => c.innerText)"
+    )
+    assert "40.0" in cells
+    assert "vent" in cells
+
+
+def test_lines_can_be_switched_off(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    before = _wait(browser, _PLOTTED)
+    _run(browser, "document.querySelector('details[open] .key input[data-role=wheelset-2]').click()")
+    assert _run(browser, _PLOTTED) < before
+
+
+def test_it_can_be_read_without_javascript(browser: Any, page: Path) -> None:
+    browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    browser.get(page.as_uri())
+    text = browser.find_element("tag name", "body").text
+    for shown in ("3 cases: 2 met, 1 missed", "slip-120", "Criteria", "Wheelsets, 1 leads", "Provenance"):
+        assert shown in text
+    sketch = browser.find_element("css selector", "details[open] svg.panels")
+    assert sketch.size["height"] > 400
+    hidden = browser.find_elements("css selector", ".filters, .theme, .readout, .key input")
+    assert not any(element.is_displayed() for element in hidden)
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+def test_nothing_is_wider_than_the_window(browser: Any, page: Path, width: int) -> None:
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    browser.get(page.as_uri())
+    _wait(browser, _PLOTTED)
+    assert _run(browser, "return document.documentElement.scrollWidth") <= width
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+_CONTRASTS = """
+const channels = (colour) => colour.match(/[\\d.]+/g).slice(0, 3).map((c) => {
+  const share = c / 255;
+  return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+});
+const light = (colour) => channels(colour).reduce((sum, c, k) => sum + c * [0.2126, 0.7152, 0.0722][k], 0);
+const ground = (element) => {
+  for (let e = element; e; e = e.parentElement) {
+    const colour = getComputedStyle(e).backgroundColor;
+    if (!/, 0\\)$|transparent/.test(colour)) return colour;
+  }
+};
+return [...document.querySelectorAll('td, th, small, p, dt, dd, caption, a, .word, summary, label')]
+  .filter((e) => e.innerText?.trim() && e.checkVisibility())
+  .map((e) => {
+    const [a, b] = [light(getComputedStyle(e).color), light(ground(e))].sort((x, y) => y - x);
+    return [(a + 0.05) / (b + 0.05), e.className || e.tagName];
+  })
+  .sort(([a], [b]) => a - b)[0];
+"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_stands_out_from_its_ground(browser: Any, page: Path, scheme: str) -> None:
+    _emulate(browser, scheme)
+    browser.get(page.as_uri())
+    _wait(browser, _PLOTTED)
+    contrast, where = _run(browser, _CONTRASTS)
+    assert contrast >= 4.5, where
+
+
+def test_on_paper_stands_the_drawing_and_no_control(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    _wait(browser, _PLOTTED)
+    _emulate(browser, media="print")
+    assert browser.find_element("css selector", "details[open] svg.panels").is_displayed()
+    assert not browser.find_element("css selector", "details[open] .panels-plot").is_displayed()
+    assert not browser.find_element("css selector", "form.filters").is_displayed()
+
+
+def test_hostile_texts_are_not_executed(
+    browser: Any,
+    tmp_path: Path,
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_recording: MakeRecording,
+    hostile: str,
+) -> None:
+    take = "document.title = 'taken'"
+    bad = f'{hostile}</script><script>{take}</script><img src=x onerror="{take}">'
+    result = make_result(id=bad, scenario=bad, outcome="error", reason=bad)
+    content = make_content(
+        result,
+        name=bad,
+        subjects={bad: Subject(bad, (bad,), {bad: bad})},
+        traces={bad: trace_of(make_recording())},
+    )
+    browser.get(_written(tmp_path, content).as_uri())
+    _wait(browser, _PLOTTED)
+    assert _run(browser, "return document.images.length") == 0
+    assert browser.title == "1 case: 1 in error · uictest"
+    assert "<img src=x" in browser.find_element("css selector", ".verdicts th[scope=row]").text
+
+
+def test_a_thousand_cases_open(
+    browser: Any,
+    tmp_path: Path,
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_recording: MakeRecording,
+) -> None:
+    results = [make_result(id=f"case-{n}", outcome="fail" if n % 7 else "pass") for n in range(1000)]
+    trace = trace_of(make_recording(sliding_time="5.0"))
+    traces = {result.id: trace for result in results[:40]}
+    browser.get(_written(tmp_path, make_content(*results, traces=traces)).as_uri())
+    assert _run(browser, "return document.querySelectorAll('.verdicts tbody tr').length") == 1000
+    took = _run(browser, "return performance.getEntriesByType('navigation')[0].domComplete")
+    print(f"opened in {took:.0f} ms")  # noqa: T201 - shown with -rP; how fast it is depends on the machine
+    assert _wait(browser, _PLOTTED)

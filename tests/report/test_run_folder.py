@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uictest.report.run_folder import RunFolder
+
+
+def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path: Path) -> None:
+    with RunFolder(tmp_path / "reports", "first") as folder:
+        (folder.path / "summary.csv").write_text("id\n")
+        assert not (tmp_path / "reports" / "first").exists()
+        place = folder.publish()
+    assert place == tmp_path / "reports" / "first"
+    assert [path.name for path in (tmp_path / "reports").iterdir()] == ["first"]
+    assert (place / "summary.csv").read_text() == "id\n"
+
+
+def test_a_taken_name_gets_a_number(tmp_path: Path) -> None:
+    for expected in ("run", "run-2", "run-3"):
+        with RunFolder(tmp_path, "run") as folder:
+            assert folder.publish().name == expected
+
+
+def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path: Path) -> None:
+    def fail_halfway() -> None:
+        with RunFolder(tmp_path / "deep" / "reports", "run") as folder:
+            (folder.path / "half.csv").write_text("i")
+            raise OSError("No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        fail_halfway()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_others_put_beside_an_abandoned_folder_stays(tmp_path: Path) -> None:
+    with RunFolder(tmp_path / "reports", "run"):
+        (tmp_path / "reports" / "note.txt").write_text("mine")
+    assert [path.name for path in (tmp_path / "reports").iterdir()] == ["note.txt"]
+
+
+def test_a_folder_below_a_regular_file_is_an_oserror(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        RunFolder(tmp_path / "file" / "reports", "run")

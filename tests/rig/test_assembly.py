@@ -1,0 +1,134 @@
+"""From a scenario to the numbers of the rig."""
+
+from typing import Any
+
+import control
+import numpy as np
+import pytest
+
+from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE
+from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.rig.assembly import STANDARD_GRAVITY, friction_laws
+from uictest.rig.records import PARAMETERS
+from uictest.scenario import ScenarioErrors
+
+
+def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: Any) -> None:
+    from uictest.rig.assembly import assemble
+
+    for case in scenarios:
+        parameters, rail = assemble(case)
+        assert all(np.isfinite(parameters[name]) for name in PARAMETERS.names or ())
+        assert np.isfinite(rail).all()
+
+
+def test_wheels_carry_the_weight(rig: Any) -> None:
+    p = rig.parameters()[0]
+    mass = p.body_mass + 2.0 * p.bogie_mass + 4.0 * p.wheelset_mass
+    assert 8.0 * p.static_wheel_load == pytest.approx(mass * STANDARD_GRAVITY)
+
+
+def test_orifice_law_is_that_of_the_air_and_the_valves(rig: Any) -> None:
+    p = rig.parameters("brake.system.critical_pressure_ratio=0.4", "brake.system.air.temperature=10 degC")[0]
+    assert p.flow_density == pytest.approx(REFERENCE_DENSITY * np.sqrt(REFERENCE_TEMPERATURE / 283.15))
+    assert (p.critical_ratio, p.subsonic_scale) == pytest.approx((0.4, 1.0 / 0.6))
+    assert p.laminar_scale == pytest.approx(1.0 / (1.0 - p.laminar_ratio))
+
+
+@pytest.mark.parametrize("step", [0.25, 0.5])
+def test_caliper_is_stiffened_by_its_damping_within_a_step(rig: Any, step: float) -> None:
+    """Spring, damping and contact side by side; friction adds to what squeezing feels of the contact."""
+    overrides = (f"simulation.time_step={step} ms", "rig.caliper.load_friction=10 %")
+    p = rig.parameters(*overrides)[0]
+    caliper = rig.case(*overrides).scenario.rig.caliper
+    damping = caliper.viscous_friction / (1e-3 * step)
+    assert p.piston_damping == pytest.approx(damping)
+    assert p.squeezing_stiffness == pytest.approx(1.1 * caliper.contact_stiffness)
+    assert p.releasing_stiffness == pytest.approx(0.9 * caliper.contact_stiffness)
+    free = caliper.spring_rate + damping
+    assert p.free_compliance == pytest.approx(1.0 / free)
+    assert p.squeezing_compliance == pytest.approx(1.0 / (free + p.squeezing_stiffness))
+    assert p.releasing_compliance == pytest.approx(1.0 / (free + p.releasing_stiffness))
+
+
+@pytest.mark.parametrize("step", [0.25, 0.5])
+def test_a_force_changes_speed_rotation_and_slip_within_a_step(rig: Any, step: float) -> None:
+    p = rig.parameters(f"simulation.time_step={step} ms")[0]
+    assert p.mass_response == pytest.approx(1e-3 * step / p.wheelset_mass)
+    assert p.inertia_response == pytest.approx(1e-3 * step / p.wheelset_inertia)
+    assert p.slip_response == pytest.approx(p.mass_response + p.wheel_radius**2 * p.inertia_response)
+    inverses = (
+        p.inertia_response * p.inertia_stiffness,
+        p.slip_response * p.slip_stiffness,
+        p.reference_load * p.load_scale,
+    )
+    assert inverses == pytest.approx((1.0, 1.0, 1.0))
+
+
+def test_suspension_is_summed_over_axle_boxes_and_sides(rig: Any) -> None:
+    """Vehicle files give one axle box and one side; the planar model has both in one."""
+    p = rig.parameters("vehicle=manchester-benchmark")[0]
+    assert p.primary_longitudinal_stiffness == pytest.approx(2 * 31.391e6)
+    assert p.secondary_vertical_stiffness == pytest.approx(2 * 430e3)
+
+
+def test_pressures_are_absolute_but_for_the_demand(rig: Any) -> None:
+    p = rig.parameters("brake.command=80 %")[0]
+    assert p.reservoir_pressure == pytest.approx(8e5 + p.atmospheric_pressure)
+    assert p.demanded_pressure == pytest.approx(0.8 * rig.parameters()[0].demanded_pressure)
+
+
+@pytest.mark.parametrize(("delay", "cycles", "steps"), [("0.5 ms", 0, 1), ("10 ms", 1, 0), ("64 ms", 6, 8)])
+def test_switching_delay_is_cut_into_cycles_and_steps(rig: Any, delay: str, cycles: int, steps: int) -> None:
+    p = rig.parameters(f"brake.system.wsp_valve.switching_delay={delay}")[0]
+    assert (p.valve_delay_cycles, p.valve_delay_steps) == (cycles, steps)
+
+
+def test_delay_longer_than_the_register_is_refused(rig: Any) -> None:
+    too_long = f"brake.system.wsp_valve.switching_delay={(LONGEST_DELAY_CYCLES + 1) * 10} ms"
+    with pytest.raises(ValueError, match="switching_delay"):
+        rig.parameters(too_long)
+
+
+def test_quantities_per_step_follow_the_step(rig: Any) -> None:
+    coarse = rig.parameters("simulation.time_step=0.5 ms")[0]
+    fine = rig.parameters("simulation.time_step=0.25 ms")[0]
+    assert fine.steps_per_cycle == 2 * coarse.steps_per_cycle
+    assert fine.valve_travel_per_step == pytest.approx(0.5 * coarse.valve_travel_per_step)
+    assert fine.phase_change_per_step == pytest.approx(0.5 * coarse.phase_change_per_step)
+    assert 20 * fine.valve_delay_cycles + fine.valve_delay_steps / 2 == pytest.approx(
+        20 * coarse.valve_delay_cycles + coarse.valve_delay_steps
+    )
+
+
+@pytest.mark.parametrize("step", ["0.25 ms", "0.5 ms", "1 ms"])
+def test_cylinder_is_stable_with_unity_gain_at_every_step(rig: Any, step: str) -> None:
+    """As far as double precision tells: steps at which it cannot tell 1e-4 are refused."""
+    p = rig.parameters(f"simulation.time_step={step}")[0]
+    system = control.tf([p.b0, p.b1, p.b2, p.b3], [1.0, p.a1, p.a2, p.a3], float(p.step))
+    assert np.abs(system.poles()).max() < 1.0
+    assert system.dcgain() == pytest.approx(1.0, abs=1e-4)
+
+
+def test_a_step_too_short_for_the_cylinder_dynamics_is_refused(rig: Any) -> None:
+    with pytest.raises(ScenarioErrors, match="too short for the cylinder dynamics"):
+        rig.parameters("simulation.time_step=0.01 ms")
+
+
+def test_steps_of_friction_are_pairs_of_points(rig: Any) -> None:
+    points = "[{position: 0 m, friction: 0.3}, {position: 150 m, friction: 0.1}]"
+    case = rig.case("rail.condition=wet", f"rail.friction={{interpolation: steps, points: {points}}}")
+    np.testing.assert_array_equal(friction_laws(case.scenario)[0], [0.0, 150.0, 150.0])
+    np.testing.assert_array_equal(friction_laws(case.scenario)[1], [0.3, 0.3, 0.1])
+
+
+def test_friction_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
+    assert friction_laws(rig.case("rail.condition=wet").scenario)[1, 0] == pytest.approx(0.30)
+    assert friction_laws(rig.case("rail.friction=0.09").scenario)[1, 0] == pytest.approx(0.09)
+
+
+def test_cases_of_one_scenario_draw_different_noise(scenarios: Any) -> None:
+    from uictest.rig.assembly import assemble
+
+    keys = [int(assemble(case)[0].case_key) for case in scenarios]
+    assert len(set(keys)) == len(keys)

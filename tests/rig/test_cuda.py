@@ -1,0 +1,87 @@
+"""The rig for GPUs without a GPU: the same stop in the simulator, and compiled to PTX without contraction."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("numba_cuda") is None,
+    reason='numba-cuda is not installed; pip install "uictest[cuda]"',
+)
+SLIDE = Path(__file__).parents[2] / "scenarios" / "slide-80.yaml"
+
+SIMULATED = """
+import json, os, sys
+os.environ["NUMBA_ENABLE_CUDASIM"] = "1"
+from pathlib import Path
+import numpy as np
+from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.rig import cuda
+from uictest.rig.assembly import assemble
+from uictest.rig.run import run
+from uictest.rig.stop import stop
+from uictest.scenario import load
+
+case = load([Path(sys.argv[1])])[0]
+parameters, rail = assemble(case)
+parameters["cycles"] = 2
+measures, wheelsets = np.zeros(1, MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
+batch = np.array([parameters], dtype=parameters.dtype)
+with np.errstate(invalid="ignore"):
+    cuda.kernel[1, 1](batch, rail[None], measures, wheelsets, np.zeros((1, 1)))
+    plain = run(stop, parameters, rail, 0)
+same = measures[0].tobytes() == plain.measures.tobytes()
+same_wheelsets = wheelsets[0].tobytes() == plain.wheelset_measures.tobytes()
+print(json.dumps([same, same_wheelsets, float(measures["end_distance"][0])]))
+"""
+
+COMPILED = """
+import json
+from types import SimpleNamespace
+import numba
+from numba.cuda import compile_ptx, dispatcher
+from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.rig import cuda
+from uictest.rig.records import PARAMETERS
+
+# What a machine without a GPU cannot say of itself: the capability to compile for.
+dispatcher.get_current_device = lambda: SimpleNamespace(compute_capability=(9, 0))
+record = numba.from_dtype
+signature = numba.void(
+    record(PARAMETERS)[::1], numba.float64[:, :, ::1], record(MEASURES)[::1],
+    record(WHEELSET_MEASURES)[:, ::1], numba.float64[:, ::1],
+)
+with cuda.without_contraction():
+    ptx, _ = compile_ptx(cuda.kernel.py_func, signature, cc=(9, 0))
+print(json.dumps([ptx.count(name) for name in (".entry", "fma.rn.f64", "mul.rn.f64", "mul.f64")]))
+"""
+
+
+def printed(program: str, *arguments: str) -> list[float]:
+    """What a program prints, run in an interpreter of its own: the simulator is chosen at import."""
+    done = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    values: list[float] = json.loads(done.stdout.splitlines()[-1])
+    return values
+
+
+def test_the_kernel_gives_the_bits_of_plain_python() -> None:
+    same, same_wheelsets, distance = printed(SIMULATED, str(SLIDE))
+    assert same
+    assert same_wheelsets
+    assert distance > 0.3
+
+
+def test_the_kernel_compiles_without_contraction() -> None:
+    """A fused multiply-add rounds once where a processor rounds twice: there must be none."""
+    entries, fused, multiplications, contractible = printed(COMPILED)
+    assert entries == 1
+    assert fused == 0
+    assert multiplications > 100
+    assert contractible == 0

@@ -1,0 +1,145 @@
+"""matrix, zip, include, exclude."""
+
+from collections.abc import Callable
+from math import prod
+from pathlib import Path
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from uictest.scenario import Case
+from uictest.scenario.expansion import Variant, expand
+from uictest.scenario.identifiers import case_id, short_keys
+from uictest.scenario.parsing import parse
+from uictest.scenario.tree import Document, Map, as_written
+
+Loaded = Callable[..., list[Case]]
+
+
+def ids(cases: list[Case]) -> list[str]:
+    return [case.id for case in cases]
+
+
+def test_the_first_key_of_a_matrix_is_the_slowest(loaded: Loaded, head: str) -> None:
+    cases = loaded(head + "matrix:\n  rail.friction: [0.10, 0.2]\n  brake.command: [80 %, 100 %]\n")
+
+    assert ids(cases) == [
+        "stop[friction=0.10,command=80]",
+        "stop[friction=0.10,command=100]",
+        "stop[friction=0.2,command=80]",
+        "stop[friction=0.2,command=100]",
+    ]
+    assert cases[1].parameters == {"rail.friction": "0.10", "brake.command": "100 %"}
+    assert (cases[1].scenario.rail.friction, cases[1].scenario.brake.command) == (0.1, 1.0)
+
+
+def test_zip_goes_in_step_and_within_the_matrix(loaded: Loaded, head: str) -> None:
+    cases = loaded(head + "matrix: {seed: [1, 2]}\nzip: {rail.friction: [0.1, 0.2], expect: [pass, fail]}\n")
+
+    assert ids(cases) == [
+        "stop[seed=1,friction=0.1,expect=pass]",
+        "stop[seed=1,friction=0.2,expect=fail]",
+        "stop[seed=2,friction=0.1,expect=pass]",
+        "stop[seed=2,friction=0.2,expect=fail]",
+    ]
+
+
+def test_exclude_removes_matches_and_include_appends(loaded: Loaded, head: str) -> None:
+    cases = loaded(
+        head + "matrix: {seed: [1, 2], brake.command: [80 %, 90 %]}\n"
+        "exclude: [{seed: 1, brake.command: 80%}]\ninclude: [{seed: 9, initial_speed: 80 km/h}]\n"
+    )
+
+    assert ids(cases) == [
+        "stop[seed=1,command=90]",
+        "stop[seed=2,command=80]",
+        "stop[seed=2,command=90]",
+        "stop[seed=9,initial_speed=80kmh]",
+    ]
+
+
+def test_include_alone_lists_the_cases(loaded: Loaded, head: str) -> None:
+    assert ids(loaded(head + "include: [{seed: 1}, {seed: 2}]\n")) == ["stop[seed=1]", "stop[seed=2]"]
+
+
+def test_a_key_below_a_reference_changes_the_part(loaded: Loaded, head: str) -> None:
+    cases = loaded(head + "matrix:\n  vehicle.body.mass: [30 t, 40 t]\n  vehicle: [crh380a, intercity-180]\n")
+
+    assert ids(cases)[1] == "stop[mass=30t,vehicle=intercity-180]"
+    assert [(case.scenario.vehicle.name, case.scenario.vehicle.body.mass) for case in cases] == [
+        ("crh380a", 30_000.0),
+        ("intercity-180", 30_000.0),
+        ("crh380a", 40_000.0),
+        ("intercity-180", 40_000.0),
+    ]
+
+
+def test_values_that_are_mappings_are_counted_or_named(loaded: Loaded, head: str) -> None:
+    cases = loaded(
+        head + "matrix:\n  rail.friction: [0.1, {points: [{position: 0 m, friction: 0.2}]}]\n"
+        "  vehicle: [{extends: crh380a, body: {mass: 40 t}}]\n"
+    )
+
+    assert ids(cases) == ["stop[friction=0.1,vehicle=crh380a]", "stop[friction=value2,vehicle=crh380a]"]
+    assert cases[1].parameters["rail.friction"] == "{points: [{position: 0 m, friction: 0.2}]}"
+
+
+def test_short_keys_are_as_long_as_they_must_be() -> None:
+    assert short_keys(["vehicle.body.mass", "vehicle.bogie.mass", "mass.x", "seed"]) == {
+        "vehicle.body.mass": "body.mass",
+        "vehicle.bogie.mass": "bogie.mass",
+        "mass.x": "x",
+        "seed": "seed",
+    }
+
+
+AXES = st.dictionaries(
+    st.text("abcdefgh", min_size=1, max_size=3),
+    st.lists(st.integers(0, 99), min_size=1, max_size=4, unique=True),
+    min_size=1,
+    max_size=4,
+)
+
+
+def tree(text: str) -> Map:
+    node = parse(Document("text", Path(), text))
+    assert isinstance(node, Map)
+    return node
+
+
+def values(variant: Variant) -> tuple[str, ...]:
+    return tuple(as_written(setting.value.node) for setting in variant)
+
+
+@given(AXES)
+def test_a_matrix_makes_every_combination_once(axes: dict[str, list[int]]) -> None:
+    written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
+
+    variants = expand(tree(f"matrix: {{{written}}}"))
+
+    short = short_keys([f"x.{key}" for key in axes])
+    assert len(variants) == prod(map(len, axes.values()))
+    assert len({case_id("stop", variant, short) for variant in variants}) == len(variants)
+    assert len({values(variant) for variant in variants}) == len(variants)
+
+
+@given(AXES, st.data())
+def test_exclude_and_include_count(axes: dict[str, list[int]], data: st.DataObject) -> None:
+    written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
+    chosen = {key: data.draw(st.sampled_from(numbers)) for key, numbers in axes.items()}
+    entry = ", ".join(f"'x.{key}': {number}" for key, number in chosen.items())
+
+    variants = expand(tree(f"matrix: {{{written}}}\nexclude: [{{{entry}}}]\ninclude: [{{{entry}}}]"))
+
+    assert len(variants) == prod(map(len, axes.values()))
+    assert values(variants[-1]) == tuple(map(str, chosen.values()))
+
+
+@given(st.integers(1, 6), st.integers(1, 6))
+def test_zip_makes_as_many_cases_as_its_lists_are_long(length: int, count: int) -> None:
+    written = ", ".join(f"k{number}: {list(range(length))}" for number in range(count))
+
+    variants = expand(tree(f"zip: {{{written}}}"))
+
+    assert len(variants) == length
+    assert all(len(set(values(variant))) == 1 for variant in variants)

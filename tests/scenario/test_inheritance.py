@@ -1,0 +1,101 @@
+"""`extends` between scenario files."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.scenario import Case, ScenarioErrors, load
+
+Write = Callable[[str, str], Path]
+PARENT = """\
+schema: uictest/scenario/1
+name: parent
+initial_speed: 120 km/h
+tags: [a, b]
+brake: {command: 90 %, position: P}
+rail: {condition: wet, friction: 0.2}
+matrix: {seed: [1, 2]}
+"""
+
+
+def child(write: Write, more: str = "", extends: str = "parent.yaml") -> list[Case]:
+    write("set/parent.yaml", PARENT)
+    return load(
+        [write("set/child.yaml", f"schema: uictest/scenario/1\nname: child\nextends: {extends}\n{more}")]
+    )
+
+
+def test_maps_merge_lists_replace_and_the_name_is_the_childs(write: Write) -> None:
+    cases = child(write, "tags: [c]\nbrake: {command: 80 %}\nmatrix: {seed: [7]}\n")
+
+    scenario = cases[0].scenario
+    assert [case.id for case in cases] == ["child[seed=7]"]
+    assert scenario.tags == ("c",)
+    assert (scenario.brake.command, scenario.brake.position) == (0.8, "P")
+    assert scenario.rail.friction == 0.2
+    assert list(cases[0].inputs)[:2] == ["set/child.yaml", "set/parent.yaml"]
+
+
+def test_null_takes_back_what_the_parent_says(write: Write) -> None:
+    cases = child(write, "matrix: null\nrail: {friction: null}\n")
+
+    assert [case.id for case in cases] == ["child"]
+    assert cases[0].scenario.rail.friction is None
+
+
+def test_paths_start_at_the_file_that_says_them(write: Write) -> None:
+    write("cars/heavy.yaml", "schema: uictest/vehicle/1\nextends: intercity-180\nbody: {mass: 40 t}\n")
+    write("base/base.yaml", PARENT + "vehicle: ../cars/heavy.yaml\n")
+
+    cases = child(write, extends="../base/base.yaml")
+
+    assert cases[0].scenario.vehicle.body.mass == 40_000.0
+    assert "cars/heavy.yaml" in cases[0].inputs
+
+
+@pytest.mark.parametrize("loop", [["a"], ["a", "b"], ["a", "b", "c"]])
+def test_a_circle_is_told_at_the_reference_that_closes_it(write: Write, loop: list[str]) -> None:
+    for name, after in zip(loop, [*loop[1:], loop[0]], strict=True):
+        write(f"{name}.yaml", f"schema: uictest/scenario/1\nname: {name}\nextends: {after}.yaml\n")
+
+    with pytest.raises(ScenarioErrors) as caught:
+        load([Path("a.yaml")])
+
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.line, found.column) == (f"{loop[-1]}.yaml", 3, 10)
+    assert "circle: a.yaml -> " in found.message
+
+
+def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:
+    write("base.yaml", PARENT.replace("120 km/h", "fast"))
+
+    with pytest.raises(ScenarioErrors) as caught:
+        child(write, extends="../base.yaml")
+
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.line, found.column) == ("base.yaml", 3, 16)
+
+
+def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write: Write) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        child(write, extends="parnet.yaml")
+
+    (found,) = caught.value.diagnostics
+    assert (found.line, found.column, found.key) == (3, 10, "extends")
+    assert "'parent.yaml'" in found.hint
+
+
+def test_a_parent_must_be_a_scenario(write: Write) -> None:
+    write("car.yaml", "schema: uictest/vehicle/1\nname: car\n")
+
+    with pytest.raises(ScenarioErrors, match="expected uictest/scenario/1, found 'uictest/vehicle/1'"):
+        child(write, extends="../car.yaml")
+
+
+def test_generations_are_bounded(write: Write) -> None:
+    for number in range(20):
+        write(f"{number}.yaml", f"schema: uictest/scenario/1\nname: g\nextends: {number + 1}.yaml\n")
+
+    with pytest.raises(ScenarioErrors, match="more than 16 generations"):
+        load([Path("0.yaml")])

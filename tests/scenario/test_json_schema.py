@@ -1,0 +1,123 @@
+"""The JSON Schema that editors use."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from jsonschema import Draft7Validator
+
+from uictest.scenario import json_schema
+from uictest.scenario.model import Scenario
+
+ROOT = Path(__file__).parents[2]
+COMMITTED = ROOT / "schema" / "scenario.schema.json"
+SHIPPED = [path for path in sorted((ROOT / "scenarios").glob("*.yaml")) if ".sweep" not in path.suffixes]
+HEAD: dict[str, Any] = {"schema": "uictest/scenario/1", "name": "stop", "initial_speed": "120 km/h"}
+
+
+@pytest.fixture(scope="module")
+def validator() -> Draft7Validator:
+    return Draft7Validator(json_schema())
+
+
+def test_the_committed_schema_is_that_of_the_models() -> None:
+    # Written by `uictest schema --output schema/scenario.schema.json`.
+    assert json.loads(COMMITTED.read_text()) == json_schema()
+
+
+def test_it_is_a_draft_07_schema() -> None:
+    schema = json_schema()
+
+    Draft7Validator.check_schema(schema)
+    assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
+    newer = ("$defs", "prefixItems", "x-quantity", '"discriminator"', "unevaluatedProperties")
+    assert not any(keyword in json.dumps(schema) for keyword in newer)
+
+
+def properties(node: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+    if isinstance(node, dict):
+        for name, schema in node.get("properties", {}).items():
+            yield f"{path}.{name}", schema
+        for key, inner in node.items():
+            yield from properties(inner, f"{path}/{key}")
+    elif isinstance(node, list):
+        for inner in node:
+            yield from properties(inner, path)
+
+
+def described(field: dict[str, Any], schema: dict[str, Any]) -> bool:
+    """Whether the field, or what it refers to, has a description."""
+    name = field.get("$ref", "").rpartition("/")[2]
+    return bool(field.get("description") or schema["definitions"].get(name, {}).get("description"))
+
+
+def test_every_field_is_described() -> None:
+    schema = json_schema()
+    fields = dict(properties(schema))
+
+    assert len(fields) > 150
+    assert [path for path, field in fields.items() if not described(field, schema)] == []
+
+
+def test_it_knows_every_key_of_the_model() -> None:
+    keys = {field.alias or name for name, field in Scenario.model_fields.items()}
+
+    assert set(json_schema()["properties"]) == keys
+
+
+def test_references_resolve() -> None:
+    schema = json_schema()
+    used = {word for word in json.dumps(schema).split('"') if word.startswith("#/definitions/")}
+
+    assert used
+    assert used <= {f"#/definitions/{name}" for name in schema["definitions"]}
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_shipped_scenarios_are_valid(path: Path, validator: Draft7Validator) -> None:
+    assert [error.message for error in validator.iter_errors(yaml.safe_load(path.read_text()))] == []
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"vehicle": {"extends": "crh380a", "body": {"mass": "40 t"}}},
+        {"vehicle": {"extends": "crh380a", "body": {"mass": {"value": "40 t", "source": "crh380a"}}}},
+        {"controller": {"extends": "threshold", "cycle_time": "20 ms"}},
+        {"rail": {"friction": {"points": [{"position": "0 m", "friction": 0.1}]}}},
+        {"criteria": [{"extends": "uictest-stop"}, "uictest-stop"]},
+        {"rig": {"compensation_model": {"extends": "six-inch", "cylinder": {"denominator": [-0.5, 0, 0]}}}},
+        {"matrix": {"rail.friction": [0.1]}, "exclude": [{"rail.friction": 0.1}]},
+    ],
+)
+def test_what_the_loader_accepts_is_valid(more: dict[str, Any], validator: Draft7Validator) -> None:
+    assert [error.message for error in validator.iter_errors({**HEAD, **more})] == []
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"initial_speed": 120},
+        {"initial_speed": "120 kmh"},
+        {"rial": {}},
+        {"rail": {"friction": 2}},
+        {"rail": {"friction": {"points": []}}},
+        {"rig": {"topology": "two-caliper"}},
+        {"name": "A b"},
+        {"seed": -1},
+        {"matrix": {}},
+        {"matrix": {"seed": []}},
+        {"vehicle": {"extends": "crh380a", "body": {"mas": "40 t"}}},
+        {"controller": {"extends": "threshold", "cycle_tim": "20 ms"}},
+    ],
+)
+def test_what_the_loader_refuses_is_mostly_invalid(wrong: dict[str, Any], validator: Draft7Validator) -> None:
+    assert not validator.is_valid({**HEAD, **wrong})
+
+
+def test_an_initial_speed_may_come_from_the_parent_only(validator: Draft7Validator) -> None:
+    assert validator.is_valid({"schema": "uictest/scenario/1", "name": "a", "extends": "b.yaml"})
+    assert not validator.is_valid({"schema": "uictest/scenario/1", "name": "a"})

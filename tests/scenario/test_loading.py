@@ -1,0 +1,151 @@
+"""Cases as they come out."""
+
+import hashlib
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from uictest.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
+from uictest.scenario.friction import FrictionProfile
+
+Loaded = Callable[..., list[Case]]
+Refused = Callable[..., tuple[Diagnostic, ...]]
+
+
+def test_defaults_are_filled_in(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head)
+
+    scenario = case.scenario
+    assert (scenario.brake.command, scenario.brake.position) == (1.0, "R")
+    assert (scenario.rail.friction, scenario.rail.gradient) == (None, 0.0)
+    assert (scenario.rig.topology, scenario.rig.compensation, scenario.rig.wsp) == (
+        "one-caliper",
+        "full",
+        "active",
+    )
+    assert (scenario.expect, scenario.seed) == ("pass", 0)
+    assert (scenario.simulation.time_step, scenario.simulation.maximum_duration) == (0.0005, 180.0)
+    assert scenario.brake.command.source == "default"
+    assert scenario.initial_speed.source == "scenario"
+    assert (scenario.matrix, scenario.zip, scenario.include, scenario.exclude) == (None, None, None, None)
+
+
+def test_friction_is_a_number_or_points(loaded: Loaded, head: str) -> None:
+    points = (
+        "{interpolation: steps, points: [{position: 0 m, friction: 0.2}, {position: 1 km, friction: 0.08}]}"
+    )
+    (number,) = loaded(head + "rail: {friction: 0.10}\n")
+    (profile,) = loaded(head + f"rail: {{friction: {points}}}\n")
+
+    assert isinstance(number.scenario.rail.friction, Quantity)
+    assert number.scenario.rail.friction.text == "0.10"
+    assert isinstance(profile.scenario.rail.friction, FrictionProfile)
+    assert profile.scenario.rail.friction.interpolation == "steps"
+    assert [point.position for point in profile.scenario.rail.friction.points] == [0.0, 1000.0]
+    assert profile.scenario.rail.highest_friction == 0.2
+
+
+def test_a_scenario_cannot_be_changed(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head)
+
+    with pytest.raises(Exception, match="frozen"):
+        case.scenario.seed = 1  # type: ignore[misc]
+
+
+def test_the_digest_is_that_of_the_bytes(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head)
+
+    assert case.inputs["stop.yaml"] == hashlib.sha256(head.encode()).hexdigest()
+    assert case.path == Path("stop.yaml")
+
+
+def test_an_id_too_long_for_a_file_name_is_refused(refused: Refused, head: str) -> None:
+    (found,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
+
+    assert (found.line, found.column) == (4, 18)
+    assert "longer than 200 characters" in found.message
+
+
+def test_a_part_is_made_once_for_all_cases(loaded: Loaded, head: str) -> None:
+    first, second = loaded(head + "matrix: {seed: [1, 2]}\n")
+
+    assert first.scenario.vehicle is second.scenario.vehicle
+
+
+def test_loading_needs_none_of_the_heavy_packages() -> None:
+    code = (
+        "import sys; from pathlib import Path; from uictest.scenario import load;"
+        "load([Path(sys.argv[1])]);"
+        "heavy = {'numpy', 'numba', 'pandas', 'pyarrow', 'scipy', 'control', 'rich'};"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    folder = Path(__file__).parents[2] / "scenarios"
+
+    command = [sys.executable, "-c", code, str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+
+    assert done.stdout.strip() == "[]"
+
+
+FRAGMENTS = st.sampled_from(
+    [
+        *(
+            "schema: uictest/scenario/1\n",
+            "name: stop\n",
+            "initial_speed: 120 km/h\n",
+            "extends: stop.yaml\n",
+        ),
+        *("matrix:\n", "  seed: [1, 2]\n", "rail: {friction: 0.1}\n", "vehicle:\n", "  extends: crh380a\n"),
+        *(
+            "brake: {command: 90 %}\n",
+            "include: [{seed: 1}]\n",
+            "criteria: []\n",
+            "? ",
+            "- ",
+            ": ",
+            "&a ",
+            "*a",
+        ),
+        *(
+            "!!x ",
+            "{",
+            "}",
+            "[",
+            "]",
+            "\t",
+            "\u2028",
+            "'",
+            '"',
+            "|",
+            ">",
+            "%",
+            "@",
+            "---\n",
+            "1e9999999\n",
+            "#",
+        ),
+    ]
+)
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.one_of(
+        st.binary(max_size=200), st.lists(FRAGMENTS, max_size=12).map(lambda parts: "".join(parts).encode())
+    )
+)
+def test_any_bytes_are_cases_or_scenario_errors(write: Callable[..., Path], content: bytes) -> None:
+    path = write("stop.yaml", content)
+
+    try:
+        cases = load([path])
+    except ScenarioErrors as errors:
+        assert errors.diagnostics
+        assert str(errors).replace("\n", "").isprintable()
+    else:
+        assert len({case.id for case in cases}) == len(cases) >= 1

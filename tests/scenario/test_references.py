@@ -1,0 +1,94 @@
+"""References to parts: names, paths, inline mappings."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.scenario import Case, Diagnostic, ScenarioErrors, load
+
+Loaded = Callable[..., list[Case]]
+Refused = Callable[..., tuple[Diagnostic, ...]]
+Write = Callable[[str, str], Path]
+
+
+def test_everything_left_out_is_the_librarys_default(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head)
+
+    scenario = case.scenario
+    names = (
+        scenario.vehicle.name,
+        scenario.brake.system.name,
+        scenario.rail.condition.name,
+        scenario.rig.caliper.name,
+        scenario.rig.compensation_model.name,
+        scenario.rig.sensors.name,
+        scenario.controller.name,
+        *(each.name for each in scenario.criteria),
+    )
+    assert names == (
+        *("intercity-180", "ep-disc", "dry", "six-inch", "six-inch", "standard", "threshold", "uictest-stop"),
+    )
+    assert "library:vehicles/intercity-180.yaml" in case.inputs
+    assert all(len(digest) == 64 for digest in case.inputs.values())
+
+
+def test_an_inline_mapping_overrides_only_what_it_names(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head + "vehicle: {extends: crh380a, body: {mass: 40 t}}\n")
+
+    body = case.scenario.vehicle.body
+    assert (body.mass, body.mass.source) == (40_000.0, "scenario")
+    assert (body.pitch_inertia, body.pitch_inertia.source) == (1.654e6, "crh380a")
+    assert "library:vehicles/crh380a.yaml" in case.inputs
+
+
+def test_another_controller_is_told_by_its_algorithm(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head + "controller: {extends: slip-band, upper_slide: 30 %}\n")
+
+    assert case.scenario.controller.algorithm == "slip-band"
+    assert case.scenario.controller.upper_slide == 0.3
+
+
+def test_several_criteria_keep_their_order(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head + "criteria: [uictest-stop, uic-541-05-appendix-b]\n")
+
+    assert [each.name for each in case.scenario.criteria] == ["uictest-stop", "uic-541-05-appendix-b"]
+
+
+def test_the_errors_of_all_references_are_told(refused: Refused, head: str) -> None:
+    found = refused(head + "vehicle: a\ncontroller: b\ncriteria: [c, d]\n")
+
+    assert [each.key for each in found] == ["vehicle", "controller", "criteria.0", "criteria.1"]
+
+
+def test_an_error_in_a_part_file_points_into_it(write: Callable[[str, str], Path], head: str) -> None:
+    write("car.yaml", "schema: uictest/vehicle/1\nextends: crh380a\nbody: {mass: 40}\n")
+
+    with pytest.raises(ScenarioErrors) as caught:
+        load([write("stop.yaml", head + "vehicle: car.yaml\n")])
+
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.line, found.column, found.key) == ("car.yaml", 3, 14, "body.mass")
+
+
+def test_a_part_of_another_kind_is_refused(write: Callable[[str, str], Path], head: str) -> None:
+    write("rail.yaml", "schema: uictest/rail/1\nextends: wet\n")
+
+    with pytest.raises(ScenarioErrors, match="expected uictest/vehicle/1, found 'uictest/rail/1'"):
+        load([write("stop.yaml", head + "vehicle: rail.yaml\n")])
+
+
+CRITERION = "{id: same, layer: validity, measure: standstill, lower: 1}"
+
+
+def test_two_profiles_cannot_have_criteria_of_the_same_name(
+    refused: Refused, head: str, write: Write
+) -> None:
+    write("a.yaml", f"schema: uictest/criteria/1\nname: a\ncriteria: [{CRITERION}]\n")
+
+    (by_name,) = refused(f"{head}criteria:\n- a.yaml\n- uictest-stop\n- a.yaml\n")
+    assert (by_name.line, by_name.column, by_name.key) == (7, 3, "criteria.2.criteria.0.id")
+    assert by_name.message == "criterion 'same' of profile 'a' is in profile 'a', too"
+
+    (inline,) = refused(f"{head}criteria:\n- a.yaml\n- {{name: b, criteria: [{CRITERION}]}}\n")
+    assert (inline.line, inline.message) == (6, "criterion 'same' of profile 'b' is in profile 'a', too")

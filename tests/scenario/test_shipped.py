@@ -1,0 +1,76 @@
+"""The scenarios that come with the project."""
+
+from pathlib import Path
+
+import pytest
+
+from uictest.scenario import Case, load
+from uictest.scenario.friction import FrictionProfile
+
+FOLDER = Path(__file__).parents[2] / "scenarios"
+
+
+@pytest.fixture(scope="module")
+def cases() -> dict[str, Case]:
+    return {case.id: case for case in load([FOLDER])}
+
+
+def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
+    assert list(cases) == [
+        "dry-120",
+        "friction-step-120",
+        "low-adhesion-80",
+        "slide-80-four-caliper",
+        *(f"slide-80[compensation={setting}]" for setting in ("none", "hysteresis", "cylinder", "full")),
+        "slip-120",
+        *(f"wet-80-command[command={command}]" for command in (80, 90, 100)),
+        *(f"wet-80-friction[friction={friction}]" for friction in ("0.09", "0.10", "0.11", "0.12")),
+        "wsp-bypassed-80",
+    ]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [path for path in sorted(FOLDER.glob("*.yaml")) if ".sweep" not in path.suffixes],
+    ids=lambda path: path.stem,
+)
+def test_a_file_is_named_after_its_scenario_and_explains_itself(path: Path) -> None:
+    first = load([path])[0].scenario
+
+    assert path.read_text().startswith("# yaml-language-server: $schema=../schema/scenario.schema.json\n")
+    assert first.name == path.stem
+    assert first.title
+    assert first.description
+    assert first.tags
+
+
+def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases: dict[str, Case]) -> None:
+    dry, slip = cases["dry-120"].scenario, cases["slip-120"].scenario
+
+    for scenario in (dry, slip):
+        assert scenario.initial_speed == pytest.approx(120 / 3.6)
+        assert (scenario.brake.position, scenario.brake.command) == ("R", 1.0)
+        assert "uic-541-05-appendix-b" in [each.name for each in scenario.criteria]
+    assert dry.rail.condition.name == "dry"
+    assert slip.rail.condition.name == "wet"
+
+
+def test_the_slide_tests_differ_in_the_rig_alone(cases: dict[str, Case]) -> None:
+    one, four = cases["slide-80[compensation=full]"].scenario, cases["slide-80-four-caliper"].scenario
+
+    assert (one.rig.topology, four.rig.topology) == ("one-caliper", "four-caliper")
+    for part in ("vehicle", "brake", "rail", "controller", "initial_speed", "seed"):
+        assert getattr(one, part) == getattr(four, part)
+
+
+def test_only_the_bypassed_wsp_is_expected_to_fail(cases: dict[str, Case]) -> None:
+    assert [case.id for case in cases.values() if case.scenario.expect != "pass"] == ["wsp-bypassed-80"]
+    assert cases["wsp-bypassed-80"].scenario.rig.wsp == "bypassed"
+
+
+def test_the_change_of_friction_is_sudden(cases: dict[str, Case]) -> None:
+    friction = cases["friction-step-120"].scenario.rail.friction
+
+    assert isinstance(friction, FrictionProfile)
+    assert friction.interpolation == "steps"
+    assert min(point.friction for point in friction.points) < 0.1 < friction.points[0].friction

@@ -1,0 +1,26 @@
+"""Every band, held by the shipped library."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from uictest.studies import STUDIES, Conducted
+from uictest.studies.comparison import band_text, found_text
+
+_SLOW = frozenset({"robustness"})
+
+BOUNDED = [
+    pytest.param(name, quantity.key, id=f"{name}-{quantity.key}", marks=[pytest.mark.slow] * (name in _SLOW))
+    for name, study in STUDIES.items()
+    for quantity in study.quantities
+    if quantity.lower is not None or quantity.upper is not None
+]
+
+
+@pytest.mark.parametrize(("study", "key"), BOUNDED)
+def test_the_figure_lies_in_its_band(study: str, key: str, conducted: Callable[[str], Conducted]) -> None:
+    comparison = next(each for each in conducted(study).comparisons if each.quantity.key == key)
+    found, band = found_text(comparison), band_text(comparison.quantity)
+    assert comparison.verdict == "holds", f"{comparison.quantity.title}: {found}, band {band}"

@@ -1,0 +1,51 @@
+"""What the catalogue promises: every row that the studies must show, each with its band."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from uictest.studies import STUDIES, Quantity
+
+BANDS = {
+    ("cylinder-dynamics", "before"): (4.0, 8.0),
+    ("cylinder-dynamics", "after"): (None, 2.0),
+    ("cylinder-dynamics", "ratio"): (None, 0.45),
+    ("force-accuracy", "module_1"): (None, 8.0),
+    ("force-accuracy", "full"): (None, 8.0),
+    ("bench-loops", "loop_width"): (0.45, 0.55),
+    ("valve-actuations", "caliper"): (10.0, 12.0),
+    ("valve-actuations", "none"): (19.0, 23.0),
+    ("valve-actuations", "full"): (10.0, 12.0),
+    ("slide-test", "braking_time"): (16.5, 19.0),
+    ("slide-test", "braking_distance"): (185.0, 215.0),
+    ("appendix-b", "braking_distance"): (440.0, 490.0),
+    ("appendix-b", "initial_adhesion"): (None, 0.08),
+    ("appendix-b", "minimum_slide"): (35.0, None),
+}
+"""Of the tool's specification; where the source gives a figure, about that."""
+
+
+def _quantities(name: str) -> dict[str, Quantity]:
+    return {quantity.key: quantity for quantity in STUDIES[name].quantities}
+
+
+@pytest.mark.parametrize(("study", "key"), list(BANDS))
+def test_every_band_is_the_one_that_was_set(study: str, key: str) -> None:
+    quantity = _quantities(study)[key]
+    assert (quantity.lower, quantity.upper) == BANDS[study, key]
+
+
+@pytest.mark.parametrize("study", list(STUDIES))
+def test_keys_are_unique_and_every_band_says_where_it_comes_from(study: str) -> None:
+    quantities = STUDIES[study].quantities
+    assert len(_quantities(study)) == len(quantities)
+    bounded = [each for each in quantities if each.lower is not None or each.upper is not None]
+    assert all(quantity.reason for quantity in bounded)
+
+
+@pytest.mark.parametrize("study", list(STUDIES))
+def test_names_serve_as_folders_and_titles_name_no_figure_of_the_source(study: str) -> None:
+    assert re.fullmatch(r"[a-z][a-z0-9-]*", study)
+    assert not re.search(r"\b(fig|figure|table)\b", STUDIES[study].title, re.IGNORECASE)

@@ -1,0 +1,34 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.scenario import Case
+from uictest.studies import Laboratory
+from uictest.studies.replay import CYCLE, maximum_pressure, replayed
+
+
+@pytest.fixture(scope="module")
+def case(laboratory: Laboratory) -> Case:
+    return laboratory.cases("wet-80-friction", "rail.friction=0.10")[0]
+
+
+@pytest.fixture(scope="module")
+def stop(laboratory: Laboratory, case: Case) -> Recording:
+    return laboratory.recordings([case], CYCLE)[0]
+
+
+def test_its_own_commands_give_module_1_its_own_pressure(case: Case, stop: Recording) -> None:
+    again = replayed(case, stop, 1)
+    pressure = np.interp(stop["time"], again["time"], again["tank_pressure_1"])
+    # On the bench two modules draw from the line instead of four: it falls a little less.
+    assert np.abs(pressure - stop["tank_pressure_1"]).max() < 0.02 * maximum_pressure(case)
+
+
+def test_a_released_brake_clamps_no_more(case: Case, stop: Recording) -> None:
+    held, released = replayed(case, stop, 1), replayed(case, stop, 1, release=True)
+    assert held["caliper_force_1"][-1] > 0.0
+    assert released["caliper_force_1"][-1] == 0.0
+    assert not released["wsp_acting"][-1]
+    np.testing.assert_array_equal(released["stroke_1"][: len(held)], held["stroke_1"])

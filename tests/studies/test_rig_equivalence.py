@@ -1,0 +1,55 @@
+"""The comparison of rigs on made-up stops."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.measures import MEASURES as STOP
+from uictest.measures import WHEELSET_MEASURES
+from uictest.rig import Stop
+from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point
+from uictest.studies.rig_equivalence import RIGS, TRAIN, differences, overall
+from uictest.studies.robustness import actuations
+
+
+def stop(distance: float, *vents: int) -> Stop:
+    """A stop of which only the distance and the actuations of the four valves are known."""
+    measures, wheelsets = np.zeros(1, STOP)[0], np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
+    measures.braking_distance = distance
+    wheelsets.valve_actuations = vents
+    return Stop(measures, wheelsets)
+
+
+@pytest.fixture
+def point() -> Point:
+    """A point at which the rig with four calipers scatters by a metre, and `none` runs 5 m shorter."""
+    four = [stop(distance, 11, 11, 11, 11) for distance in (199.0, 200.0, 201.0)]
+    stops: dict[str, Any] = dict.fromkeys(SETTINGS, four)
+    stops["none"] = [stop(195.0, 11, 21, 20, 22)] * 3
+    nothing: Any = None
+    return Point("0.146", "100 %", nothing, {**stops, FOUR_CALIPER: four})
+
+
+def test_a_rig_against_itself_shows_its_scatter(point: Point) -> None:
+    found = list(differences(point))
+    for rig in ("full", FOUR_CALIPER):
+        reading = overall(found, "braking_distance", rig)
+        assert (reading.low, reading.value, reading.high) == (-1.0, 0.0, 1.0)
+
+
+def test_differences_are_told_for_the_train_and_for_each_wheelset(point: Point) -> None:
+    found = list(differences(point))
+    assert overall(found, "braking_distance", "none").value == -5.0
+    vents = {
+        each.wheelset: each for each in found if (each.measure, each.rig) == ("valve_actuations", "none")
+    }
+    assert [list(vents[n].values) for n in (1, 2, 3, 4)] == [[0.0] * 3, [10.0] * 3, [9.0] * 3, [11.0] * 3]
+    assert {each.wheelset for each in found if each.measure == "braking_time"} == {TRAIN}
+    assert {each.rig for each in found} == set(RIGS)
+
+
+def test_actuations_are_those_of_the_modules_that_may_lack_a_caliper(point: Point) -> None:
+    assert actuations(point.stops["none"][0]) == 21.0

@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from uictest.identification import HysteresisResult
+from uictest.identification.lines import Line
+from uictest.studies.slopes import Loop, slope_spread, slopes_table
+
+
+def loop(level: str, **slopes: float) -> Loop:
+    """A loop of which nothing is known but the slopes of some phases, in kN/bar."""
+    lines = {phase: Line(slope * 1e-2, -1500.0) for phase, slope in slopes.items()}
+    nothing: Any = None
+    return Loop(level, nothing, HysteresisResult(lines, Line(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
+
+
+def test_the_phase_that_changes_most_decides() -> None:
+    loops = [
+        loop("80 %", bc_squeezing=4.0, bc_releasing=5.0),
+        loop("100 %", bc_squeezing=4.1, bc_releasing=5.0),
+    ]
+    assert slope_spread(loops) == pytest.approx(0.1 / 4.05)
+
+
+def test_a_phase_of_a_single_stop_is_compared_with_nothing() -> None:
+    loops = [loop("80 %", bc_squeezing=4.0), loop("100 %", bc_squeezing=4.0, wsp_squeezing=9.0)]
+    assert slope_spread(loops) == 0.0
+
+
+def test_nothing_in_common_is_no_agreement() -> None:
+    assert math.isnan(slope_spread([loop("80 %", bc_squeezing=4.0), loop("100 %", bc_releasing=4.0)]))
+
+
+def test_every_phase_of_every_stop_has_its_row() -> None:
+    table = slopes_table([loop("80 %", bc_squeezing=4.0), loop("100 %")], "command")
+    assert table["command"] == ["80 %"] * 4 + ["100 %"] * 4
+    assert table["slope_kn_per_bar"][0] == pytest.approx(4.0)
+    assert all(math.isnan(slope) for slope in table["slope_kn_per_bar"][1:])

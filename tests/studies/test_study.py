@@ -1,0 +1,23 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from uictest.studies import Conducted, Findings, Laboratory, Reading, conduct
+
+
+def test_one_figure_outside_its_band_decides(made_up: Conducted) -> None:
+    assert [comparison.verdict for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
+    assert made_up.verdict == "misses"
+
+
+def test_a_study_without_a_band_is_only_shown(made_up: Conducted) -> None:
+    unbounded = replace(made_up.study, quantities=made_up.study.quantities[2:])
+    assert Conducted(unbounded, made_up.findings).verdict == "shown"
+
+
+def test_a_study_must_find_all_its_quantities(made_up: Conducted) -> None:
+    study = replace(made_up.study, conduct=lambda laboratory: Findings({"time": Reading(18.0)}))
+    with pytest.raises(KeyError, match="share, count"):
+        conduct(study, Laboratory())

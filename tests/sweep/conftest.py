@@ -1,0 +1,71 @@
+"""Sweeps of one scenario in a folder of their own, and a rig whose stops are a formula."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.sweep import Plan, Worker, load_sweep
+from uictest.sweep.assembling import Assembler
+
+SCENARIO = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 30 km/h
+rail: {condition: wet, friction: 0.1}
+"""
+HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
+GRID = """\
+grid:
+  rail.friction: [0.08, 0.10, 0.12]
+  brake.command: [80 %, 100 %]
+"""
+Load = Callable[..., Plan]
+
+
+@pytest.fixture
+def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
+    """The plan of a sweep whose file says the given text after its head."""
+    monkeypatch.chdir(tmp_path)
+    Path("stop.yaml").write_text(SCENARIO)
+
+    def write_and_load(text: str = GRID, *overrides: str, **options: Any) -> Plan:
+        Path("study.sweep.yaml").write_text(HEAD + text)
+        return load_sweep(Path("study.sweep.yaml"), overrides, **options)
+
+    return write_and_load
+
+
+def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
+    measures = np.zeros(parameters.size, MEASURES)
+    wheelsets = np.zeros((parameters.size, 4), WHEELSET_MEASURES)
+    speed, friction = parameters["initial_speed"], rail[:, 1, 0]
+    for name in MEASURES.names or ():
+        measures[name] = np.nan
+    measures["initial_speed"], measures["stopped"] = speed, 1.0
+    measures["braking_time"] = measures["end_time"] = speed / (9.81 * friction)
+    measures["braking_distance"] = measures["end_distance"] = speed**2 / (2.0 * 9.81 * friction)
+    for name in (
+        "end_speed",
+        "energy_residual",
+        "air_residual",
+        "air_consumed",
+        "reservoir_minimum_pressure",
+    ):
+        measures[name] = 0.0
+    # Wheels lock at high pressure on slippery rail: the only thing that a stop can fail by.
+    wheelsets["longest_lock"] = (parameters["demanded_pressure"] * 1e-5 / 3.8 - 9.0 * friction)[:, None] * 5.0
+    return measures, wheelsets
+
+
+@pytest.fixture
+def made_up() -> Callable[[Plan], Worker]:
+    """A worker whose stops are the formula."""
+    return lambda plan: Worker(Assembler(plan), formula, plan)

@@ -1,0 +1,85 @@
+"""A cluster of processes gives the parts that this process gives, though a worker dies on the way."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.sweep import Selection, worker
+
+from .conftest import Load
+
+distributed = pytest.importorskip("distributed")
+
+# What dask does with its own sockets and loops when a process is killed is not ours to judge.
+pytestmark = pytest.mark.filterwarnings("ignore")
+TEXT = """\
+grid: {rail.friction: [0.08, 0.12]}
+sample: {size: 48, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
+"""
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Two processes of one thread each; a dead one is started again."""
+    settings = {"distributed.logging.distributed": "critical", "distributed.worker.daemon": True}
+    import dask
+
+    with (
+        dask.config.set(settings),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as started,
+    ):
+        yield started
+
+
+def test_parts_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: Any) -> None:
+    from uictest.sweep.cluster import run_on_cluster
+
+    selection = Selection(load(TEXT, "initial_speed=15 km/h"))
+    here = worker(selection.plan)
+    found: dict[int, bytes] = {}
+
+    def keep(number: int, content: bytes) -> None:
+        found[number] = content
+        if len(found) == 2:
+            os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+
+    run_on_cluster(selection, range(selection.parts), cluster.scheduler_address, keep)
+    assert sorted(found) == list(range(6))
+    for number, content in found.items():
+        assert content == here.part(selection.part(number))
+
+
+def test_only_missing_parts_are_asked_for(load: Load, cluster: Any) -> None:
+    from uictest.sweep.cluster import run_on_cluster
+
+    selection = Selection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
+    found: list[int] = []
+    run_on_cluster(selection, [2], cluster.scheduler_address, lambda number, content: found.append(number))
+    assert found == [2]
+
+
+def test_a_scheduler_that_does_not_answer_is_said(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+    from uictest.sweep import cluster as module
+
+    monkeypatch.setattr(module, "_PATIENCE", "1s")
+    with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
+        module.run_on_cluster(Selection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None)
+
+
+def test_the_command_line_gives_the_summary_that_a_local_run_gives(load: Load, cluster: Any) -> None:
+    from uictest.cli.entry import execute
+
+    plan = load(TEXT, "initial_speed=15 km/h")
+    arguments = ["sweep", plan.file, "--set", "initial_speed=15 km/h", "-q"]
+    assert execute([*arguments, "-o", "far", "--dask", cluster.scheduler_address]) == 0
+    assert execute([*arguments, "-o", "near"]) == 0
+    assert Path("far/study/summary.csv").read_bytes() == Path("near/study/summary.csv").read_bytes()

@@ -1,0 +1,146 @@
+"""What the rows of a sweep come to, and the files that say it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pandas as pd
+import pytest
+
+from uictest.sweep import Plan, Selection, Store, Worker
+from uictest.sweep.findings import Findings, gather, read_result, write_findings
+
+from .conftest import GRID, Load
+
+MakeWorker = Callable[[Plan], Worker]
+
+
+@pytest.fixture
+def finished(load: Load, made_up: MakeWorker, tmp_path: Path) -> Callable[..., tuple[Findings, Path]]:
+    """The findings of a finished sweep and the folder they are written to."""
+
+    def finish(text: str = GRID) -> tuple[Findings, Path]:
+        selection = Selection(load(text))
+        store = Store(tmp_path / "out")
+        store.begin({}, restart=True)
+        worker = made_up(selection.plan)
+        for number in range(selection.parts):
+            store.write(number, worker.part(selection.part(number)))
+        keys = selection.plan.keys
+        findings = gather(selection, store, (keys[0], keys[1]), ["braking_distance_m"])
+        write_findings(store.folder, findings)
+        return findings, store.folder
+
+    return finish
+
+
+def table(path: Path) -> list[list[str]]:
+    with path.open(newline="") as file:
+        return list(csv.reader(file))
+
+
+def test_counts_by_parameter(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    findings, folder = finished()
+    assert findings.tally.total().cases == 6
+    rates = table(folder / "rates.csv")
+    by_friction = {row[1]: (row[2], row[3]) for row in rates if row[0] == "rail.friction"}
+    # Wheels lock where command - 9 friction exceeds 0.2.
+    assert by_friction == {"0.08": ("2", "1"), "0.10": ("2", "2"), "0.12": ("2", "2")}
+    assert [row[0] for row in findings.tally.missed] == ["study[friction=0.08,command=100]"]
+
+
+def test_maps(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    findings, folder = finished()
+    assert table(folder / "map-met.csv") == [
+        ["rail.friction \\ brake.command", "80 %", "100 %"],
+        ["0.08", "1.0", "0.0"],
+        ["0.10", "1.0", "1.0"],
+        ["0.12", "1.0", "1.0"],
+    ]
+    assert list(findings.maps[0].lines())[1:] == [
+        "      80 %  100 %",
+        "0.08     .      #",
+        "0.10     .      .",
+        "0.12     .      .",
+    ]
+
+
+def test_a_large_map_is_shown_coarser_and_written_whole(
+    finished: Callable[..., tuple[Findings, Path]],
+) -> None:
+    findings, folder = finished(
+        "ranges:\n  rail.friction: {first: 0.05, last: 0.15, count: 60}\n"
+        "  brake.command: {first: 70 %, last: 100 %, step: 30 %}\n"
+    )
+    assert len(list(findings.maps[0].lines())) == 2 + 20
+    assert len(table(folder / "map-met.csv")) == 1 + 60
+
+
+def test_drawn_parameters_are_counted_in_stretches(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    findings, _ = finished(
+        "sample:\n  method: sobol\n  size: 64\n  parameters:\n    rail.friction: {uniform: [0.05, 0.15]}\n"
+        "    rig.topology: {choice: [one-caliper, four-caliper]}\n"
+    )
+    counts = findings.tally.by_class("rail.friction")
+    assert [count.label for count in counts][:2] == ["0.05 .. 0.06", "0.06 .. 0.07"]
+    assert sum(count.cases for count in counts) == 64
+    assert [count.cases for count in findings.tally.by_class("rig.topology")] == [32, 32]
+
+
+def test_one_row_per_case_in_both_summaries(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    _, folder = finished()
+    binary = pd.read_parquet(folder / "summary.parquet")
+    text = pd.read_csv(folder / "summary.csv", dtype={"parameters.rail.friction": str})
+    assert len(binary) == len(text) == 6
+    assert text["id"].tolist() == binary["id"].tolist()
+    assert text["braking_distance_m"].tolist() == binary["braking_distance_m"].tolist()
+    assert text["parameters.rail.friction"].tolist() == binary["parameters.rail.friction"].tolist()
+    assert text["initial_adhesion_g"].isna().all()
+
+
+def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeWorker, tmp_path: Path) -> None:
+    import pyarrow as pa
+
+    from uictest.sweep.findings import _harmless
+
+    assert _harmless(pa.table({"a": ["=1+1", "+2", "x"], "b": [1, 2, 3]})).column("a").to_pylist() == [
+        "'=1+1",
+        "+2",
+        "x",
+    ]
+
+
+def test_junit_has_one_testcase_per_value_of_the_first_parameter(
+    finished: Callable[..., tuple[Findings, Path]],
+) -> None:
+    _, folder = finished()
+    suite = ElementTree.parse(folder / "junit.xml").getroot()[0]
+    assert (suite.get("tests"), suite.get("failures")) == ("3", "1")
+    assert [case.get("name") for case in suite] == [
+        f"study[rail.friction={mu}]" for mu in ("0.08", "0.10", "0.12")
+    ]
+    assert "1 of 2 cases did not meet their expectation" in (suite[0][0].text or "")
+    assert {name for case in suite for name in case.attrib} == {"classname", "name"}  # no `file`, for Jenkins
+
+
+def test_the_document_can_be_read_back(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    _, folder = finished()
+    document = read_result(folder)
+    assert document == json.loads((folder / "sweep.json").read_text())
+    assert document["outcomes"] == {"pass": 5, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
+    assert document["maps"][0]["means"][0] == [1.0, 0.0]
+
+
+def test_sensitivities_of_a_saltelli_sample(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    findings, folder = finished(
+        "sample:\n  method: saltelli\n  size: 64\n  parameters:\n    rail.friction: {uniform: [0.08, 0.12]}\n"
+        "    brake.command: {uniform: [80 %, 100 %]}\n"
+    )
+    # The formula's distance depends on friction alone.
+    distance = [each for each in findings.sensitivities if each.measure == "braking_distance_m"]
+    assert [each.total.value for each in distance] == pytest.approx([1.0, 0.0], abs=0.05)
+    assert table(folder / "sensitivity.csv")[0][:3] == ["measure", "parameter", "first"]
