@@ -9,7 +9,7 @@ from stops import Stop
 
 from uictest.physics import arithmetic
 from uictest.rig.compiled import translate
-from uictest.rig.cycle import begin_cycle
+from uictest.rig.cycle import begin_cycle, sense
 from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.start import start
 from uictest.rig.step import step
@@ -50,7 +50,8 @@ def rolling(stop: Stop) -> Rig:
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
     start(car[0], bogies, wheelsets, parameters)
-    begin_cycle(car[0], wheelsets, parameters, rail, 0)
+    sense(car[0], wheelsets, parameters)
+    begin_cycle(car[0], wheelsets, parameters, rail)
     return Rig(
         opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]
     )

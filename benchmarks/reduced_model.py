@@ -77,6 +77,7 @@ def _tank_rate(pressure: float, p: Any) -> float:
     inflow = mass_flow(
         supply,
         pressure,
+        1.0 / max(supply, pressure),
         p.fill_conductance,
         p.flow_density,
         p.critical_ratio,
@@ -84,9 +85,7 @@ def _tank_rate(pressure: float, p: Any) -> float:
         p.laminar_ratio,
         p.laminar_scale,
     )
-    return pressure_change(
-        pressure, p.tank_volume, inflow, 0.0, p.polytropic_exponent, p.gas_constant, p.air_temperature
-    )
+    return pressure_change(pressure, p.polytropic_exponent / p.tank_volume, inflow, 0.0, p.air)
 
 
 def _brake(cylinder: float, p: Any) -> float:

@@ -35,7 +35,6 @@ static void get(void *record, Lanes *lanes, int lane, size_t numbers)
 
 typedef struct {
     int64_t stop; /* number of the stop in this lane; -1 when none is left */
-    int64_t cycle;
 } Place;
 
 typedef struct {
@@ -55,7 +54,6 @@ static void take_next(Work *work, Place *place, State *state, Lanes *parameters,
     memset(state, 0, sizeof *state);
     start(&state->car, state->bogies, state->wheelsets, p);
     begin_stop_measures(&state->car, &work->measures[place->stop], &work->wheelset_measures[4 * place->stop], p);
-    place->cycle = 0;
     put(parameters, lane, p, NUMBERS(Parameters));
 }
 
@@ -66,8 +64,7 @@ static void end_cycle(Work *work, Place *place, State *state, Lanes *parameters,
     Measures *measures = &work->measures[place->stop];
     WheelsetMeasures *wheelset_measures = &work->wheelset_measures[4 * place->stop];
     observe_cycle(&state->car, state->wheelsets, measures, wheelset_measures, p);
-    place->cycle++;
-    if (state->car.stopped == 0.0 && place->cycle < p->cycles)
+    if (state->car.stopped == 0.0 && state->car.cycle < p->cycles)
         return;
     close_stop_measures(&state->car, state->bogies, state->wheelsets, measures, wheelset_measures, p);
     take_next(work, place, state, parameters, lane);
@@ -76,7 +73,9 @@ static void end_cycle(Work *work, Place *place, State *state, Lanes *parameters,
 static void start_cycle(const Work *work, const Place *place, State *state)
 {
     Rail laws = {work->rails + 4 * place->stop, 1};
-    begin_cycle(&state->car, state->wheelsets, &work->parameters[place->stop], laws, place->cycle);
+    const Parameters *p = &work->parameters[place->stop];
+    sense(&state->car, state->wheelsets, p);
+    begin_cycle(&state->car, state->wheelsets, p, laws);
 }
 
 void stops(int64_t count, const Parameters *parameters, const double *rails, Measures *measures,

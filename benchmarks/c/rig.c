@@ -15,8 +15,9 @@ void stop(Car *restrict car, Bogie *restrict bogies, Wheelset *restrict wheelset
     Rail laws = {rail, rail_width};
     start(car, bogies, wheelsets, p);
     begin_stop_measures(car, measures, wheelset_measures, p);
-    for (int64_t cycle = 0; car->stopped == 0.0 && cycle < p->cycles; cycle++) {
-        begin_cycle(car, wheelsets, p, laws, cycle);
+    while (car->stopped == 0.0 && car->cycle < p->cycles) {
+        sense(car, wheelsets, p);
+        begin_cycle(car, wheelsets, p, laws);
         for (int64_t k = 0; k < p->steps_per_cycle; k++)
             step(car, bogies, wheelsets, p);
         observe_cycle(car, wheelsets, measures, wheelset_measures, p);

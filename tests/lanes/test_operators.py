@@ -58,6 +58,7 @@ BINARY: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
     ),
     "neg": (lambda a, b: -a, lambda a, b: -a),
     "abs": (lambda a, b: abs(a), lambda a, b: np.abs(a)),
+    "floor": (lambda a, b: lanes.floor(a), lambda a, b: np.floor(a)),
     "sqrt": (lambda a, b: lanes.sqrt(a), lambda a, b: np.sqrt(a)),
     "number on the left": (lambda a, b: 3.0 - a, lambda a, b: 3.0 - a),
     "number on the right": (lambda a, b: a / 3, lambda a, b: a / 3),

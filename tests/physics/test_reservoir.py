@@ -9,7 +9,7 @@ from uictest.physics.reservoir import compressor_running, isothermal_pressure
 
 def test_air_at_the_standard_state_weighs_what_tables_say() -> None:
     """Dry air at 1.01325 bar and 15 degC: 1.225 kg/m3 (ISO 2533)."""
-    assert isothermal_pressure(1.225, 1.0, 287.05, 288.15) == pytest.approx(101_325.0, rel=1e-4)
+    assert isothermal_pressure(1.225, 287.05 * 288.15) == pytest.approx(101_325.0, rel=1e-4)
 
 
 def test_compressor_starts_below_cut_in_and_stops_above_cut_out() -> None:

@@ -9,7 +9,7 @@ import pytest
 from uictest.controllers import decide
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.compiled import translate
-from uictest.rig.cycle import begin_cycle
+from uictest.rig.cycle import begin_cycle, sense
 from uictest.rig.step import step
 
 Benches = Callable[[Any], Any]
@@ -31,8 +31,8 @@ def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[st
     """Openings of the first valve after each step."""
     cycle = scripted(commands)
     vent, fill = [], []
-    for n in range(cycles):
-        cycle(bench.car, bench.wheelsets, bench.p, rail, n)
+    for _ in range(cycles):
+        cycle(bench.car, bench.wheelsets, bench.p, rail)
         for _ in range(bench.p.steps_per_cycle):
             step(bench.car, bench.bogies, bench.wheelsets, bench.p)
             vent.append(bench.wheelsets[0].vent_opening)
@@ -77,7 +77,7 @@ def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig: Any, be
     standing = bench(parameters)
     for place, time in ((0.0, 0.0), (51.0, 2.0), (58.5, 5.0), (70.0, 20.0), (90.0, 9.0)):
         standing.car.position, standing.car.time = place, time
-        begin_cycle(standing.car, standing.wheelsets, standing.p, rail, 0)
+        begin_cycle(standing.car, standing.wheelsets, standing.p, rail)
         along = np.interp(place - behind, rail[0], rail[1])
         factor = np.interp(time, [0.0, 10.0], [1.0, 0.5])
         found = [wheelset.friction for wheelset in standing.wheelsets]
@@ -101,8 +101,9 @@ def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
     parameters, rail = rig.parameters()
     rolling = bench(parameters)
     noise = []
-    for cycle in range(400):
-        begin_cycle(rolling.car, rolling.wheelsets, rolling.p, rail, cycle)
+    for _ in range(400):
+        sense(rolling.car, rolling.wheelsets, rolling.p)
+        begin_cycle(rolling.car, rolling.wheelsets, rolling.p, rail)
         noise.append([(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets])
     channels = np.array(noise).reshape(400, 12)
     np.testing.assert_allclose(np.corrcoef(channels.T), np.eye(12), atol=5.0 / np.sqrt(400))

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from uictest.physics.polach import creep_force
+from uictest.physics.polach import force_and_slope
 from uictest.rig.balance import stored_energy
 from uictest.rig.clamping import step_clamping
 from uictest.rig.compiled import translate
@@ -25,7 +25,10 @@ CREEP_DAMPING = 5e4
 LEVEL = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistance_quadratic": 0.0, "gradient": 0.0}
 
 
-def linear_creep(slip_speed: float, *_: float) -> tuple[float, float]:
+def linear_creep(
+    gradient: tuple[float, ...], speed: float, limit: float, limit_slope: float, stiffness: float, *_: float
+) -> tuple[float, float]:
+    slip_speed = gradient[0] / stiffness
     return CREEP_DAMPING * slip_speed, CREEP_DAMPING
 
 
@@ -36,7 +39,7 @@ def still_air(*_: object) -> float:
 LINEAR_STEP = translate(
     step,
     lambda function: function,
-    {creep_force: linear_creep, step_tank: still_air, step_supply: still_air, step_clamping: still_air},
+    {force_and_slope: linear_creep, step_tank: still_air, step_supply: still_air, step_clamping: still_air},
 )
 """The rig's own step on a rail with linear creep, while the test prescribes the clamping forces."""
 

@@ -4,22 +4,21 @@
 
 #include "arithmetic.h"
 
-OURS real mass_flow(real pressure_1, real pressure_2, real conductance, real density, real critical_ratio,
-                    real subsonic_scale, real laminar_ratio, real laminar_scale)
+OURS real mass_flow(real pressure_1, real pressure_2, real inverse_upstream, real conductance, real density,
+                    real critical_ratio, real subsonic_scale, real laminar_ratio, real laminar_scale)
 {
     real upstream = maximum(pressure_1, pressure_2);
-    real ratio = minimum(pressure_1, pressure_2) / upstream;
+    real downstream = minimum(pressure_1, pressure_2);
+    real ratio = downstream * inverse_upstream;
     real direction = choose(pressure_2 > pressure_1, number(-1.0), number(1.0));
     real subsonic = maximum((minimum(ratio, laminar_ratio) - critical_ratio) * subsonic_scale, number(0.0));
-    real laminar = minimum((1.0 - ratio) * laminar_scale, number(1.0));
+    real laminar = minimum((upstream - downstream) * inverse_upstream * laminar_scale, number(1.0));
     return direction * upstream * conductance * density * sqrt_of(1.0 - subsonic * subsonic) * laminar;
 }
 
-OURS real pressure_change(real pressure, real volume, real mass_change, real volume_change, real polytropic_exponent,
-                          real gas_constant, real temperature)
+OURS real pressure_change(real pressure, real stiffness, real mass_change, real volume_change, real air)
 {
-    real heating = gas_constant * temperature * mass_change;
-    return polytropic_exponent / volume * (heating - pressure * volume_change);
+    return stiffness * (air * mass_change - pressure * volume_change);
 }
 
 OURS real demand(real time, real full_demand, real dead_time, real fill_time)
@@ -37,10 +36,7 @@ OURS real compressor_running(real pressure, real running, real cut_in, real cut_
     return choose(pressure < cut_in, number(1.0), choose(pressure > cut_out, number(0.0), running));
 }
 
-OURS real isothermal_pressure(real mass, real volume, real gas_constant, real temperature)
-{
-    return mass * gas_constant * temperature / volume;
-}
+OURS real isothermal_pressure(real mass, real stiffness) { return mass * stiffness; }
 
 OURS real travel(real opening, real target, real largest_change)
 {

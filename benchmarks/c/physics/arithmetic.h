@@ -10,14 +10,15 @@ OURS real clamp(real x, real low, real high) { return minimum(maximum(x, low), h
 
 OURS real exponential(real x)
 {
-    real t = maximum(x, number(-40.0)) * (1.0 / 256.0);
+    const double e0 = 1.0, e1 = 0.4999999999999881, e2 = 0.1666666666655385, e3 = 0.0416666666254208,
+                 e4 = 0.00833333257720033, e5 = 0.0013888810912275637, e6 = 0.0001983653503433632,
+                 e7 = 2.463325359996458e-05, e8 = 2.429319469234341e-06;
+    real t = maximum(x, number(-36.0)) * (1.0 / 128.0);
     real t2 = t * t;
     real t4 = t2 * t2;
-    real low = (1.0 + t) + t2 * (0.5 + t * (1.0 / 6.0));
-    real middle = (1.0 / 24.0 + t * (1.0 / 120.0)) + t2 * (1.0 / 720.0 + t * (1.0 / 5040.0));
-    real high = (1.0 / 40320.0 + t * (1.0 / 362880.0)) + t2 * (1.0 / 3628800.0);
-    real p = low + t4 * (middle + t4 * high);
-    p = p * p;
+    real low = (e0 + e1 * t) + t2 * (e2 + e3 * t);
+    real high = (e4 + e5 * t) + t2 * (e6 + e7 * t);
+    real p = 1.0 + t * (low + t4 * (high + t4 * e8));
     p = p * p;
     p = p * p;
     p = p * p;
@@ -27,33 +28,36 @@ OURS real exponential(real x)
     return p * p;
 }
 
-/* Cephes Mathematical Library, atan.c. */
-OURS real arctan(real x)
+/* Split arctan(y / x) into an angle and a rest of at most pi/8, whose tangent is opposite / adjacent. */
+OURS real octant(real y, real x, real *opposite, real *adjacent)
 {
-    const double p0 = -8.750608600031904122785e-1, p1 = -1.615753718733365076637e1, p2 = -7.500855792314704667340e1,
-                 p3 = -1.228866684490136173410e2, p4 = -6.485021904942025371773e1;
-    const double q0 = 2.485846490142306297962e1, q1 = 1.650270098316988542046e2, q2 = 4.328810604912902668951e2,
-                 q3 = 4.853903996359136964868e2, q4 = 1.945506571482613964425e2;
-    mask large = x > 2.414213562373095;
-    mask middle = x > 0.66;
-    real numerator = choose(large, number(-1.0), choose(middle, x - 1.0, x));
-    real denominator = choose(large, x, choose(middle, x + 1.0, number(1.0)));
-    real base =
-        choose(large, number(1.5707963267948966), choose(middle, number(0.7853981633974483), number(0.0)));
-    real t = numerator / denominator;
+    mask steep = y > 2.414213562373095 * x;
+    mask middle = y > 0.41421356237309503 * x;
+    *opposite = choose(steep, -x, choose(middle, y - x, y));
+    *adjacent = choose(steep, y, choose(middle, x + y, x));
+    return choose(steep, number(1.5707963267948966), choose(middle, number(0.7853981633974483), number(0.0)));
+}
+
+OURS real arctan_within_octant(real t)
+{
+    const double a0 = -0.3333333333333325, a1 = 0.19999999999898407, a2 = -0.1428571426609655, a3 = 0.11111109636529681,
+                 a4 = -0.09090852557023653, a5 = 0.0769105515567278, a6 = -0.0664961366708796, a7 = 0.05736331996459826,
+                 a8 = -0.04483334075026139, a9 = 0.022750519644353994;
     real z = t * t;
     real z2 = z * z;
-    real p = (p4 + p3 * z) + z2 * ((p2 + p1 * z) + p0 * z2);
-    real q = (q4 + q3 * z) + z2 * ((q2 + q1 * z) + z2 * (q0 + z));
-    return base + (t * (z * p / q) + t);
+    real z4 = z2 * z2;
+    real low = (a0 + a1 * z) + z2 * (a2 + a3 * z);
+    real middle = (a4 + a5 * z) + z2 * (a6 + a7 * z);
+    return t + t * z * (low + z4 * (middle + z4 * (a8 + a9 * z)));
 }
 
 /* x^(2/3) on [0.2, 2.5]: Householder's iteration for x^(-1/3). */
 OURS real power_two_thirds(real x)
 {
-    real y = 1.908649 + x * (-1.571604 + x * (0.793567 + x * -0.141773));
-    for (int i = 0; i < 3; i++) {
-        real cube = x * y * y * y;
+    real x2 = x * x;
+    real y = (2.13334891 + -2.69745314 * x) + x2 * ((2.39251789 + -0.99271232 * x) + x2 * 0.15147739);
+    for (int i = 0; i < 2; i++) {
+        real cube = (x * y) * (y * y);
         y = y * (14.0 - cube * (7.0 - 2.0 * cube)) * (1.0 / 9.0);
     }
     return x * y;

@@ -12,26 +12,47 @@ OURS real contact_stiffness(real reference_stiffness, real load_ratio)
     return reference_stiffness * power_two_thirds(load_ratio);
 }
 
-OURS real creep_force(real slip_speed, real speed, real wheel_load, real stiffness, real initial_friction, real ratio,
-                      real decay, real reduction_adhesion, real reduction_slip, real *slope)
+OURS real fading_share(real slip_speed, real ratio, real decay)
 {
-    real fading = (1.0 - ratio) * exponential(-decay * slip_speed);
-    real limit = wheel_load * initial_friction * (fading + ratio);
-    real limit_slope = -decay * wheel_load * initial_friction * fading;
-    real inverse = 1.0 / (speed * limit);
-    real gradient = stiffness * inverse;
-    real eps = gradient * slip_speed;
-    real adhering = reduction_adhesion * eps;
-    real slipping = reduction_slip * eps;
-    real adhesion_part = 1.0 + adhering * adhering;
-    real slip_part = 1.0 + slipping * slipping;
-    real both = 1.0 / (adhesion_part * slip_part);
-    real flatness = slip_part * both;
-    real shape = adhering * flatness + arctan(slipping);
-    real bend = (2.0 - adhesion_part) * flatness * flatness;
-    real shape_slope = reduction_adhesion * bend + reduction_slip * adhesion_part * both;
-    real eps_slope = gradient - eps * limit_slope * speed * inverse;
-    *slope = TWO_OVER_PI * (limit_slope * shape + limit * shape_slope * eps_slope);
+    return (1.0 - ratio) * exponential(-decay * slip_speed);
+}
+
+/* Gradient of the tangential stress as a quotient, and what has to be divided by it. */
+typedef struct {
+    real pull, hold, inverse_adhesion, inverse_slip, angle, tangent;
+} Gradient;
+
+OURS Gradient stress_gradient(real slip_speed, real speed, real limit, real stiffness, real reduction_adhesion,
+                              real reduction_slip)
+{
+    Gradient g;
+    g.pull = stiffness * slip_speed;
+    g.hold = speed * limit;
+    real adhering = reduction_adhesion * g.pull;
+    real slipping = reduction_slip * g.pull;
+    real hold_squared = g.hold * g.hold;
+    real adhesion_part = hold_squared + adhering * adhering;
+    real slip_part = hold_squared + slipping * slipping;
+    real opposite, adjacent;
+    g.angle = octant(slipping, g.hold, &opposite, &adjacent);
+    real parts = adhesion_part * slip_part;
+    real inverse = 1.0 / (parts * adjacent);
+    real inverse_parts = inverse * adjacent;
+    g.inverse_adhesion = slip_part * inverse_parts;
+    g.inverse_slip = adhesion_part * inverse_parts;
+    g.tangent = opposite * parts * inverse;
+    return g;
+}
+
+OURS real force_and_slope(Gradient g, real speed, real limit, real limit_slope, real stiffness, real reduction_adhesion,
+                          real reduction_slip, real *slope)
+{
+    real adhering = reduction_adhesion * g.pull;
+    real shape = adhering * g.hold * g.inverse_adhesion + (g.angle + arctan_within_octant(g.tangent));
+    real bend = (g.hold * g.hold - adhering * adhering) * g.inverse_adhesion * g.inverse_adhesion;
+    real shape_slope = reduction_adhesion * bend + reduction_slip * g.inverse_slip;
+    real pull_slope = stiffness * g.hold - g.pull * speed * limit_slope;
+    *slope = TWO_OVER_PI * (limit_slope * shape + limit * shape_slope * pull_slope);
     return TWO_OVER_PI * limit * shape;
 }
 

@@ -41,12 +41,12 @@ static inline double bell(uint32_t word_0, uint32_t word_1)
 static inline double speed_reading(double circumferential_speed, double tooth_pitch, double timer_resolution,
                                    double cycle_time, double slowest, double noise)
 {
-    if (circumferential_speed < slowest)
-        return 0.0;
-    double teeth = fmax(floor(circumferential_speed * cycle_time / tooth_pitch), 1.0);
+    double measurable = circumferential_speed > slowest ? circumferential_speed : slowest;
+    double teeth = fmax(floor(measurable * cycle_time / tooth_pitch), 1.0);
     double distance = teeth * tooth_pitch;
-    double ticks = fmax(floor(distance / circumferential_speed / timer_resolution + 0.5), 1.0);
-    return distance / (ticks * timer_resolution) * (1.0 + noise);
+    double ticks = fmax(floor(distance / measurable / timer_resolution + 0.5), 1.0);
+    double reading = distance / (ticks * timer_resolution) * (1.0 + noise);
+    return circumferential_speed < slowest ? 0.0 : reading;
 }
 
 static inline double interpolated(double at, const double *places, const double *values, int64_t count)

@@ -48,12 +48,17 @@ static inline void command_valve(Wheelset *wheelset, const Parameters *p)
     wheelset->wsp_acting = wheelset->filling_cycles < p->wsp_acting_cycles;
 }
 
-static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail, int64_t cycle)
+static inline void sense(const Car *car, Wheelset *wheelsets, const Parameters *p)
+{
+    for (int i = 0; i < 4; i++)
+        read_sensors(&wheelsets[i], p, car->cycle, i);
+}
+
+static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail)
 {
     const double *places = rail.rows, *frictions = places + rail.width;
     const double *times = frictions + rail.width, *factors = times + rail.width;
     for (int i = 0; i < 4; i++) {
-        read_sensors(&wheelsets[i], p, cycle, i);
         double along = interpolated(car->position - wheelsets[i].behind, places, frictions, p->friction_points);
         wheelsets[i].friction = along * interpolated(car->time, times, factors, p->friction_times);
     }
@@ -64,6 +69,7 @@ static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *
     for (int i = 0; i < 4; i++)
         command_valve(&wheelsets[i], p);
     car->substep = 0.0;
+    car->cycle++;
 }
 
 #endif

@@ -4,16 +4,20 @@
 #include "../physics/air.h"
 #include "records.h"
 
-OURS real orifice(real pressure_1, real pressure_2, real conductance, const Parameters *p)
+OURS real orifice(real pressure_1, real pressure_2, real inverse_upstream, real conductance, const Parameters *p)
 {
-    return mass_flow(pressure_1, pressure_2, conductance, p->flow_density, p->critical_ratio, p->subsonic_scale,
-                     p->laminar_ratio, p->laminar_scale);
+    return mass_flow(pressure_1, pressure_2, inverse_upstream, conductance, p->flow_density, p->critical_ratio,
+                     p->subsonic_scale, p->laminar_ratio, p->laminar_scale);
 }
 
-OURS real pressure_gain(real pressure, real volume, real gained, real growth, const Parameters *p)
+/* Air that flows in a step from a source into a vessel, and from there to the atmosphere (returned). */
+OURS real through(real source, real vessel, real conductance_in, real conductance_out, const Parameters *p, real *gained)
 {
-    return pressure_change(pressure, volume, gained, growth, p->polytropic_exponent, p->gas_constant,
-                           p->air_temperature);
+    real atmosphere = p->atmospheric_pressure;
+    real upstream_in = maximum(source, vessel), upstream_out = maximum(vessel, atmosphere);
+    real inverse = 1.0 / (upstream_in * upstream_out);
+    *gained = p->step * orifice(source, vessel, upstream_out * inverse, conductance_in, p);
+    return p->step * orifice(vessel, atmosphere, upstream_in * inverse, conductance_out, p);
 }
 
 OURS void step_supply(Car *car, real drawn, const Parameters *p)
@@ -21,19 +25,18 @@ OURS void step_supply(Car *car, real drawn, const Parameters *p)
     real gauge = car->line_pressure - p->atmospheric_pressure;
     car->demand = demand(car->time, p->demanded_pressure, p->dead_time, p->fill_time);
     real opening = relay_opening(car->demand, gauge, p->relay_band);
-    real filled = p->step * orifice(car->reservoir_pressure, car->line_pressure,
-                                    p->relay_conductance * maximum(opening, number(0.0)), p);
-    real exhausted = p->step * orifice(car->line_pressure, p->atmospheric_pressure,
-                                       p->relay_conductance * maximum(-opening, number(0.0)), p);
+    real filled;
+    real exhausted =
+        through(car->reservoir_pressure, car->line_pressure, p->relay_conductance * maximum(opening, number(0.0)),
+                p->relay_conductance * maximum(-opening, number(0.0)), p, &filled);
     car->compressor_running = compressor_running(car->reservoir_pressure, car->compressor_running,
                                                  p->compressor_cut_in, p->compressor_cut_out);
     real delivered = p->step * p->compressor_delivery * car->compressor_running;
     car->reservoir_mass += delivered - filled;
-    car->reservoir_pressure =
-        isothermal_pressure(car->reservoir_mass, p->reservoir_volume, p->gas_constant, p->air_temperature);
+    car->reservoir_pressure = isothermal_pressure(car->reservoir_mass, p->reservoir_stiffness);
     real gained = filled - exhausted - drawn;
     car->line_mass += gained;
-    car->line_pressure += pressure_gain(car->line_pressure, p->line_volume, gained, number(0.0), p);
+    car->line_pressure += pressure_change(car->line_pressure, p->line_stiffness, gained, number(0.0), p->air);
     car->compressor_air += delivered;
     car->consumed_air += filled;
     car->exhausted_air += exhausted;
@@ -46,17 +49,16 @@ OURS real step_tank(Wheelset *wheelset, const Car *car, const Parameters *p)
     real vent_target = choose(switched, wheelset->vent_after, wheelset->vent_before);
     wheelset->fill_opening = travel(wheelset->fill_opening, fill_target, p->valve_travel_per_step);
     wheelset->vent_opening = travel(wheelset->vent_opening, vent_target, p->valve_travel_per_step);
-    real drawn =
-        p->step * orifice(car->line_pressure, wheelset->pressure, p->fill_conductance * wheelset->fill_opening, p);
-    real vented = p->step * orifice(wheelset->pressure, p->atmospheric_pressure,
-                                    p->vent_conductance * wheelset->vent_opening, p);
+    real drawn;
+    real vented = through(car->line_pressure, wheelset->pressure, p->fill_conductance * wheelset->fill_opening,
+                          p->vent_conductance * wheelset->vent_opening, p, &drawn);
     real swept = wheelset->has_caliper * p->piston_area;
     real fixed = choose(wheelset->has_caliper > 0.0, p->caliper_tank_volume, p->tank_volume);
-    real volume = fixed + swept * wheelset->stroke;
+    real stiffness = p->polytropic_exponent / (fixed + swept * wheelset->stroke);
     real growth = swept * wheelset->stroke_change;
     wheelset->air_mass += drawn - vented;
     wheelset->vented_air += vented;
-    wheelset->pressure += pressure_gain(wheelset->pressure, volume, drawn - vented, growth, p);
+    wheelset->pressure += pressure_change(wheelset->pressure, stiffness, drawn - vented, growth, p->air);
     return drawn;
 }
 

@@ -17,12 +17,12 @@
         (frame)->moment = number(0.0);            \
     } while (0)
 
-#define STEP_FRAME(frame, mass, inertia, resistance, p)                                  \
+#define STEP_FRAME(frame, mass, mass_response, pitch_response, resistance, p)            \
     do {                                                                                 \
         real drag_ = (resistance) + gradient_force((mass), (p)->gradient, (p)->gravity); \
-        (frame)->speed += (p)->step * ((frame)->longitudinal_force - drag_) / (mass);    \
-        (frame)->vertical_speed += (p)->step * (frame)->vertical_force / (mass);         \
-        (frame)->pitch_rate += (p)->step * (frame)->moment / (inertia);                  \
+        (frame)->speed += (mass_response) * ((frame)->longitudinal_force - drag_);       \
+        (frame)->vertical_speed += (mass_response) * (frame)->vertical_force;            \
+        (frame)->pitch_rate += (pitch_response) * (frame)->moment;                       \
         (frame)->position += (p)->step * (frame)->speed;                                 \
         (frame)->height += (p)->step * (frame)->vertical_speed;                          \
         (frame)->pitch += (p)->step * (frame)->pitch_rate;                               \
@@ -78,13 +78,36 @@ OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
                                     p->pad_friction, p->disc_radius);
 }
 
+OURS void find_limit(Wheelset *wheelset, const Parameters *p)
+{
+    real fading = fading_share(wheelset->slip_estimate, p->friction_ratio, p->friction_decay);
+    real weight = wheelset->wheel_load * wheelset->friction;
+    wheelset->friction_limit = weight * (fading + p->friction_ratio);
+    wheelset->limit_slope = -p->friction_decay * weight * fading;
+}
+
+OURS void find_gradient(Wheelset *wheelset, const Parameters *p)
+{
+    Gradient g = stress_gradient(wheelset->slip_estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
+                                 wheelset->friction_limit, wheelset->contact_stiffness, p->reduction_adhesion,
+                                 p->reduction_slip);
+    wheelset->stress_pull = g.pull;
+    wheelset->stress_hold = g.hold;
+    wheelset->inverse_adhesion = g.inverse_adhesion;
+    wheelset->inverse_slip = g.inverse_slip;
+    wheelset->stress_angle = g.angle;
+    wheelset->stress_tangent = g.tangent;
+}
+
 /* One Newton step towards the slip speed; returns the creep force of both wheels before it. */
 OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
 {
+    Gradient g = {wheelset->stress_pull,  wheelset->stress_hold,  wheelset->inverse_adhesion,
+                  wheelset->inverse_slip, wheelset->stress_angle, wheelset->stress_tangent};
     real slope;
-    real force = creep_force(wheelset->slip_estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
-                             wheelset->wheel_load, wheelset->contact_stiffness, wheelset->friction, p->friction_ratio,
-                             p->friction_decay, p->reduction_adhesion, p->reduction_slip, &slope);
+    real force = force_and_slope(g, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)), wheelset->friction_limit,
+                                 wheelset->limit_slope, wheelset->contact_stiffness, p->reduction_adhesion,
+                                 p->reduction_slip, &slope);
     wheelset->slip_estimate = refined_slip(wheelset->slip_estimate, &wheelset->lowest_slip, &wheelset->highest_slip,
                                            wheelset->free_slip, p->slip_response, force, slope);
     return 2.0 * force;
@@ -104,7 +127,6 @@ OURS void begin_slip(Wheelset *wheelset, const Parameters *p)
     wheelset->lowest_slip =
         lowest_slip(wheelset->free_slip, p->slip_response, wheelset->wheel_load, wheelset->friction);
     wheelset->slip_estimate = maximum(direction * slip, number(0.0));
-    wheelset->sliding_force = refine_slip(wheelset, p);
 }
 
 OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
@@ -137,7 +159,7 @@ OURS void step_body(Car *car, const Parameters *p)
     real speed = car->speed;
     real position = car->position;
     real drag = running_resistance(speed, p->resistance_constant, p->resistance_linear, p->resistance_quadratic);
-    STEP_FRAME(car, p->body_mass, p->body_inertia, drag, p);
+    STEP_FRAME(car, p->body_mass, p->body_mass_response, p->body_pitch_response, drag, p);
     car->resistance_loss += p->step * drag * 0.5 * (speed + car->speed);
     mask stops = (1.0 - car->stopped) * choose(car->speed <= 0.0, number(1.0), number(0.0)) > 0.0;
     real share = speed / choose(stops, speed - car->speed, number(1.0));

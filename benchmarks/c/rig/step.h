@@ -6,6 +6,14 @@
 #include "pneumatics.h"
 #include "running_gear.h"
 
+OURS void find_creep(Wheelset *wheelsets, const Parameters *p)
+{
+    for (int i = 0; i < 4; i++)
+        find_limit(&wheelsets[i], p);
+    for (int i = 0; i < 4; i++)
+        find_gradient(&wheelsets[i], p);
+}
+
 OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
 {
     CLEAR_FORCES(car);
@@ -17,12 +25,16 @@ OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Param
         couple_wheelset(&wheelsets[i], &bogies[i / 2], car, p);
     for (int i = 0; i < 4; i++)
         begin_slip(&wheelsets[i], p);
+    find_creep(wheelsets, p);
+    for (int i = 0; i < 4; i++)
+        wheelsets[i].sliding_force = refine_slip(&wheelsets[i], p);
+    find_creep(wheelsets, p);
     for (int i = 0; i < 4; i++)
         refine_slip(&wheelsets[i], p);
     for (int i = 0; i < 4; i++)
         step_wheelset(&wheelsets[i], &bogies[i / 2], p);
     for (int j = 0; j < 2; j++)
-        STEP_FRAME(&bogies[j], p->bogie_mass, p->bogie_inertia, number(0.0), p);
+        STEP_FRAME(&bogies[j], p->bogie_mass, p->bogie_mass_response, p->bogie_pitch_response, number(0.0), p);
     step_body(car, p);
 }
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics.arithmetic import arctan, exp
+from uictest.physics.arithmetic import maximum, select
 from uictest.physics.polach import contact_stiffness, creep_force
 from uictest.rig.compiled import translate
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from uictest.scenario.parts.rail import RailCondition
 
 Array = NDArray[np.float64]
-_FOR_ARRAYS: dict[Any, Any] = {exp: np.exp, arctan: np.arctan}
+_FOR_ARRAYS: dict[Any, Any] = {maximum: np.maximum, select: np.where}
 
 
 def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail: RailCondition) -> Array:

@@ -9,9 +9,21 @@ gives, whatever its neighbours hold and however wide the register is.
 The room rests on internals of numba and is the only one that does. It knows nothing of the rig.
 """
 
+import uictest.lanes.integers  # noqa: F401 - gives whole numbers their operators
 from uictest.lanes.block import block
-from uictest.lanes.functions import maximum, minimum, select, sqrt
+from uictest.lanes.functions import floor, maximum, minimum, select, sqrt
 from uictest.lanes.host import register_width
 from uictest.lanes.records import lane, put, vectors
 
-__all__ = ["block", "lane", "maximum", "minimum", "put", "register_width", "select", "sqrt", "vectors"]
+__all__ = [
+    "block",
+    "floor",
+    "lane",
+    "maximum",
+    "minimum",
+    "put",
+    "register_width",
+    "select",
+    "sqrt",
+    "vectors",
+]

@@ -54,9 +54,20 @@ def maximum(typing: Any, a: Any, b: Any) -> Any:
     return _smaller_or_larger(">", a, b)
 
 
+def _rounded(function: str, x: Any) -> Any:
+    """LLVM's function of that name, whose result is rounded correctly."""
+    if not isinstance(x, Vector):
+        return None
+    return x(x), lambda context, builder, sig, args: call_llvm(builder, function, args[0])
+
+
 @in_compiled_code
 def sqrt(typing: Any, x: Any) -> Any:
     """Square root of each lane, correctly rounded."""
-    if not isinstance(x, Vector):
-        return None
-    return x(x), lambda context, builder, sig, args: call_llvm(builder, "sqrt", args[0])
+    return _rounded("sqrt", x)
+
+
+@in_compiled_code
+def floor(typing: Any, x: Any) -> Any:
+    """Largest whole number not above that of each lane."""
+    return _rounded("floor", x)

@@ -38,10 +38,14 @@ def spread(context: Any, builder: Any, value: Any, kind: Any, width: int) -> Any
     """Value of type ``kind`` in every lane; a vector is left as it is."""
     if isinstance(kind, Vector):
         return value
-    number = context.cast(builder, value, kind, types.float64)
-    nothing = ir.Constant(vector_of_llvm(width), ir.Undefined)
+    return filled(builder, context.cast(builder, value, kind, types.float64), vector_of_llvm(width))
+
+
+def filled(builder: Any, number: Any, vector: ir.VectorType) -> Any:
+    """LLVM vector with a number in every lane."""
+    nothing = ir.Constant(vector, ir.Undefined)
     first = builder.insert_element(nothing, number, ir.Constant(ir.IntType(32), 0))
-    zeros = ir.Constant(ir.VectorType(ir.IntType(32), width), [0] * width)
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), vector.count), [0] * vector.count)
     return builder.shuffle_vector(first, nothing, zeros)
 
 

@@ -16,7 +16,7 @@ from uictest.lanes.compiler import (
     signature,
     typing_of,
 )
-from uictest.lanes.types import LaneType, LaneVectors, LaneView, Vector, vector_of_llvm
+from uictest.lanes.types import Integers, LaneType, LaneVectors, LaneView, Vector
 
 _BYTES = 8
 """Of one number, and the alignment that is relied on: a block may lie anywhere."""
@@ -87,7 +87,9 @@ class _VectorAttributes(AttributeTemplate):
     key = LaneVectors
 
     def generic_resolve(self, place: Any, field: str) -> Any:  # type: ignore[override]
-        return Vector(place.width) if place.number(field) == types.float64 else None
+        kinds = {types.float64: Vector, types.int64: Integers}
+        kind = kinds.get(place.number(field))
+        return None if kind is None else kind(place.width)
 
 
 @infer_getattr
@@ -129,6 +131,8 @@ def _beyond(builder: Any, address: Any, count: Any, size: int) -> Any:
 
 def _field(builder: Any, place: LaneType, address: Any, field: str) -> Any:
     """Address of a field: of its vector, or of the number of one lane."""
-    kind = vector_of_llvm(place.width) if isinstance(place, LaneVectors) else _NUMBERS[place.number(field)]
+    kind = _NUMBERS[place.number(field)]
+    if isinstance(place, LaneVectors):
+        kind = ir.VectorType(kind, place.width)
     offset = ir.Constant(ir.IntType(64), place.record.offset(field))
     return builder.bitcast(builder.gep(address, [offset]), kind.as_pointer())

@@ -15,6 +15,14 @@ class Vector(types.Type):
         super().__init__(f"vector(float64 x {width})")
 
 
+class Integers(types.Type):
+    """Register of ``width`` whole numbers of 64 bits, one per lane: counters and random bits."""
+
+    def __init__(self, width: int) -> None:
+        self.width = width
+        super().__init__(f"vector(int64 x {width})")
+
+
 class Mask(types.Type):
     """Truth of a comparison in each of ``width`` lanes."""
 
@@ -66,6 +74,11 @@ def vector_of_llvm(width: int) -> ir.VectorType:
     return ir.VectorType(ir.DoubleType(), width)
 
 
+def integers_of_llvm(width: int) -> ir.VectorType:
+    """LLVM's type of :class:`Integers`."""
+    return ir.VectorType(ir.IntType(64), width)
+
+
 class _Primitive(models.PrimitiveModel):
     """Type that LLVM knows how to keep in a register."""
 
@@ -77,6 +90,12 @@ class _Primitive(models.PrimitiveModel):
 class _VectorModel(_Primitive):
     def __init__(self, manager: Any, vector: Vector) -> None:
         super().__init__(manager, vector, vector_of_llvm(vector.width))
+
+
+@register_model(Integers)
+class _IntegersModel(_Primitive):
+    def __init__(self, manager: Any, integers: Integers) -> None:
+        super().__init__(manager, integers, integers_of_llvm(integers.width))
 
 
 @register_model(Mask)

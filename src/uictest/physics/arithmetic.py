@@ -7,29 +7,39 @@ are always evaluated, so neither may divide by zero.
 
 import math
 
-# Rational approximation of arctan on [0, 0.66]: S. L. Moshier, Cephes Mathematical Library, atan.c.
-_P0, _P1, _P2, _P3, _P4 = (
-    -8.750608600031904122785e-1,
-    -1.615753718733365076637e1,
-    -7.500855792314704667340e1,
-    -1.228866684490136173410e2,
-    -6.485021904942025371773e1,
+# (exp(t) - 1) / t on [-36/128, 0] and (arctan(t) / t - 1) / t^2 as a polynomial in t^2, |t| <= tan(pi/8):
+# interpolated at Chebyshev nodes.
+_E0, _E1, _E2, _E3, _E4, _E5, _E6, _E7, _E8 = (
+    1.0,
+    0.4999999999999881,
+    0.1666666666655385,
+    0.0416666666254208,
+    0.00833333257720033,
+    0.0013888810912275637,
+    0.0001983653503433632,
+    2.463325359996458e-05,
+    2.429319469234341e-06,
 )
-_Q0, _Q1, _Q2, _Q3, _Q4 = (
-    2.485846490142306297962e1,
-    1.650270098316988542046e2,
-    4.328810604912902668951e2,
-    4.853903996359136964868e2,
-    1.945506571482613964425e2,
+_A0, _A1, _A2, _A3, _A4, _A5, _A6, _A7, _A8, _A9 = (
+    -0.3333333333333325,
+    0.19999999999898407,
+    -0.1428571426609655,
+    0.11111109636529681,
+    -0.09090852557023653,
+    0.0769105515567278,
+    -0.0664961366708796,
+    0.05736331996459826,
+    -0.04483334075026139,
+    0.022750519644353994,
 )
+_TAN_PI_8 = 0.41421356237309503
 _TAN_3_PI_8 = 2.414213562373095
-_ARCTAN_SPLIT = 0.66
 _HALF_PI = 1.5707963267948966
 _QUARTER_PI = 0.7853981633974483
-# Least-squares cubic for x^(-1/3) on [0.2, 2.5], where the iteration of power_two_thirds starts.
-_ROOT_START_0, _ROOT_START_1, _ROOT_START_2, _ROOT_START_3 = 1.908649, -1.571604, 0.793567, -0.141773
-_EXP_FLOOR = -40.0
-_EXP_REDUCTION = 1.0 / 256.0
+# Weighted least-squares quartic for x^(-1/3) on [0.2, 2.5], where the iteration of power_two_thirds starts.
+_R0, _R1, _R2, _R3, _R4 = 2.13334891, -2.69745314, 2.39251789, -0.99271232, 0.15147739
+_EXP_FLOOR = -36.0
+_EXP_REDUCTION = 1.0 / 128.0
 
 
 def select(condition: bool, when_true: float, when_false: float) -> float:
@@ -52,25 +62,34 @@ def sqrt(x: float) -> float:
     return math.sqrt(x)
 
 
+def floor(x: float) -> float:
+    """Return the largest whole number not above ``x``, of less than 2^53 in size."""
+    return float(math.floor(x))
+
+
+def inverses(a: float, b: float) -> tuple[float, float]:
+    """Return ``1 / a`` and ``1 / b`` for one division: in a lane nothing costs as much."""
+    inverse = 1.0 / (a * b)
+    return b * inverse, a * inverse
+
+
 def clamp(x: float, low: float, high: float) -> float:
     """Limit ``x`` to ``[low, high]``."""
     return minimum(maximum(x, low), high)
 
 
 def exp(x: float) -> float:
-    """Exponential of ``x <= 0``: relative error below 1e-13 on [-40, 0]; smaller arguments count as -40.
+    """Exponential of ``x <= 0``: relative error below 1e-13 on [-36, 0]; smaller arguments count as -36.
 
-    exp(x) = p(x / 256)^256 with p the Taylor polynomial of degree 10. Polynomials are summed in pairs: the
-    processor then works on several terms at once.
+    exp(x) = (1 + t p(t))^128, t = x / 128. Polynomials are summed in pairs: the processor then works on
+    several terms at once.
     """
     t = maximum(x, _EXP_FLOOR) * _EXP_REDUCTION
     t2 = t * t
     t4 = t2 * t2
-    low = (1.0 + t) + t2 * (0.5 + t * (1.0 / 6.0))
-    middle = (1.0 / 24.0 + t * (1.0 / 120.0)) + t2 * (1.0 / 720.0 + t * (1.0 / 5040.0))
-    high = (1.0 / 40320.0 + t * (1.0 / 362880.0)) + t2 * (1.0 / 3628800.0)
-    p = low + t4 * (middle + t4 * high)
-    p = p * p
+    low = (_E0 + _E1 * t) + t2 * (_E2 + _E3 * t)
+    high = (_E4 + _E5 * t) + t2 * (_E6 + _E7 * t)
+    p = 1.0 + t * (low + t4 * (high + t4 * _E8))
     p = p * p
     p = p * p
     p = p * p
@@ -80,29 +99,37 @@ def exp(x: float) -> float:
     return p * p
 
 
-def arctan(x: float) -> float:
-    """Inverse tangent of ``x >= 0``: relative error below 1e-15 (Cephes)."""
-    large = x > _TAN_3_PI_8
-    middle = x > _ARCTAN_SPLIT
-    numerator = select(large, -1.0, select(middle, x - 1.0, x))
-    denominator = select(large, x, select(middle, x + 1.0, 1.0))
-    base = select(large, _HALF_PI, select(middle, _QUARTER_PI, 0.0))
-    t = numerator / denominator
+def octant(y: float, x: float) -> tuple[float, float, float]:
+    """Split arctan(y / x), ``y >= 0`` and ``x > 0``, into an angle and a rest of at most pi/8.
+
+    Returns:
+        The angle: 0, pi/4 or pi/2; numerator and denominator, > 0, of the tangent of the rest.
+    """
+    steep = y > _TAN_3_PI_8 * x
+    middle = y > _TAN_PI_8 * x
+    angle = select(steep, _HALF_PI, select(middle, _QUARTER_PI, 0.0))
+    return angle, select(steep, -x, select(middle, y - x, y)), select(steep, y, select(middle, x + y, x))
+
+
+def arctan_within_octant(t: float) -> float:
+    """Inverse tangent of ``|t| <= tan(pi/8)``: relative error below 1e-15."""
     z = t * t
     z2 = z * z
-    p = (_P4 + _P3 * z) + z2 * ((_P2 + _P1 * z) + _P0 * z2)
-    q = (_Q4 + _Q3 * z) + z2 * ((_Q2 + _Q1 * z) + z2 * (_Q0 + z))
-    return base + (t * (z * p / q) + t)
+    z4 = z2 * z2
+    low = (_A0 + _A1 * z) + z2 * (_A2 + _A3 * z)
+    middle = (_A4 + _A5 * z) + z2 * (_A6 + _A7 * z)
+    return t + t * z * (low + z4 * (middle + z4 * (_A8 + _A9 * z)))
 
 
 def power_two_thirds(x: float) -> float:
     """x^(2/3) for ``0.2 <= x <= 2.5``: relative error below 1e-12, without a division.
 
-    Three steps of Householder's iteration for y = x^(-1/3), y <- y (14 - x y^3 (7 - 2 x y^3)) / 9; then
+    Two steps of Householder's iteration for y = x^(-1/3), y <- y (14 - x y^3 (7 - 2 x y^3)) / 9; then
     x^(2/3) = x y.
     """
-    y = _ROOT_START_0 + x * (_ROOT_START_1 + x * (_ROOT_START_2 + x * _ROOT_START_3))
-    for _ in range(3):
-        cube = x * y * y * y
+    x2 = x * x
+    y = (_R0 + _R1 * x) + x2 * ((_R2 + _R3 * x) + x2 * _R4)
+    for _ in range(2):
+        cube = (x * y) * (y * y)
         y = y * (14.0 - cube * (7.0 - 2.0 * cube)) * (1.0 / 9.0)
     return x * y

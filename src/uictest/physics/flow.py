@@ -28,6 +28,7 @@ def orifice_law(
 def mass_flow(
     pressure_1: float,
     pressure_2: float,
+    inverse_upstream: float,
     conductance: float,
     density: float,
     critical_ratio: float,
@@ -45,12 +46,14 @@ def mass_flow(
     Args:
         pressure_1: absolute pressure of side 1, Pa.
         pressure_2: absolute pressure of side 2, Pa.
+        inverse_upstream: 1 over the higher of the two, 1/Pa.
         conductance: sonic conductance C, m3/(s Pa).
         density, critical_ratio, subsonic_scale, laminar_ratio, laminar_scale: :func:`orifice_law`.
     """
     upstream = maximum(pressure_1, pressure_2)
-    ratio = minimum(pressure_1, pressure_2) / upstream
+    downstream = minimum(pressure_1, pressure_2)
+    ratio = downstream * inverse_upstream
     direction = select(pressure_2 > pressure_1, -1.0, 1.0)
     subsonic = maximum((minimum(ratio, laminar_ratio) - critical_ratio) * subsonic_scale, 0.0)
-    laminar = minimum((1.0 - ratio) * laminar_scale, 1.0)
+    laminar = minimum((upstream - downstream) * inverse_upstream * laminar_scale, 1.0)
     return direction * upstream * conductance * density * sqrt(1.0 - subsonic * subsonic) * laminar

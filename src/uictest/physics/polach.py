@@ -12,7 +12,7 @@ grow with the cube root of the load, Hertz), shear modulus G and Kalker's coeffi
 creep only.
 """
 
-from uictest.physics.arithmetic import arctan, exp, power_two_thirds
+from uictest.physics.arithmetic import arctan_within_octant, exp, octant, power_two_thirds
 
 _TWO_OVER_PI = 0.6366197723675814
 
@@ -29,7 +29,79 @@ def contact_stiffness(reference_stiffness: float, load_ratio: float) -> float:
 
 def friction(slip_speed: float, initial_friction: float, ratio: float, decay: float) -> float:
     """Friction coefficient mu at a slip speed >= 0 in m/s: mu0 [(1 - A) exp(-B w) + A]."""
-    return initial_friction * ((1.0 - ratio) * exp(-decay * slip_speed) + ratio)
+    return initial_friction * (fading_share(slip_speed, ratio, decay) + ratio)
+
+
+def fading_share(slip_speed: float, ratio: float, decay: float) -> float:
+    """Part of the friction that fades with the slip speed, over mu0: (1 - A) exp(-B w)."""
+    return (1.0 - ratio) * exp(-decay * slip_speed)
+
+
+def stress_gradient(
+    slip_speed: float,
+    speed: float,
+    limit: float,
+    stiffness: float,
+    reduction_adhesion: float,
+    reduction_slip: float,
+) -> tuple[float, float, float, float, float, float]:
+    """Gradient eps of the tangential stress as a quotient, and all that has to be divided by it.
+
+    Args:
+        slip_speed: size of the slip speed w, m/s, >= 0.
+        speed: size of the running speed v, m/s, > 0.
+        limit: friction limit Q mu of one wheel, N.
+        stiffness: :func:`contact_stiffness`, N.
+        reduction_adhesion: kA, reduction in the area of adhesion.
+        reduction_slip: kS, reduction in the area of slip.
+
+    Returns:
+        Numerator n and denominator d of eps; 1 / (d^2 + (kA n)^2) and 1 / (d^2 + (kS n)^2); arctan(kS eps) as
+        an angle and the tangent of a small rest. One division serves all of them.
+    """
+    pull, hold = stiffness * slip_speed, speed * limit
+    adhering, slipping = reduction_adhesion * pull, reduction_slip * pull
+    hold_squared = hold * hold
+    adhesion_part = hold_squared + adhering * adhering
+    slip_part = hold_squared + slipping * slipping
+    angle, opposite, adjacent = octant(slipping, hold)
+    parts = adhesion_part * slip_part
+    inverse = 1.0 / (parts * adjacent)
+    inverse_parts = inverse * adjacent
+    return (
+        pull,
+        hold,
+        slip_part * inverse_parts,
+        adhesion_part * inverse_parts,
+        angle,
+        opposite * parts * inverse,
+    )
+
+
+def force_and_slope(
+    gradient: tuple[float, float, float, float, float, float],
+    speed: float,
+    limit: float,
+    limit_slope: float,
+    stiffness: float,
+    reduction_adhesion: float,
+    reduction_slip: float,
+) -> tuple[float, float]:
+    """Creep force of one wheel in N and its slope with respect to slip speed in N s/m.
+
+    Args:
+        gradient: :func:`stress_gradient`.
+        limit_slope: change of the friction limit with the slip speed, N s/m.
+        speed, limit, stiffness, reduction_adhesion, reduction_slip: as there.
+    """
+    pull, hold, per_adhesion, per_slip, angle, tangent = gradient
+    adhering = reduction_adhesion * pull
+    shape = adhering * hold * per_adhesion + (angle + arctan_within_octant(tangent))
+    bend = (hold * hold - adhering * adhering) * per_adhesion * per_adhesion
+    shape_slope = reduction_adhesion * bend + reduction_slip * per_slip
+    pull_slope = stiffness * hold - pull * speed * limit_slope
+    force = _TWO_OVER_PI * limit * shape
+    return force, _TWO_OVER_PI * (limit_slope * shape + limit * shape_slope * pull_slope)
 
 
 def creep_force(
@@ -56,21 +128,9 @@ def creep_force(
         reduction_adhesion: kA, reduction in the area of adhesion.
         reduction_slip: kS, reduction in the area of slip.
     """
-    fading = (1.0 - ratio) * exp(-decay * slip_speed)
-    limit = wheel_load * initial_friction * (fading + ratio)
-    limit_slope = -decay * wheel_load * initial_friction * fading
-    inverse = 1.0 / (speed * limit)
-    gradient = stiffness * inverse
-    eps = gradient * slip_speed
-    adhering = reduction_adhesion * eps
-    slipping = reduction_slip * eps
-    adhesion_part = 1.0 + adhering * adhering
-    slip_part = 1.0 + slipping * slipping
-    both = 1.0 / (adhesion_part * slip_part)
-    flatness = slip_part * both
-    shape = adhering * flatness + arctan(slipping)
-    bend = (2.0 - adhesion_part) * flatness * flatness
-    shape_slope = reduction_adhesion * bend + reduction_slip * adhesion_part * both
-    eps_slope = gradient - eps * limit_slope * speed * inverse
-    force = _TWO_OVER_PI * limit * shape
-    return force, _TWO_OVER_PI * (limit_slope * shape + limit * shape_slope * eps_slope)
+    fading = fading_share(slip_speed, ratio, decay)
+    weight = wheel_load * initial_friction
+    limit = weight * (fading + ratio)
+    law = (stiffness, reduction_adhesion, reduction_slip)
+    gradient = stress_gradient(slip_speed, speed, limit, *law)
+    return force_and_slope(gradient, speed, limit, -decay * weight * fading, *law)

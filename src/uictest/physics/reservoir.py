@@ -12,10 +12,10 @@ def compressor_running(pressure: float, running: float, cut_in: float, cut_out: 
     return select(pressure < cut_in, 1.0, select(pressure > cut_out, 0.0, running))
 
 
-def isothermal_pressure(mass: float, volume: float, gas_constant: float, temperature: float) -> float:
-    """Absolute pressure in Pa of ``mass`` kg of air in ``volume`` m3: p V = m R T.
+def isothermal_pressure(mass: float, stiffness: float) -> float:
+    """Absolute pressure in Pa of ``mass`` kg of air: p = m R T / V, with ``stiffness`` R T / V in Pa/kg.
 
     A vessel of hundreds of litres loses a few per cent of its air in a stop over many seconds: it stays
     at room temperature.
     """
-    return mass * gas_constant * temperature / volume
+    return mass * stiffness

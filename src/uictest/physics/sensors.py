@@ -1,8 +1,6 @@
 """Pressure sensors, loadcells and toothed-wheel speed sensors."""
 
-import math
-
-from uictest.physics.arithmetic import clamp
+from uictest.physics.arithmetic import clamp, floor, maximum, select
 
 _ROUNDING = 6755399441055744.0
 """1.5 x 2^52: adding and subtracting it rounds a number below 2^51 to the nearest whole one."""
@@ -55,12 +53,12 @@ def speed_reading(
         tooth_pitch: distance at the tread between two teeth, m.
         timer_resolution: one tick of the timer, s.
         cycle_time: cycle of the controller, s.
-        slowest: lowest speed that can be measured, m/s.
+        slowest: lowest speed that can be measured, m/s, > 0.
         noise: relative error of this reading (tooth pitch, tread, jitter).
     """
-    if circumferential_speed < slowest:
-        return 0.0
-    teeth = max(math.floor(circumferential_speed * cycle_time / tooth_pitch), 1.0)
+    measurable = maximum(circumferential_speed, slowest)
+    teeth = maximum(floor(measurable * cycle_time / tooth_pitch), 1.0)
     distance = teeth * tooth_pitch
-    ticks = max(math.floor(distance / circumferential_speed / timer_resolution + 0.5), 1.0)
-    return distance / (ticks * timer_resolution) * (1.0 + noise)
+    ticks = maximum(floor(distance / measurable / timer_resolution + 0.5), 1.0)
+    reading = distance / (ticks * timer_resolution) * (1.0 + noise)
+    return select(circumferential_speed < slowest, 0.0, reading)

@@ -3,12 +3,10 @@
 
 def pressure_change(
     pressure: float,
-    volume: float,
+    stiffness: float,
     mass_change: float,
     volume_change: float,
-    polytropic_exponent: float,
-    gas_constant: float,
-    temperature: float,
+    air: float,
 ) -> float:
     """Change of absolute pressure in Pa.
 
@@ -20,12 +18,9 @@ def pressure_change(
 
     Args:
         pressure: absolute pressure, Pa.
-        volume: volume, m3.
+        stiffness: polytropic exponent over the volume, n / V, 1/m3.
         mass_change: air that has flowed in, kg.
         volume_change: growth of the volume, m3.
-        polytropic_exponent: n.
-        gas_constant: specific gas constant R, J/(kg K).
-        temperature: temperature of the air that flows, K.
+        air: specific gas constant times the temperature of the air that flows, R T, J/kg.
     """
-    heating = gas_constant * temperature * mass_change
-    return polytropic_exponent / volume * (heating - pressure * volume_change)
+    return stiffness * (air * mass_change - pressure * volume_change)

@@ -112,8 +112,11 @@ def _supply(scenario: Scenario) -> Iterator[Value]:
     atmosphere = system.air.atmospheric_pressure
     yield "relay_conductance", system.relay_valve.conductance
     yield "relay_band", system.relay_valve.proportional_band
+    air = float(system.air.gas_constant) * float(system.air.temperature)
     yield "line_volume", system.brake_line.volume
+    yield "line_stiffness", system.tank.polytropic_exponent / system.brake_line.volume
     yield "reservoir_volume", system.reservoir.volume
+    yield "reservoir_stiffness", air / system.reservoir.volume
     yield "reservoir_pressure", system.reservoir.initial_pressure + atmosphere
     yield "compressor_cut_in", system.compressor.cut_in_pressure + atmosphere
     yield "compressor_cut_out", system.compressor.cut_out_pressure + atmosphere
@@ -121,6 +124,7 @@ def _supply(scenario: Scenario) -> Iterator[Value]:
     yield "atmospheric_pressure", atmosphere
     yield "gas_constant", system.air.gas_constant
     yield "air_temperature", system.air.temperature
+    yield "air", air
     law = orifice_law(
         float(system.critical_pressure_ratio),
         float(system.laminar_pressure_ratio),
@@ -240,9 +244,12 @@ def _vehicle(scenario: Scenario) -> Iterator[Value]:
 
 
 def _responses(scenario: Scenario) -> Iterator[Value]:
-    """What a force changes within one step at a wheelset, and the inverses."""
+    """What a force or moment changes within one step, and for wheelsets the inverses."""
     wheelset = scenario.vehicle.wheelset
     step = float(scenario.simulation.time_step)
+    for name, frame in (("body", scenario.vehicle.body), ("bogie", scenario.vehicle.bogie)):
+        yield f"{name}_mass_response", step / frame.mass
+        yield f"{name}_pitch_response", step / frame.pitch_inertia
     by_mass = step / wheelset.mass
     by_inertia = step / wheelset.rotational_inertia
     slip_response = by_mass + wheelset.radius * wheelset.radius * by_inertia

@@ -1,7 +1,7 @@
 """What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
 
-This is scalar code that may branch and look up tables; between two cycles :func:`uictest.rig.step.step`
-runs alone.
+Sensors are read without branches, in lanes too; the rest is scalar code that may branch and look up tables.
+Between two cycles :func:`uictest.rig.step.step` runs alone.
 """
 
 from collections.abc import Sequence
@@ -19,19 +19,25 @@ _CHANNELS = 16
 _SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
 
 
-def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any, cycle: int) -> None:
-    """Read the sensors, let the controller decide and set the valve targets for the steps of cycle ``cycle``.
+def sense(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+    """Read the sensors of all wheelsets for cycle ``car.cycle``."""
+    read_sensors(wheelsets[0], p, car.cycle, 0)
+    read_sensors(wheelsets[1], p, car.cycle, 1)
+    read_sensors(wheelsets[2], p, car.cycle, 2)
+    read_sensors(wheelsets[3], p, car.cycle, 3)
+
+
+def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) -> None:
+    """Let the controller decide on what was sensed and set the valve targets for the steps of the cycle.
 
     Args:
         car: car record.
         wheelsets: four wheelset records.
         p: parameter record.
         rail: array of shape (4, n): places in m, friction coefficients there, times in s, factors then.
-        cycle: number of the cycle since the brake command.
     """
     for i in range(4):
         wheelset = wheelsets[i]
-        read_sensors(wheelset, p, cycle, i)
         place = car.position - wheelset.behind
         along = interpolated(place, rail[0], rail[1], p.friction_points)
         wheelset.friction = along * interpolated(car.time, rail[2], rail[3], p.friction_times)
@@ -39,6 +45,7 @@ def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any, 
     for i in range(4):
         command_valve(wheelsets[i], p)
     car.substep = 0.0
+    car.cycle += 1
 
 
 def read_sensors(wheelset: Record, p: Record, cycle: int, number: int) -> None:

@@ -66,8 +66,7 @@ def _run_queue(cases: Any, queue: NDArray[np.int64], width: int) -> None:
     blank = Rig(np.zeros(1, CAR), np.zeros(2, BOGIE), np.zeros(4, WHEELSET))
     with _compiling:
         run_queue = _compiled()
-    running, cycles = np.empty(width, np.int64), np.empty(width, np.int64)
-    run_queue(rig, block(PARAMETERS, width), blank, cases, queue, running, cycles)
+    run_queue(rig, block(PARAMETERS, width), blank, cases, queue, np.empty(width, np.int64))
 
 
 @cache
@@ -77,6 +76,7 @@ def _compiled() -> Any:
     import numba
 
     from uictest import lanes
+    from uictest.rig.cycle import sense
     from uictest.rig.lane_stops import run_queue
     from uictest.rig.step import step
 
@@ -86,6 +86,8 @@ def _compiled() -> Any:
         arithmetic.minimum: lanes.minimum,
         arithmetic.maximum: lanes.maximum,
         arithmetic.sqrt: lanes.sqrt,
+        arithmetic.floor: lanes.floor,
     }
-    entry = translate(run_queue, njit, {step: translate(step, njit, in_lanes)})
+    wide = {function: translate(function, njit, in_lanes) for function in (sense, step)}
+    entry = translate(run_queue, njit, wide)
     return numba.njit(**OPTIONS, cache=True)(entry.py_func)

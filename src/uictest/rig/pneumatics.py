@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from uictest.physics.arithmetic import maximum, select
+from uictest.physics.arithmetic import inverses, maximum, select
 from uictest.physics.brake_operating_unit import demand, relay_opening
 from uictest.physics.flow import mass_flow
 from uictest.physics.reservoir import compressor_running, isothermal_pressure
@@ -22,23 +22,22 @@ def follow_demand(car: Record, drawn: float, p: Record) -> None:
     """Let the relay valve bring the brake line towards ``car.demand``, whoever demands it."""
     gauge = car.line_pressure - p.atmospheric_pressure
     opening = relay_opening(car.demand, gauge, p.relay_band)
-    filled = p.step * _orifice(
-        car.reservoir_pressure, car.line_pressure, p.relay_conductance * maximum(opening, 0.0), p
-    )
-    exhausted = p.step * _orifice(
-        car.line_pressure, p.atmospheric_pressure, p.relay_conductance * maximum(-opening, 0.0), p
+    filled, exhausted = _through(
+        car.reservoir_pressure,
+        car.line_pressure,
+        p.relay_conductance * maximum(opening, 0.0),
+        p.relay_conductance * maximum(-opening, 0.0),
+        p,
     )
     car.compressor_running = compressor_running(
         car.reservoir_pressure, car.compressor_running, p.compressor_cut_in, p.compressor_cut_out
     )
     delivered = p.step * p.compressor_delivery * car.compressor_running
     car.reservoir_mass += delivered - filled
-    car.reservoir_pressure = isothermal_pressure(
-        car.reservoir_mass, p.reservoir_volume, p.gas_constant, p.air_temperature
-    )
+    car.reservoir_pressure = isothermal_pressure(car.reservoir_mass, p.reservoir_stiffness)
     gained = filled - exhausted - drawn
     car.line_mass += gained
-    car.line_pressure += _pressure_change(car.line_pressure, p.line_volume, gained, 0.0, p)
+    car.line_pressure += pressure_change(car.line_pressure, p.line_stiffness, gained, 0.0, p.air)
     car.compressor_air += delivered
     car.consumed_air += filled
     car.exhausted_air += exhausted
@@ -51,36 +50,44 @@ def step_tank(wheelset: Record, car: Record, p: Record) -> float:
     vent_target = select(switched, wheelset.vent_after, wheelset.vent_before)
     wheelset.fill_opening = travel(wheelset.fill_opening, fill_target, p.valve_travel_per_step)
     wheelset.vent_opening = travel(wheelset.vent_opening, vent_target, p.valve_travel_per_step)
-    drawn: float = p.step * _orifice(
-        car.line_pressure, wheelset.pressure, p.fill_conductance * wheelset.fill_opening, p
-    )
-    vented = p.step * _orifice(
-        wheelset.pressure, p.atmospheric_pressure, p.vent_conductance * wheelset.vent_opening, p
+    drawn, vented = _through(
+        car.line_pressure,
+        wheelset.pressure,
+        p.fill_conductance * wheelset.fill_opening,
+        p.vent_conductance * wheelset.vent_opening,
+        p,
     )
     swept = wheelset.has_caliper * p.piston_area
     fixed = select(wheelset.has_caliper > 0.0, p.caliper_tank_volume, p.tank_volume)
-    volume = fixed + swept * wheelset.stroke
+    stiffness = p.polytropic_exponent / (fixed + swept * wheelset.stroke)
     growth = swept * wheelset.stroke_change
     wheelset.air_mass += drawn - vented
     wheelset.vented_air += vented
-    wheelset.pressure += _pressure_change(wheelset.pressure, volume, drawn - vented, growth, p)
+    wheelset.pressure += pressure_change(wheelset.pressure, stiffness, drawn - vented, growth, p.air)
     return drawn
 
 
-def _orifice(pressure_1: float, pressure_2: float, conductance: float, p: Record) -> float:
+def _through(
+    source: float, vessel: float, conductance_in: float, conductance_out: float, p: Record
+) -> tuple[float, float]:
+    """Air that flows in a step from a source into a vessel and from there to the atmosphere, kg."""
+    atmosphere = p.atmospheric_pressure
+    inverse_in, inverse_out = inverses(maximum(source, vessel), maximum(vessel, atmosphere))
+    gained = p.step * _orifice(source, vessel, inverse_in, conductance_in, p)
+    return gained, p.step * _orifice(vessel, atmosphere, inverse_out, conductance_out, p)
+
+
+def _orifice(
+    pressure_1: float, pressure_2: float, inverse_upstream: float, conductance: float, p: Record
+) -> float:
     return mass_flow(
         pressure_1,
         pressure_2,
+        inverse_upstream,
         conductance,
         p.flow_density,
         p.critical_ratio,
         p.subsonic_scale,
         p.laminar_ratio,
         p.laminar_scale,
-    )
-
-
-def _pressure_change(pressure: float, volume: float, gained: float, growth: float, p: Record) -> float:
-    return pressure_change(
-        pressure, volume, gained, growth, p.polytropic_exponent, p.gas_constant, p.air_temperature
     )

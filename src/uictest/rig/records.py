@@ -33,7 +33,9 @@ _PARAMETERS = [
     ("relay_conductance", "f8"),  # m3/(s Pa)
     ("relay_band", "f8"),  # Pa
     ("line_volume", "f8"),
+    ("line_stiffness", "f8"),  # polytropic exponent over its volume, 1/m3
     ("reservoir_volume", "f8"),
+    ("reservoir_stiffness", "f8"),  # pressure per mass of air, Pa/kg
     ("reservoir_pressure", "f8"),  # at the start
     ("compressor_cut_in", "f8"),
     ("compressor_cut_out", "f8"),
@@ -42,6 +44,7 @@ _PARAMETERS = [
     ("atmospheric_pressure", "f8"),
     ("gas_constant", "f8"),
     ("air_temperature", "f8"),
+    ("air", "f8"),  # gas constant times temperature, J/kg
     ("polytropic_exponent", "f8"),
     ("flow_density", "f8"),  # this and the next four: physics.flow.orifice_law
     ("critical_ratio", "f8"),
@@ -97,9 +100,13 @@ _PARAMETERS = [
     # vehicle
     ("body_mass", "f8"),
     ("body_inertia", "f8"),
+    ("body_mass_response", "f8"),  # step over mass, s/kg
+    ("body_pitch_response", "f8"),  # step over inertia, s/(kg m2)
     ("body_height", "f8"),
     ("bogie_mass", "f8"),
     ("bogie_inertia", "f8"),
+    ("bogie_mass_response", "f8"),
+    ("bogie_pitch_response", "f8"),
     ("bogie_height", "f8"),
     ("half_wheelbase", "f8"),
     ("half_pivot_distance", "f8"),
@@ -191,6 +198,7 @@ CAR = np.dtype(
         [
             ("steps", "f8"),  # done so far
             ("substep", "f8"),  # within the controller cycle
+            ("cycle", "i8"),  # of the controller, begun so far
             ("time", "f8"),  # steps x step, never accumulated
             # motion of the car body
             ("position", "f8"),
@@ -299,6 +307,15 @@ WHEELSET = np.dtype(
             ("highest_slip", "f8"),
             ("slip_estimate", "f8"),
             ("sliding_force", "f8"),  # creep force at the last slip speed, N
+            # creep at the estimated slip speed: physics.polach.stress_gradient
+            ("friction_limit", "f8"),  # of one wheel, N
+            ("limit_slope", "f8"),  # N s/m
+            ("stress_pull", "f8"),
+            ("stress_hold", "f8"),
+            ("inverse_adhesion", "f8"),
+            ("inverse_slip", "f8"),
+            ("stress_angle", "f8"),
+            ("stress_tangent", "f8"),
             # motion
             ("position", "f8"),
             ("speed", "f8"),

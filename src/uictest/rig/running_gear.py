@@ -9,7 +9,7 @@ from typing import Any
 
 from uictest.physics.arithmetic import maximum, minimum, select
 from uictest.physics.disc_brake import torque
-from uictest.physics.polach import contact_stiffness, creep_force
+from uictest.physics.polach import contact_stiffness, fading_share, force_and_slope, stress_gradient
 from uictest.physics.resistance import gradient_force, running_resistance
 from uictest.physics.vehicle import longitudinal, suspension_force, vertical
 from uictest.physics.wheelset import (
@@ -96,7 +96,7 @@ def couple_wheelset(wheelset: Record, bogie: Record, car: Record, p: Record) -> 
 
 
 def begin_slip(wheelset: Record, p: Record) -> None:
-    """Bracket the slip speed at the end of the step and take the first Newton step from the last one.
+    """Bracket the slip speed at the end of the step and begin from the last one.
 
     The brake is taken to turn the wheelset with its full torque; a lock is found when the step is done.
     """
@@ -113,19 +113,51 @@ def begin_slip(wheelset: Record, p: Record) -> None:
         wheelset.free_slip, p.slip_response, wheelset.wheel_load, wheelset.friction
     )
     wheelset.slip_estimate = maximum(direction * slip, 0.0)
-    wheelset.sliding_force = refine_slip(wheelset, p)
+
+
+def find_limit(wheelset: Record, p: Record) -> None:
+    """Find the friction limit at the estimated slip speed, and how it changes."""
+    fading = fading_share(wheelset.slip_estimate, p.friction_ratio, p.friction_decay)
+    weight = wheelset.wheel_load * wheelset.friction
+    wheelset.friction_limit = weight * (fading + p.friction_ratio)
+    wheelset.limit_slope = -p.friction_decay * weight * fading
+
+
+def find_gradient(wheelset: Record, p: Record) -> None:
+    """Find the gradient of the tangential stress at the estimated slip speed."""
+    (
+        wheelset.stress_pull,
+        wheelset.stress_hold,
+        wheelset.inverse_adhesion,
+        wheelset.inverse_slip,
+        wheelset.stress_angle,
+        wheelset.stress_tangent,
+    ) = stress_gradient(
+        wheelset.slip_estimate,
+        maximum(abs(wheelset.speed), SLOWEST_CREEP),
+        wheelset.friction_limit,
+        wheelset.contact_stiffness,
+        p.reduction_adhesion,
+        p.reduction_slip,
+    )
 
 
 def refine_slip(wheelset: Record, p: Record) -> float:
     """Take one Newton step towards the slip speed; return the creep force of both wheels before it, N."""
-    force, slope = creep_force(
-        wheelset.slip_estimate,
+    gradient = (
+        wheelset.stress_pull,
+        wheelset.stress_hold,
+        wheelset.inverse_adhesion,
+        wheelset.inverse_slip,
+        wheelset.stress_angle,
+        wheelset.stress_tangent,
+    )
+    force, slope = force_and_slope(
+        gradient,
         maximum(abs(wheelset.speed), SLOWEST_CREEP),
-        wheelset.wheel_load,
+        wheelset.friction_limit,
+        wheelset.limit_slope,
         wheelset.contact_stiffness,
-        wheelset.friction,
-        p.friction_ratio,
-        p.friction_decay,
         p.reduction_adhesion,
         p.reduction_slip,
     )
@@ -172,12 +204,14 @@ def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
     bogie.moment -= braking
 
 
-def step_frame(frame: Record, mass: float, inertia: float, resistance: float, p: Record) -> None:
+def step_frame(
+    frame: Record, mass: float, mass_response: float, pitch_response: float, resistance: float, p: Record
+) -> None:
     """Advance the three motions of a bogie or the car body under the forces summed on it."""
     drag = resistance + gradient_force(mass, p.gradient, p.gravity)
-    frame.speed += p.step * (frame.longitudinal_force - drag) / mass
-    frame.vertical_speed += p.step * frame.vertical_force / mass
-    frame.pitch_rate += p.step * frame.moment / inertia
+    frame.speed += mass_response * (frame.longitudinal_force - drag)
+    frame.vertical_speed += mass_response * frame.vertical_force
+    frame.pitch_rate += pitch_response * frame.moment
     frame.position += p.step * frame.speed
     frame.height += p.step * frame.vertical_speed
     frame.pitch += p.step * frame.pitch_rate
@@ -188,7 +222,7 @@ def step_body(car: Record, p: Record) -> None:
     speed = car.speed
     position = car.position
     drag = running_resistance(speed, p.resistance_constant, p.resistance_linear, p.resistance_quadratic)
-    step_frame(car, p.body_mass, p.body_inertia, drag, p)
+    step_frame(car, p.body_mass, p.body_mass_response, p.body_pitch_response, drag, p)
     car.resistance_loss += p.step * drag * 0.5 * (speed + car.speed)
     stops = (1.0 - car.stopped) * select(car.speed <= 0.0, 1.0, 0.0) > 0.0
     share = speed / select(stops, speed - car.speed, 1.0)

@@ -10,6 +10,8 @@ from uictest.rig.running_gear import (
     clear_forces,
     couple_body,
     couple_wheelset,
+    find_gradient,
+    find_limit,
     refine_slip,
     step_body,
     step_frame,
@@ -57,18 +59,26 @@ def _step_vehicle(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Rec
     step_wheelset(wheelsets[1], leading, p)
     step_wheelset(wheelsets[2], trailing, p)
     step_wheelset(wheelsets[3], trailing, p)
-    step_frame(leading, p.bogie_mass, p.bogie_inertia, 0.0, p)
-    step_frame(trailing, p.bogie_mass, p.bogie_inertia, 0.0, p)
+    step_frame(leading, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
+    step_frame(trailing, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
     step_body(car, p)
 
 
 def _solve_slip(wheelsets: Sequence[Record], p: Record) -> None:
-    """Take two Newton steps for each wheelset, side by side: a processor works on all four chains at once."""
-    begin_slip(wheelsets[0], p)
-    begin_slip(wheelsets[1], p)
-    begin_slip(wheelsets[2], p)
-    begin_slip(wheelsets[3], p)
-    refine_slip(wheelsets[0], p)
-    refine_slip(wheelsets[1], p)
-    refine_slip(wheelsets[2], p)
-    refine_slip(wheelsets[3], p)
+    """Take two Newton steps for each wheelset; the first finds the force at the last slip speed."""
+    for i in range(4):
+        begin_slip(wheelsets[i], p)
+    _find_creep(wheelsets, p)
+    for i in range(4):
+        wheelsets[i].sliding_force = refine_slip(wheelsets[i], p)
+    _find_creep(wheelsets, p)
+    for i in range(4):
+        refine_slip(wheelsets[i], p)
+
+
+def _find_creep(wheelsets: Sequence[Record], p: Record) -> None:
+    """Find friction limit and stress side by side: the processor then works on all four chains at once."""
+    for i in range(4):
+        find_limit(wheelsets[i], p)
+    for i in range(4):
+        find_gradient(wheelsets[i], p)

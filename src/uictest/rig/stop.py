@@ -6,7 +6,7 @@ from typing import Any
 from uictest.measures import begin as begin_measures
 from uictest.measures import begin_wheelset, finish, observe_train, observe_wheelset
 from uictest.rig.balance import air_residual, energy_residual
-from uictest.rig.cycle import begin_cycle
+from uictest.rig.cycle import begin_cycle, sense
 from uictest.rig.start import start
 from uictest.rig.step import step
 from uictest.rig.trace import sample
@@ -35,19 +35,20 @@ def stop(
     start(car, bogies, wheelsets, p)
     begin_stop_measures(car, measures, wheelset_measures, p)
     rows = 0
-    cycle = 0
-    while car.stopped == 0.0 and cycle < p.cycles:
-        begin_cycle(car, wheelsets, p, rail, cycle)
-        if steps_per_sample > 0 and cycle == 0:
+    steps = 0
+    while car.stopped == 0.0 and car.cycle < p.cycles:
+        sense(car, wheelsets, p)
+        begin_cycle(car, wheelsets, p, rail)
+        if steps_per_sample > 0 and rows == 0:
             sample(trace[0], car, wheelsets, p)
             rows = 1
-        for k in range(p.steps_per_cycle):
+        for _ in range(p.steps_per_cycle):
             step(car, bogies, wheelsets, p)
-            if steps_per_sample > 0 and (cycle * p.steps_per_cycle + k + 1) % steps_per_sample == 0:
+            steps += 1
+            if steps_per_sample > 0 and steps % steps_per_sample == 0:
                 sample(trace[rows], car, wheelsets, p)
                 rows += 1
         observe_cycle(car, wheelsets, measures, wheelset_measures, p)
-        cycle += 1
     close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
     return rows
 

@@ -1,0 +1,66 @@
+"""Operators of whole numbers in lanes: what counters and a generator of random bits need."""
+
+import operator
+from typing import Any
+
+from numba.core import types
+from numba.core.typing.templates import AbstractTemplate
+
+from uictest.lanes.compiler import code_of, signature, typing_of
+from uictest.lanes.operators import filled, spread
+from uictest.lanes.types import Integers, Vector, integers_of_llvm, vector_of_llvm
+
+_OPERATORS: dict[Any, Any] = {
+    operator.add: lambda builder, a, b: builder.add(a, b),
+    operator.and_: lambda builder, a, b: builder.and_(a, b),
+    operator.or_: lambda builder, a, b: builder.or_(a, b),
+    operator.xor: lambda builder, a, b: builder.xor(a, b),
+    operator.lshift: lambda builder, a, b: builder.shl(a, b),
+    operator.rshift: lambda builder, a, b: builder.ashr(a, b),
+}
+
+
+def _define(function: Any, emit: Any) -> None:
+    """Give ``function`` a meaning for two of them, or one of them and a whole number."""
+
+    @typing_of(function)
+    class _Template(AbstractTemplate):
+        def generic(self, args: Any, kws: Any) -> Any:
+            widths = {kind.width for kind in args if isinstance(kind, Integers)}
+            whole = all(isinstance(kind, Integers | types.Integer) for kind in args)
+            fits = whole and len(args) == 2 and len(widths) == 1
+            return signature(Integers(widths.pop()), *args) if fits else None
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        width = sig.return_type.width
+        a, b = (_everywhere(context, builder, x, kind, width) for x, kind in zip(args, sig.args, strict=True))
+        return emit(builder, a, b)
+
+    code_of(function, Integers, types.Integer)(lower)
+    code_of(function, types.Integer, Integers)(lower)
+    code_of(function, Integers, Integers)(lower)
+
+
+def _everywhere(context: Any, builder: Any, value: Any, kind: Any, width: int) -> Any:
+    if isinstance(kind, Integers):
+        return value
+    return filled(builder, context.cast(builder, value, kind, types.int64), integers_of_llvm(width))
+
+
+for _function, _emit in _OPERATORS.items():
+    _define(_function, _emit)
+
+
+@typing_of(operator.add)
+class _AddFloat(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        fits = len(args) == 2 and isinstance(args[0], Integers) and isinstance(args[1], types.Float)
+        return signature(Vector(args[0].width), *args) if fits else None
+
+
+@code_of(operator.add, Integers, types.Float)
+def _add_float(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    """Whole numbers and a float give floats, as scalars do."""
+    width = sig.return_type.width
+    whole = builder.sitofp(args[0], vector_of_llvm(width))
+    return builder.fadd(whole, spread(context, builder, args[1], sig.args[1], width))

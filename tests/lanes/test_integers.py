@@ -1,0 +1,96 @@
+"""Whole numbers in lanes against numpy's, and a generator of random bits against itself one by one."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from uictest import lanes
+from uictest.physics.noise import bell, threefry
+from uictest.rig.compiled import translate
+
+WIDTH = 8
+PAIR = np.dtype((np.record, [("a", "i8"), ("b", "i8"), ("result", "i8"), ("number", "f8")]))
+numbers = st.lists(st.integers(-(2**63), 2**63 - 1), min_size=WIDTH, max_size=WIDTH)
+Operation = Callable[[Any, Any], Any]
+
+OPERATIONS: dict[str, Operation] = {
+    "add": lambda a, b: a + b,
+    "and": lambda a, b: a & b,
+    "or": lambda a, b: a | b,
+    "xor": lambda a, b: a ^ b,
+    "left": lambda a, b: a << 13,
+    "right": lambda a, b: b >> 13,
+    "number on the left": lambda a, b: 0x1BD11BDA ^ a,
+    "number on the right": lambda a, b: b + 5,
+}
+
+
+def applied(function: Operation) -> Callable[[Any, Any], NDArray[np.int64]]:
+    """Compile ``function(a, b)`` of whole numbers in lanes and call it on numbers."""
+    compiled = numba.njit(function)
+
+    @numba.njit
+    def apply(block: Any) -> None:
+        record = lanes.vectors(block)
+        record.result = compiled(record.a, record.b)
+
+    def call(a: Any, b: Any) -> NDArray[np.int64]:
+        block = lanes.block(PAIR, WIDTH)
+        block["a"], block["b"] = a, b
+        apply(block)
+        return np.array(block["result"][0])
+
+    return call
+
+
+@pytest.fixture(scope="module", params=OPERATIONS)
+def operation(request: pytest.FixtureRequest) -> tuple[Operation, Operation]:
+    function = OPERATIONS[request.param]
+    return applied(function), function
+
+
+@given(a=numbers, b=numbers)
+@settings(deadline=None)
+def test_operations_are_those_of_numpy(
+    operation: tuple[Operation, Operation], a: list[int], b: list[int]
+) -> None:
+    in_lanes, in_numpy = operation
+    np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
+
+
+def test_a_sum_with_a_float_is_a_float() -> None:
+    @numba.njit
+    def halve(block: Any) -> None:
+        record = lanes.vectors(block)
+        record.number = (record.a + 1.0) * 0.5
+
+    block = lanes.block(PAIR, WIDTH)
+    block["a"] = np.arange(WIDTH) - 3
+    halve(block)
+    np.testing.assert_array_equal(block["number"][0], (np.arange(WIDTH) - 2) * 0.5)
+
+
+def test_noise_in_lanes_has_the_bits_of_noise_one_by_one() -> None:
+    in_lanes, together = translate(threefry, numba.njit, {}), translate(bell, numba.njit, {})
+
+    @numba.njit
+    def draw(block: Any) -> None:
+        record = lanes.vectors(block)
+        word_0, word_1 = in_lanes(record.a, record.b, record.result, 35)
+        record.number = together(word_0, word_1)
+
+    block = lanes.block(PAIR, WIDTH)
+    seeds, cases, cycles = (np.arange(WIDTH) * k + k for k in (7, 2**31, 1))
+    cases &= 0xFFFFFFFF
+    block["a"], block["b"], block["result"] = seeds, cases, cycles
+    draw(block)
+    expected = [
+        bell(*threefry(*key, 35)) for key in zip(seeds.tolist(), cases.tolist(), cycles.tolist(), strict=True)
+    ]
+    assert block["number"][0].tolist() == expected
