@@ -117,6 +117,6 @@ def _read_to_end(terminal: int) -> str:
 
 
 def _environment() -> dict[str, str]:
-    kept = {name: os.environ[name] for name in ("HOME", "LANG", "NUMBA_CACHE_DIR") if name in os.environ}
+    kept = {name: os.environ[name] for name in ("HOME", "LANG", "UICTEST_CACHE") if name in os.environ}
     path = f"{sysconfig.get_path('scripts')}{os.pathsep}{os.environ.get('PATH', '')}"
     return {**kept, "PATH": path, "TERM": "dumb", "COLUMNS": "100", "NO_COLOR": "1"}

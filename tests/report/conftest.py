@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +12,8 @@ import pytest
 from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
 from uictest.recording import Recording
 from uictest.report import RunContent
+from uictest.report.page import Trace
+from uictest.report.sweep_content import SweepContent
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 
@@ -59,6 +63,23 @@ def make_content() -> Callable[..., RunContent]:
 
 
 @pytest.fixture
+def make_sweep(tmp_path: Path) -> Callable[..., SweepContent]:
+    """A finished sweep over two parameters, with whatever is to be different in its findings."""
+
+    def make(
+        worst: tuple[CaseResult, ...] = (),
+        text: str = "90 %",
+        traces: Mapping[str, Trace] | None = None,
+        **findings: object,
+    ) -> SweepContent:
+        (tmp_path / "sweep").mkdir(exist_ok=True)
+        manifest = {"file": f"scenarios/{text}.sweep.yaml", "versions": {"uictest": "0.1.0"}, "set": [text]}
+        return SweepContent(tmp_path / "sweep", _findings(text) | findings, manifest, worst, {}, traces or {})
+
+    return make
+
+
+@pytest.fixture
 def make_recording() -> Callable[..., Recording]:
     """A stop from 120 km/h at 1 m/s2 in which every wheelset slides by 40 % for a while and is vented."""
 
@@ -103,3 +124,52 @@ def verdict(**changes: object) -> Verdict:
         "definition": {"low_speed_cutoff": "30 km/h"},
     }
     return Verdict(**(content | changes))  # type: ignore[arg-type]
+
+
+def _findings(text: str) -> dict[str, Any]:
+    """What sweep.json holds of four cases, one of which missed; `text` stands wherever a user's may."""
+    outcomes = {"pass": 3, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
+    counts = [("80 %", 2, outcomes | {"pass": 2, "fail": 0}), (text, 1, outcomes | {"pass": 1})]
+    axes = {
+        "rows": {"parameter": f"brake.{text}", "values": ["80 %", text]},
+        "columns": {"parameter": "rail.friction", "values": ["0.10", "0.12"]},
+    }
+    index = {"value": 0.5, "low": 0.4, "high": 0.6}
+    flips = [{"low": text, "high": "0.11", "met_at_low": False}]
+    return {
+        "schema": "uictest/sweep-result/1",
+        "name": text,
+        "title": text,
+        "cases": 4,
+        "met": 3,
+        "outcomes": outcomes,
+        "missed": [{"id": f"lost[{text}]", "outcome": "invalid", "reason": text}],
+        "rates": {
+            f"brake.{text}": [
+                {"value": value, "cases": 2, "met": met, "outcomes": each} for value, met, each in counts
+            ]
+        },
+        "maps": [
+            {"measure": "met", **axes, "means": [[1.0, 1.0], [0.0, 1.0]]} | _cells([[1, 1], [0, 1]]),
+            {"measure": "braking_distance_m", **axes, "means": [[1.5, 2.5], [None, 3.5]]}
+            | _cells([[1, 1], [0, 1]]),
+        ],
+        "sensitivities": [
+            {"measure": "met", "circumstances": {text: text}, "key": text, "first": index, "total": index}
+        ],
+        "frontier": {
+            "parameter": text,
+            "stretches": [{"circumstances": {text: text}, "flips": flips, "note": text}],
+        },
+        "distributions": [
+            {"measure": text, "unit": text, "cases": 4, "minimum": 1.0, "mean": 2.0, "maximum": 3.0}
+            | {"edges": [1.0, 2.0, 3.0], "counts": {"pass": [2, 1], "fail": [0, 1]}}
+        ],
+        "worst": [],
+        "subjects": {},
+        "notes": [text],
+    }
+
+
+def _cells(met: list[list[int]]) -> dict[str, Any]:
+    return {"met": met, "cases": [[1, 1], [1, 1]]}

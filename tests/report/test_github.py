@@ -2,8 +2,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
+
 from uictest.evaluation import CaseResult
-from uictest.report.github import annotation, case_annotations
+from uictest.report.github import annotation, case_annotations, no_command
 
 MakeResult = Callable[..., CaseResult]
 
@@ -26,3 +28,21 @@ def test_a_hostile_name_cannot_start_a_command_of_its_own(make_result: MakeResul
     (line,) = case_annotations([make_result(id=hostile, scenario=hostile, outcome="error")])
     assert line.startswith("::error file=")
     assert "\n" not in line
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        ("  ::error::x", "  \\x3a:error::x"),
+        ("::add-mask::x", "\\x3a:add-mask::x"),
+        ("case ##[error]x", "case #\\x23[error]x"),
+        ("  0.1  100 %", "  0.1  100 %"),
+        ("", ""),
+    ],
+)
+def test_a_line_of_the_log_is_no_command(line: str, shown: str) -> None:
+    assert no_command(line) == shown
+
+
+def test_a_notice_is_an_annotation_of_its_own_level() -> None:
+    assert annotation("a.yaml", "sweep", "done", level="notice") == "::notice file=a.yaml,title=sweep::done"

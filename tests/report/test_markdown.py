@@ -4,13 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from uictest.evaluation import CaseResult
 from uictest.report import RunContent, append_step_summary
-from uictest.report.markdown import LIMIT, code, markdown_summary, prose
+from uictest.report.markdown import markdown_summary
+from uictest.report.step_summary import LIMIT
 
 MakeResult = Callable[..., CaseResult]
 MakeContent = Callable[..., RunContent]
@@ -43,19 +42,6 @@ def test_ten_thousand_cases_stay_within_the_limit_and_say_what_is_missing(
     assert len(text.encode()) <= LIMIT
     shown = text.count("\n| **MISSED**")
     assert f"{10_000 - shown} more cases are in" in text
-
-
-@given(st.text())
-def test_a_text_in_a_code_span_is_only_that(text: str) -> None:
-    row = f"| a | b |\n|---|---|\n| {code(text)} | x |\n"
-    tokens = [token for token in _READER.parse(row) if token.type == "inline"]
-    assert len(tokens) == 4
-    assert {child.type for child in tokens[2].children or []} <= {"code_inline"}
-
-
-@given(st.text())
-def test_prose_holds_no_markup(text: str) -> None:
-    assert _kinds(f"x{prose(text)}x") <= {"text"}
 
 
 def test_hostile_texts_are_shown_as_text(

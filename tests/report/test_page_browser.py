@@ -15,7 +15,8 @@ import pytest
 from uictest.evaluation import CaseResult, Verdict
 from uictest.recording import Recording
 from uictest.report import RunContent, Subject
-from uictest.report.page import page_html, trace_of
+from uictest.report.page import page_html, sweep_page_html, trace_of
+from uictest.report.sweep_content import SweepContent
 from uictest.scenario.parts.measure_catalogue import MEASURES
 
 MakeResult = Callable[..., CaseResult]
@@ -290,3 +291,48 @@ def test_a_thousand_cases_open(
     took = _run(browser, "return performance.getEntriesByType('navigation')[0].domComplete")
     print(f"opened in {took:.0f} ms")  # noqa: T201 - shown with -rP; how fast it is depends on the machine
     assert _wait(browser, _PLOTTED)
+
+
+@pytest.fixture
+def sweep_page(
+    tmp_path: Path,
+    make_sweep: Callable[..., SweepContent],
+    make_result: MakeResult,
+    make_recording: MakeRecording,
+) -> Path:
+    """The page of a sweep with a drawn case that was not met."""
+    worst = make_result(
+        id="study[a]", outcome="fail", parameters={"brake.x": "80 %", "rail.friction": "0.10"}
+    )
+    traces = {worst.id: trace_of(make_recording())}
+    path = tmp_path / "index.html"
+    path.write_text(sweep_page_html(make_sweep((worst,), "x", traces=traces)), encoding="utf-8")
+    return path
+
+
+def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser: Any, sweep_page: Path) -> None:
+    browser.get(sweep_page.as_uri())
+    assert _wait(browser, _PLOTTED) > 15
+    browser.find_element("css selector", "table.heat a").click()
+    assert browser.current_url.endswith("#case-1")
+
+
+def test_a_sweep_can_be_read_without_javascript(browser: Any, sweep_page: Path) -> None:
+    browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    browser.get(sweep_page.as_uri())
+    text = browser.find_element("tag name", "body").text
+    for shown in ("4 cases: 3 met, 1 missed", "study[a]", "Distributions", "Frontier along", "Provenance"):
+        assert shown in text
+    assert browser.find_element("css selector", "svg.histogram").size["height"] > 100
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+def test_no_part_of_a_sweeps_page_is_wider_than_the_window(
+    browser: Any, sweep_page: Path, width: int
+) -> None:
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    browser.get(sweep_page.as_uri())
+    _wait(browser, _PLOTTED)
+    assert _run(browser, "return document.documentElement.scrollWidth") <= width
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

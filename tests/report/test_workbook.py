@@ -8,7 +8,8 @@ import pytest
 
 from uictest.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, Subject
-from uictest.report.workbook import LONGEST_TEXT, workbook_bytes
+from uictest.report.sheet import LONGEST_TEXT
+from uictest.report.workbook import workbook_bytes
 
 openpyxl = pytest.importorskip("openpyxl")
 

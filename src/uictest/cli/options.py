@@ -131,6 +131,10 @@ RecordRate = Annotated[
     ),
 ]
 Colouring = Annotated[Colour, typer.Option("--color", help="When to colour.")]
+Reports = Annotated[
+    str,
+    typer.Option("--report", metavar="FORMATS", help="Reports for people: csv, xlsx, html, md; commas join."),
+]
 ToleranceTexts = Annotated[
     list[str] | None,
     typer.Option(

@@ -23,6 +23,7 @@ from uictest.cli.options import (
     Recorded,
     Recording,
     RecordRate,
+    Reports,
     RunFormat,
     Seed,
     Tag,
@@ -61,12 +62,7 @@ def run(
     recorded: Recording = Recorded.FAILED,
     record_rate: RecordRate = 100.0,
     shown: RunFormat = Format.TEXT,
-    formats: Annotated[
-        str,
-        typer.Option(
-            "--report", metavar="FORMATS", help="Reports for people: csv, xlsx, html, md; commas join."
-        ),
-    ] = "csv,html",
+    formats: Reports = "csv,html",
     baseline: Annotated[
         Path | None,
         typer.Option("--baseline", metavar="DIR", help="Compare with the results kept there; exit 1 if out."),

@@ -11,13 +11,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Expression, Jobs, Overrides, PlainFormat, Quiet, Seed, Verbosity
+from uictest.cli.options import (
+    Expression,
+    Format,
+    Jobs,
+    Overrides,
+    Quiet,
+    Reports,
+    Seed,
+    Verbosity,
+    report_formats,
+)
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import data, message
-from uictest.report import counted, printable
+from uictest.report import counted, no_command, printable
 
 if TYPE_CHECKING:
     from uictest.cli.sweep_run import SweepRun
+    from uictest.report import SweepContent
     from uictest.sweep import Plan, Search, Selection, Shard
 
 _IDS_AT_ONCE = 4096
@@ -63,7 +74,11 @@ Measures = Annotated[
 ]
 OnDevice = Annotated[Device, typer.Option("--device", help="What simulates.")]
 SweepFormat = Annotated[
-    PlainFormat, typer.Option("--format", help="What stdout carries: maps and rates, or sweep.json.")
+    Format,
+    typer.Option(
+        "--format",
+        help="What stdout carries: maps and rates, sweep.json, or maps and rates with annotations.",
+    ),
 ]
 JUnit = Annotated[
     Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
@@ -110,11 +125,13 @@ def sweep(
         ),
     ] = Path("reports"),
     junit: JUnit = None,
-    shown: SweepFormat = PlainFormat.TEXT,
+    shown: SweepFormat = Format.TEXT,
+    formats: Reports = "csv,html",
     quiet: Quiet = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Run a sweep. Interrupted, it goes on where it was when the same command is given again."""
+    wanted = report_formats(formats, "--report")
     selection = selected_cases(load_plan(file, overrides, seed), expression, device)
     if selection.size == 0:
         message(f"uictest: nothing selected among {counted(selection.plan.size, 'case')}")
@@ -140,12 +157,13 @@ def sweep(
         measures=_measures(measures),
         search=_search(selection.plan, frontier, tolerance),
         junit=junit,
+        formats=wanted,
         quiet=quiet,
     )
     return _swept(run, shown)
 
 
-def _swept(run: SweepRun, shown: PlainFormat) -> ExitCode:
+def _swept(run: SweepRun, shown: Format) -> ExitCode:
     from uictest.cli.sweep_run import MaxfailReached, exit_code, publish, simulate_parts, sum_up
     from uictest.sweep import Store
 
@@ -165,8 +183,10 @@ def _swept(run: SweepRun, shown: PlainFormat) -> ExitCode:
     if run.shard.count > 1:
         message(f"uictest: share {run.shard.number} of {run.shard.count} is finished in {run.folder}")
         return ExitCode.MET
-    findings, document = publish(run, store)
+    findings, document, content = publish(run, store)
     show_findings(findings, document, shown, quiet=run.quiet)
+    if shown is Format.GITHUB:
+        show_annotations(content)
     if not run.quiet:
         sum_up(run, findings, started)
     return exit_code(findings)
@@ -201,9 +221,9 @@ def show_ids(selection: Selection) -> None:
         data("\n".join(map(printable, selection.plan.ids(indices))))
 
 
-def show_findings(findings: Any, document: str, shown: PlainFormat, *, quiet: bool) -> None:
+def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -> None:
     """Write the result document, or maps, rates and the frontier for a reader, to stdout."""
-    if shown is PlainFormat.JSON:
+    if shown is Format.JSON:
         data(document.rstrip("\n"))
         return
     if quiet:
@@ -211,7 +231,16 @@ def show_findings(findings: Any, document: str, shown: PlainFormat, *, quiet: bo
     from uictest.cli.sweep_display import finding_lines
 
     for line in finding_lines(findings):
-        data(printable(line) if line else line)
+        text = printable(line) if line else line
+        data(no_command(text) if shown is Format.GITHUB else text)
+
+
+def show_annotations(content: SweepContent) -> None:
+    """Write the worst cases that are not met, and what the sweep came to, as annotations to stdout."""
+    from uictest.report import sweep_annotations
+
+    for line in sweep_annotations(content):
+        data(line)
 
 
 def _shard(text: str | None) -> Shard:

@@ -17,6 +17,8 @@ from uictest.report import counted
 from uictest.sweep import ChangedInputsError, Search, Selection, Shard, Store, Worker, run_parts
 
 if TYPE_CHECKING:
+    from uictest.campaign import Examined
+    from uictest.report import ReportFormat, SweepContent
     from uictest.sweep.findings import Findings
 
 
@@ -38,6 +40,7 @@ class SweepRun:
     measures: Sequence[str] = ()
     search: Search | None = None
     junit: Path | None = None
+    formats: Sequence[ReportFormat] = ()
     quiet: bool = False
 
 
@@ -131,8 +134,8 @@ def _missed(content: bytes) -> int:
     return met.count(False)
 
 
-def publish(run: SweepRun, store: Store) -> tuple[Findings, str]:
-    """Write what the finished sweep says, and return it with the text of the result document.
+def publish(run: SweepRun, store: Store) -> tuple[Findings, str, SweepContent]:
+    """Write what the finished sweep says; return it, the text of the result document and what reports show.
 
     Raises OSError, and MissingPartsError where a share is missing.
     """
@@ -143,11 +146,52 @@ def publish(run: SweepRun, store: Store) -> tuple[Findings, str]:
     findings = gather(run.selection, store, run.pair, run.measures)
     if run.search is not None:
         _add_frontier(run, findings, run.search)
+    _examine_worst(run, findings, store.folder)
     document = write_findings(store.folder, findings)
+    content = _write_reports(run, store.folder)
     if run.junit is not None:
         write_text_atomic(run.junit, junit_xml(findings.tally))
     store.tidy()
-    return findings, document
+    return findings, document, content
+
+
+def _write_reports(run: SweepRun, folder: Path) -> SweepContent:
+    from uictest.report import ReportFormat, append_sweep_step_summary, read_sweep, write_sweep_formats
+
+    content = read_sweep(folder, traces=ReportFormat.HTML in run.formats)
+    write_sweep_formats(folder, content, run.formats)
+    # The findings are written by now: a summary that cannot be written does not undo them.
+    try:
+        append_sweep_step_summary(content)
+    except OSError as error:
+        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
+    return content
+
+
+def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
+    """Run the cases most worth looking at once more, in full, and keep their recordings beside the tables.
+
+    Raises OSError, and KeyboardInterrupt where it was interrupted.
+    """
+    import shutil
+
+    from uictest.campaign import RecordingWish, subjects_of
+    from uictest.campaign import run as examine
+    from uictest.report import write_recording
+    from uictest.report.run_report import RECORDINGS
+    from uictest.sweep.worst import cases_of
+
+    cases = cases_of(run.selection.plan, findings.worst_indices)
+    shutil.rmtree(folder / RECORDINGS, ignore_errors=True)
+
+    def keep(examined: Examined) -> None:
+        if examined.recording is not None:
+            write_recording(folder, examined.result.id, examined.recording)
+
+    campaign = examine(cases, jobs=run.jobs, recording=RecordingWish("all"), on_result=keep)
+    if campaign.interrupted:
+        raise KeyboardInterrupt
+    findings.worst, findings.subjects = campaign.results, subjects_of(cases)
 
 
 def _add_frontier(run: SweepRun, findings: Findings, search: Search) -> None:

@@ -3,7 +3,15 @@
 from uictest.evaluation.case import JUDGED_KEYS, error_result, evaluate
 from uictest.evaluation.document import SCHEMA, result_document, results_of, to_json
 from uictest.evaluation.judgement import judge
-from uictest.evaluation.result import CaseResult, Expectation, Figures, Outcome, WheelsetFigures
+from uictest.evaluation.margin import narrowest_margin, relative_margin
+from uictest.evaluation.result import (
+    CaseResult,
+    Expectation,
+    Figures,
+    Outcome,
+    WheelsetFigures,
+    unit_of,
+)
 from uictest.evaluation.verdict import Judgement, Layer, Sensitivity, Stretch, Verdict
 
 __all__ = [
@@ -22,7 +30,10 @@ __all__ = [
     "error_result",
     "evaluate",
     "judge",
+    "narrowest_margin",
+    "relative_margin",
     "result_document",
     "results_of",
     "to_json",
+    "unit_of",
 ]

@@ -3,7 +3,7 @@
 from uictest.report.content import RunContent
 from uictest.report.escaping import printable
 from uictest.report.formats import ReportFormat, write_formats
-from uictest.report.github import annotation, case_annotations
+from uictest.report.github import annotation, case_annotations, no_command
 from uictest.report.junit import junit_xml
 from uictest.report.latest import latest_run, point_latest
 from uictest.report.lines import case_line, criterion_lines, definition_lines
@@ -13,17 +13,25 @@ from uictest.report.run_contents import read_run
 from uictest.report.run_folder import RunFolder
 from uictest.report.run_report import RESULTS, run_name, write_recording, write_reports
 from uictest.report.subject import Subject
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_contents import SWEEP_RESULTS, read_sweep
+from uictest.report.sweep_formats import write_sweep_formats
+from uictest.report.sweep_github import sweep_annotations
+from uictest.report.sweep_markdown import append_sweep_step_summary
 from uictest.report.table import explanation_text, verdict_table
 from uictest.report.wording import counted, tally, verdict_word
 
 __all__ = [
     "RESULTS",
+    "SWEEP_RESULTS",
     "ReportFormat",
     "RunContent",
     "RunFolder",
     "Subject",
+    "SweepContent",
     "annotation",
     "append_step_summary",
+    "append_sweep_step_summary",
     "case_annotations",
     "case_line",
     "counted",
@@ -33,14 +41,18 @@ __all__ = [
     "junit_xml",
     "latest_run",
     "manifest",
+    "no_command",
     "point_latest",
     "printable",
     "read_run",
+    "read_sweep",
     "run_name",
+    "sweep_annotations",
     "tally",
     "verdict_table",
     "verdict_word",
     "write_formats",
     "write_recording",
     "write_reports",
+    "write_sweep_formats",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,12 +33,16 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
         manifest: Any = dict(document.get("manifest", {}))
     except (ValueError, AttributeError, TypeError) as error:
         raise ValueError(f"{path}: not the results of a run: {error}") from error
-    drawn = _traces(folder, [result.id for result in results]) if traces else {}
+    drawn = read_traces(folder, [result.id for result in results]) if traces else {}
     complete = bool(document.get("complete", True))
     return RunContent(folder.resolve().name, results, manifest, complete, subjects, drawn)
 
 
-def _traces(folder: Path, case_ids: list[str]) -> dict[str, Trace]:
+def read_traces(folder: Path, case_ids: Sequence[str]) -> dict[str, Trace]:
+    """Return what there is to draw of the cases that have a recording in the folder, by id.
+
+    Raises OSError, and ValueError where a recording is none.
+    """
     from uictest.recording import read_parquet
     from uictest.report.page import trace_of
 

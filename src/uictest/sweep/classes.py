@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.sweep.amount import rounded, written
 from uictest.sweep.axes import ends_of
 from uictest.sweep.plan import Draw, Listed, Plan
 from uictest.sweep.table import text_column
@@ -60,7 +59,7 @@ def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:
         return Classes(key, tuple(value.text for value in draw.choices), place)
     low, high = ends_of(draw.distribution)
     ends: Any = np.linspace(float(low.number), float(high.number), STRETCHES + 1).tolist()
-    shown = [written(rounded(end).normalize(), "") for end in ends]
+    shown = [f"{end:.10g}" for end in ends]
     unit = f" {low.unit}" if low.unit else ""
     labels = tuple(f"{shown[k]} .. {shown[k + 1]}{unit}" for k in range(STRETCHES))
     return Classes(key, labels, place, tuple(ends[1:-1]))

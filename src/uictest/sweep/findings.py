@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.evaluation import to_json
+from uictest.evaluation import CaseResult, to_json
 from uictest.evaluation.json_form import json_form
 from uictest.recording import atomic_path, write_text_atomic
 from uictest.report.csv_table import Cell, csv_text
 from uictest.report.escaping import csv_cell
+from uictest.report.subject import Subject
+from uictest.sweep.distributions import Distribution, figures_to_show
 from uictest.sweep.frontier import UNKNOWN, Stretch
 from uictest.sweep.junit import junit_xml
 from uictest.sweep.maps import MET, MapOf
@@ -25,6 +27,7 @@ from uictest.sweep.selection import Selection
 from uictest.sweep.sensitivity import Sensitivity, saltelli_sample, sensitivities
 from uictest.sweep.store import Store
 from uictest.sweep.tally import OUTCOMES, Count, Tally
+from uictest.sweep.worst import Worst
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -41,16 +44,22 @@ class Findings:
     maps: list[MapOf]
     verdicts: NDArray[np.int8]
     """Of every case of the plan: 1 met, 0 not met, -1 not run."""
+    worst_indices: list[int]
+    """Cases most worth looking at; `worst` has them in full, once they were examined."""
+    distributions: list[Distribution] = field(default_factory=list)
     sensitivities: list[Sensitivity] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     frontier: list[Stretch] = field(default_factory=list)
     frontier_key: str = ""
+    worst: list[CaseResult] = field(default_factory=list)
+    subjects: dict[str, Subject] = field(default_factory=dict)
+    """What the worst cases are about, by id."""
 
 
 def gather(
     selection: Selection, store: Store, pair: tuple[str, str] | None, measures: Sequence[str]
 ) -> Findings:
-    """Read all parts once: write summary.csv and summary.parquet, count, and work out maps and sensitivities.
+    """Read all parts: write summary.csv and summary.parquet, count, and work out what they tell.
 
     Args:
         selection: the cases of the sweep.
@@ -68,19 +77,35 @@ def gather(
     verdicts = np.full(plan.size, UNKNOWN, np.int8)
     whole = saltelli_sample(plan) is not None and selection.chosen is None
     figures = {name: np.full(plan.size, np.nan) for name in measures} if whole else {}
+    worst, distributions = Worst(), [Distribution(each) for each in figures_to_show(measures)]
     with _summary_files(store.folder) as write:
         for table in store.tables(range(selection.parts)):
             write(table)
             tally.take(table)
-            for each in maps:
-                each.take(table)
+            worst.take(table)
+            for found in maps:
+                found.take(table)
+            for each in distributions:
+                each.span(table)
             indices = table.column("index").to_numpy()
             verdicts[indices] = table.column("met").to_numpy(zero_copy_only=False)
             for name, values in figures.items():
                 values[indices] = table.column(name).to_numpy(zero_copy_only=False)
-    findings = Findings(tally, maps, verdicts)
+    findings = Findings(tally, maps, verdicts, worst.indices())
+    findings.distributions = _counted(distributions, selection, store)
     _add_sensitivities(findings, figures | ({MET: verdicts.astype(float)} if whole else {}))
     return findings
+
+
+def _counted(spanned: Sequence[Distribution], selection: Selection, store: Store) -> list[Distribution]:
+    """Count the cases of each distribution that has any: the second reading of the parts."""
+    found = [each for each in spanned if each.cases]
+    for each in found:
+        each.begin()
+    for table in store.tables(range(selection.parts)):
+        for each in found:
+            each.take(table)
+    return found
 
 
 def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[MapOf]:
@@ -128,6 +153,9 @@ def result_document(findings: Findings) -> dict[str, Any]:
         "missed": [dict(zip(("id", "outcome", "reason"), each, strict=True)) for each in tally.missed],
         "rates": {key: [_count_form(count) for count in tally.by_class(key)] for key in tally.classes},
         "maps": [_map_form(each) for each in findings.maps],
+        "distributions": [each.form() for each in findings.distributions],
+        "worst": [result.to_dict() for result in findings.worst],
+        "subjects": {name: subject.to_dict() for name, subject in findings.subjects.items()},
         "sensitivities": [dataclasses.asdict(each) for each in findings.sensitivities],
         "frontier": {"parameter": findings.frontier_key, "stretches": stretches} if stretches else None,
         "notes": findings.notes,
@@ -139,11 +167,14 @@ def _count_form(count: Count) -> dict[str, Any]:
 
 
 def _map_form(found: MapOf) -> dict[str, Any]:
+    met, cases = found.counts()
     return {
         "measure": found.measure,
         "rows": {"parameter": found.rows.key, "values": list(found.rows.labels)},
         "columns": {"parameter": found.columns.key, "values": list(found.columns.labels)},
         "means": found.means().tolist(),
+        "met": met.tolist(),
+        "cases": cases.tolist(),
     }
 
 

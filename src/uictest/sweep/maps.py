@@ -29,20 +29,27 @@ class MapOf:
         self.rows, self.columns, self.measure = rows, columns, measure
         self._plan = plan
         shape = (len(rows.labels), len(columns.labels))
-        self._sum, self._cases = np.zeros(shape), np.zeros(shape, np.int64)
+        self._sum, self._known = np.zeros(shape), np.zeros(shape, np.int64)
+        self._met, self._cases = np.zeros(shape, np.int64), np.zeros(shape, np.int64)
 
     def take(self, table: pa.Table) -> None:
-        """Add the rows of a part; a case without the figure counts nowhere."""
+        """Add the rows of a part; a case without the figure has no part in its mean."""
         indices = table.column("index").to_numpy()
         values = np.array(table.column(self.measure).to_numpy(zero_copy_only=False), float)
         known = np.isfinite(values)
-        cells = tuple(each.of(self._plan, indices, table)[known] for each in (self.rows, self.columns))
-        np.add.at(self._sum, cells, values[known])
-        np.add.at(self._cases, cells, 1)
+        down, across = (each.of(self._plan, indices, table) for each in (self.rows, self.columns))
+        np.add.at(self._sum, (down[known], across[known]), values[known])
+        np.add.at(self._known, (down[known], across[known]), 1)
+        np.add.at(self._met, (down, across), np.array(table.column(MET).to_pylist(), bool))
+        np.add.at(self._cases, (down, across), 1)
 
     def means(self) -> NDArray[np.float64]:
         """Return the mean of each cell, shape (rows, columns); NaN where no case has the figure."""
-        return _mean(self._sum, self._cases)
+        return _mean(self._sum, self._known)
+
+    def counts(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the cases met and all cases of each cell, shape (rows, columns) both."""
+        return self._met, self._cases
 
     def csv(self) -> str:
         """Return the map as CSV: a line per value of the first parameter, a column per value of the other."""
@@ -59,7 +66,7 @@ class MapOf:
         what = "share met (# none, 1-9 tenths, . all)" if self.measure == MET else f"mean {self.measure}"
         yield f"{what}: {self.rows.key} down, {self.columns.key} across"
         down, across = (_bundles(each.labels) for each in (self.rows, self.columns))
-        sums, cases = (_bundled(each, down, across) for each in (self._sum, self._cases))
+        sums, cases = (_bundled(each, down, across) for each in (self._sum, self._known))
         cells = [[self._shown(value) for value in row] for row in _mean(sums, cases).tolist()]
         heads = [self.columns.labels[bundle[0]] for bundle in across]
         names = [self.rows.labels[bundle[0]] for bundle in down]

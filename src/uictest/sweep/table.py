@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from uictest.evaluation import CaseResult, Figures, WheelsetFigures
+from uictest.evaluation import CaseResult, Figures, WheelsetFigures, narrowest_margin
 from uictest.sweep.plan import Listed, Plan, is_numeric
 
 if TYPE_CHECKING:
@@ -30,7 +30,12 @@ def number_column(key: str) -> str:
 
 def figure_names() -> list[str]:
     """Return the columns of figures: those of the stop, then those of each wheelset."""
-    return [*_names(Figures), *(f"{name}_{k}" for name in _names(WheelsetFigures) for k in _numbers())]
+    return [*_names(Figures), *(each for name in _names(WheelsetFigures) for each in wheelset_columns(name))]
+
+
+def wheelset_columns(name: str) -> tuple[str, ...]:
+    """Return the columns of a figure of wheelsets, leading first."""
+    return tuple(f"{name}_{k}" for k in _numbers())
 
 
 def numeric_keys(plan: Plan) -> list[str]:
@@ -60,6 +65,8 @@ def schema(plan: Plan) -> pa.Schema:
             *((number_column(key), number) for key in numeric_keys(plan)),
             *((name, text) for name in _OWN),
             ("met", pa.bool_()),
+            ("narrowest_margin", number),
+            ("narrowest_criterion", text),
             *((name, number) for name in figure_names()),
         ]
     )
@@ -76,6 +83,8 @@ def rows(plan: Plan, block: Block, results: Sequence[CaseResult]) -> pa.Table:
         columns[number_column(key)] = [value.number for value in block.settings[key]]
     for name in (*_OWN, "met"):
         columns[name] = [getattr(result, name) for result in results]
+    margins = zip(*map(narrowest_margin, results), strict=True)
+    columns["narrowest_margin"], columns["narrowest_criterion"] = margins
     columns.update(zip(figure_names(), zip(*map(_figures, results), strict=True), strict=True))
     arrays = [pa.array(columns[each.name], each.type, from_pandas=True) for each in schema(plan)]
     return pa.table(arrays, schema=schema(plan))

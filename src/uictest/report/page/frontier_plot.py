@@ -1,0 +1,125 @@
+"""Where the verdict flips, drawn over the first of the other parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from uictest.report.page.axis import Axis, span
+from uictest.report.sweep_wording import circumstances_words, flip_words
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
+_SIDES = ((_LEFT, _RIGHT), (_BOTTOM, _TOP))
+_MOST_SERIES = 6
+Tick = tuple[float, str]
+Point = tuple[float, float, str]
+"""Where a flip is drawn, and what it says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Flips at one combination of the parameters that are not on the axes."""
+
+    name: str
+    points: Sequence[Point]
+
+    @property
+    def path(self) -> str:
+        """The line through the points, as SVG writes it."""
+        return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y, _ in self.points)
+
+
+@dataclass(frozen=True, slots=True)
+class FrontierPlot:
+    """The frontier in pixels; `left_out` counts the series that there was no room for."""
+
+    x_title: str
+    y_title: str
+    series: Sequence[Series]
+    x_ticks: Sequence[Tick]
+    y_ticks: Sequence[Tick]
+    left_out: int
+    left: int = _LEFT
+    right: int = _RIGHT
+    top: int = _TOP
+    bottom: int = _BOTTOM
+
+
+def frontier_rows(found: Mapping[str, Any]) -> list[tuple[str, str, str]]:
+    """Return the lines of a table: at which values, where the verdict flips, and what to note."""
+    return [
+        (circumstances_words(each["circumstances"]), "; ".join(map(flip_words, each["flips"])), each["note"])
+        for each in found["stretches"]
+    ]
+
+
+def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
+    """Return the frontier drawn, or None where it depends on no other number."""
+    key = _numeric_key(found["stretches"])
+    if key is None:
+        return None
+    flips = list(_flips(found["stretches"], key))
+    if not flips:
+        return None
+    x, y = (Axis(*span([np.array([flip[place] for flip in flips])], ()), *_SIDES[place]) for place in (0, 1))
+    names = list(dict.fromkeys(flip[2] for flip in flips))
+    series = [
+        Series(
+            name, sorted((x.at(a), y.at(b), f"{a:g}: {words}") for a, b, own, words in flips if own == name)
+        )
+        for name in names[:_MOST_SERIES]
+    ]
+    return FrontierPlot(
+        _with_unit(key, (each["circumstances"][key] for each in found["stretches"])),
+        _with_unit(
+            found["parameter"], (flip["low"] for each in found["stretches"] for flip in each["flips"])
+        ),
+        series,
+        [(x.at(value), label) for value, label in x.ticks(8)],
+        [(y.at(value), label) for value, label in y.ticks(6)],
+        len(names) - len(series),
+    )
+
+
+def _flips(stretches: Sequence[Mapping[str, Any]], key: str) -> Iterator[tuple[float, float, str, str]]:
+    """Yield of each flip where it lies on both axes, what it belongs to, and what it says."""
+    for each in stretches:
+        for flip in each["flips"]:
+            place, middle = _number(each["circumstances"][key]), _middle(flip)
+            if place is not None and middle is not None:
+                yield place, middle, _others(each["circumstances"], key), flip_words(flip)
+
+
+def _with_unit(key: str, texts: Iterable[str]) -> str:
+    unit = next((text.partition(" ")[2] for text in texts), "")
+    return f"{key}, {unit}" if unit else key
+
+
+def _numeric_key(stretches: Sequence[Mapping[str, Any]]) -> str | None:
+    keys = stretches[0]["circumstances"] if stretches else {}
+    for key in keys:
+        numbers = {_number(each["circumstances"][key]) for each in stretches}
+        if None not in numbers and len(numbers) > 1:
+            return str(key)
+    return None
+
+
+def _others(circumstances: Mapping[str, str], key: str) -> str:
+    rest = {name: text for name, text in circumstances.items() if name != key}
+    return circumstances_words(rest) if rest else "the verdict flips here"
+
+
+def _middle(flip: Mapping[str, str]) -> float | None:
+    low, high = _number(flip["low"]), _number(flip["high"])
+    return None if low is None or high is None else 0.5 * (low + high)
+
+
+def _number(text: str) -> float | None:
+    """Return the number that a text begins with."""
+    try:
+        return float(text.split()[0])
+    except (ValueError, IndexError):
+        return None

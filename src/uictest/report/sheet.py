@@ -1,0 +1,127 @@
+"""Rows on the sheets of a workbook: text stays text, whatever it begins with; no figure, no content."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import itertools
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+from uictest.report.csv_table import Cell
+from uictest.report.escaping import printable
+
+if TYPE_CHECKING:
+    from xlsxwriter import Workbook
+    from xlsxwriter.format import Format
+    from xlsxwriter.worksheet import Worksheet
+
+LONGEST_TEXT = 32_767
+"""Characters a cell can hold."""
+
+MOST_ROWS = 1_048_575
+"""Rows a sheet can hold below its header."""
+
+_AS_WRITTEN = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+_EPOCH = datetime(1980, 1, 1, tzinfo=UTC)
+_WIDEST, _NARROWEST = 60, 9  # characters
+_MEASURED = 200  # rows that decide how wide a column is
+
+Row = dict[str, Cell]
+Styles = Mapping[str, "Format"]
+
+
+@contextlib.contextmanager
+def open_workbook(target: io.BytesIO, *, streaming: bool = False) -> Iterator[Workbook]:
+    """Lend a workbook that takes no text for anything else; it is in the buffer when the block ends.
+
+    With `streaming` each row goes to a temporary file when the next one begins. Raises OSError.
+    """
+    from xlsxwriter import Workbook
+    from xlsxwriter.exceptions import FileCreateError
+
+    folder = tempfile.TemporaryDirectory(prefix="uictest-") if streaming else contextlib.nullcontext()
+    with folder as rows:
+        memory = {"constant_memory": True, "tmpdir": rows} if streaming else {"in_memory": True}
+        workbook = Workbook(target, _AS_WRITTEN | memory)
+        # A clock in the file would make two workbooks of the same results differ.
+        workbook.set_properties({"created": _EPOCH})
+        try:
+            with workbook:
+                yield workbook
+        except FileCreateError as error:
+            raise error.args[0] from error
+        finally:
+            _close_rows(workbook)
+
+
+def _close_rows(workbook: Workbook) -> None:
+    # The library leaves them open where a sheet stays empty or something goes wrong.
+    for sheet in workbook.worksheets():
+        if sheet.row_data_fh is not None:
+            sheet.row_data_fh.close()
+
+
+def styles_of(workbook: Workbook) -> Styles:
+    """Return the formats that the sheets of a workbook share."""
+    return {
+        "header": workbook.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"}),
+        "good": workbook.add_format({"font_color": "#1c6b3a", "bg_color": "#e5f2e9"}),
+        "bad": workbook.add_format({"font_color": "#b3261e", "bg_color": "#fbe7e5"}),
+    }
+
+
+def write_sheet(sheet: Worksheet, rows: Sequence[Row], styles: Styles) -> None:
+    """Write rows below a header that names every column of any of them."""
+    write_table(sheet, list(dict.fromkeys(column for row in rows for column in row)), rows, styles)
+
+
+def write_table(
+    sheet: Worksheet, columns: Sequence[str], rows: Iterable[Row], styles: Styles, most: int = MOST_ROWS
+) -> int:
+    """Write up to `most` rows below a header of the columns; return how many there were to write."""
+    waiting = iter(rows)
+    first = list(itertools.islice(waiting, _MEASURED))
+    for column, name in enumerate(columns):
+        write_cell(sheet, 0, column, name, styles["header"])
+        sheet.set_column(column, column, width(name, (row.get(name) for row in first)))
+    count = 0
+    for count, row in enumerate(itertools.islice(itertools.chain(first, waiting), most), start=1):
+        for column, name in enumerate(columns):
+            write_cell(sheet, count, column, row.get(name))
+    sheet.freeze_panes(1, 1)
+    if count:
+        sheet.autofilter(0, 0, count, len(columns) - 1)
+    _colour_verdicts(sheet, columns, count, styles)
+    return count
+
+
+def write_cell(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None = None) -> None:
+    """Write a cell as what it is; nothing is taken for a formula, a link or a number that is not one."""
+    if isinstance(value, str):
+        sheet.write_string(row, column, _text(value), style)
+    elif isinstance(value, bool):
+        sheet.write_boolean(row, column, value, style)
+    elif value is not None and abs(value) < float("inf"):
+        sheet.write_number(row, column, value, style)
+
+
+def width(name: str, values: Iterable[Cell]) -> int:
+    """Return how wide a column has to be for its name and its texts, in characters."""
+    longest = max([len(name), *(len(value) for value in values if isinstance(value, str))])
+    return min(max(longest + 2, _NARROWEST), _WIDEST)
+
+
+def _colour_verdicts(sheet: Worksheet, columns: Sequence[str], rows: int, styles: Styles) -> None:
+    for word, colour in (("met", "good"), ("pass", "good"), ("missed", "bad"), ("fail", "bad")):
+        for name in {"met", "verdict"} & set(columns):
+            column = columns.index(name)
+            rule: dict[str, Any] = {"type": "cell", "criteria": "==", "value": f'"{word}"'}
+            sheet.conditional_format(1, column, max(rows, 1), column, rule | {"format": styles[colour]})
+
+
+def _text(text: str) -> str:
+    shown = text if text.isprintable() else printable(text)
+    return shown if len(shown) <= LONGEST_TEXT else f"{shown[: LONGEST_TEXT - 1]}…"

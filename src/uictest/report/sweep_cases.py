@@ -1,0 +1,49 @@
+"""The cases of a sweep on a sheet, read from summary.parquet piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from uictest.report.sheet import Row, Styles, write_table
+
+if TYPE_CHECKING:
+    import pyarrow.parquet as pq
+    from xlsxwriter.worksheet import Worksheet
+
+SUMMARY: Final = "summary.parquet"
+
+MOST_CASES: Final = 100_000
+"""Cases that a workbook has: a spreadsheet would take minutes to open a larger one."""
+
+_AT_ONCE: Final = 1024
+
+
+def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> None:
+    """Write a row per case, in the order of the sweep; where there are too many, those not met come first.
+
+    Raises OSError, and ValueError where the file cannot be read.
+    """
+    import pyarrow.parquet as pq
+
+    with pq.ParquetFile(folder / SUMMARY) as summary:
+        # The id leads: it is the column that stays in sight.
+        columns = sorted(summary.schema_arrow.names, key=lambda name: name != "id")
+        cases = summary.metadata.num_rows
+        written = write_table(sheet, columns, _rows(summary, by_verdict=cases > most), styles, most)
+    if written < cases:
+        sheet.write_string(written + 1, 0, left_out(cases, written))
+
+
+def left_out(cases: int, written: int) -> str:
+    """Return which cases a workbook lacks."""
+    return f"{cases - written} of {cases} cases are in summary.csv only; those not met stand first here"
+
+
+def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:
+    for wanted in (False, True) if by_verdict else (None,):
+        for batch in summary.iter_batches(_AT_ONCE):
+            for row in batch.to_pylist():
+                if wanted is None or row["met"] == wanted:
+                    yield row | {"met": "met" if row["met"] else "missed"}

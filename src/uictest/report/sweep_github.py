@@ -1,0 +1,26 @@
+"""Annotations for GitHub Actions: the worst cases of a sweep that are not met, and what it came to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Final
+
+from uictest.report.github import annotation
+from uictest.report.sweep_notable import notable_cases
+from uictest.report.sweep_wording import sweep_tally
+
+if TYPE_CHECKING:
+    from uictest.report.sweep_content import SweepContent
+
+MOST_ANNOTATED: Final = 10
+"""GitHub shows ten annotations of one kind per step."""
+
+
+def sweep_annotations(content: SweepContent) -> Iterator[str]:
+    """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
+    file = str(content.manifest.get("file", ""))
+    missed = [case for case in notable_cases(content) if not case.met]
+    for case in missed[:MOST_ANNOTATED]:
+        yield annotation(file, f"{case.word} {case.id}", case.why)
+    title = f"uictest sweep {content.document['name']}"
+    yield annotation(file, title, sweep_tally(content.document), level="notice")

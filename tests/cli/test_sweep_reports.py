@@ -1,0 +1,110 @@
+"""`uictest sweep` and `uictest report`: what a sweep leaves for people and for GitHub."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+FOLDER = Path("reports/pads")
+TEXT = """\
+schema: uictest/sweep/1
+name: pads
+scenario: scenarios/stop.yaml
+grid:
+  brake.system.disc.pad_friction: [0.30, 0.45]
+  brake.command: [80 %, 100 %]
+"""
+
+
+@pytest.fixture
+def pads(scenario: Callable[..., Path]) -> Path:
+    """A sweep of four stops that are expected to fail and do not."""
+    scenario("stop", "expect: fail\n")
+    Path("pads.sweep.yaml").write_text(TEXT)
+    return Path("pads.sweep.yaml")
+
+
+def test_reports_are_written_in_the_formats_asked_for(call: Call, pads: Path) -> None:
+    assert call("sweep", pads, "--report", "md,xlsx").code == 1
+    assert (FOLDER / "summary.md").read_text().startswith("## uictest sweep: 4 cases: 4 missed\n")
+    assert (FOLDER / "report.xlsx").read_bytes().startswith(b"PK")
+
+
+def test_a_format_there_is_not_is_refused_before_anything_runs(call: Call, pads: Path) -> None:
+    answer = call("sweep", pads, "--report", "pdf")
+    assert (answer.code, answer.out, FOLDER.exists()) == (4, "", False)
+
+
+def test_a_finished_sweep_gives_further_formats(call: Call, pads: Path) -> None:
+    call("sweep", pads, "--report", "csv")
+    answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere")
+    assert answer.code == 0
+    written = {Path(line).name for line in answer.out.splitlines()}
+    assert {"summary.csv", "rates.csv", "map-met.csv", "report.xlsx", "summary.md"} <= written
+    assert written == {path.name for path in Path("elsewhere").iterdir()}
+
+
+@pytest.mark.parametrize("name", ["sweep.json", "summary.parquet"])
+def test_a_damaged_sweep_is_refused(call: Call, pads: Path, name: str) -> None:
+    call("sweep", pads, "--report", "csv")
+    (FOLDER / name).write_text("{}")
+    answer = call("report", FOLDER, "--format", "xlsx")
+    assert (answer.code, answer.out) == (4, "")
+    assert "cannot be read as a sweep" in answer.err
+
+
+def test_github_gets_annotations_below_the_findings(call: Call, pads: Path) -> None:
+    lines = call("sweep", pads, "--format", "github").out.splitlines()
+    errors = [line for line in lines if line.startswith("::error ")]
+    assert len(errors) == 4
+    assert "file=pads.sweep.yaml,title=MISSED pads[" in errors[0]
+    assert lines[-1] == "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 missed"
+    assert any("cases met" in line for line in lines)
+
+
+def test_annotations_are_shown_when_nothing_else_is(call: Call, pads: Path) -> None:
+    lines = call("sweep", pads, "--format", "github", "-q").out.splitlines()
+    assert {line.split(" ")[0] for line in lines} == {"::error", "::notice"}
+
+
+def test_the_summary_is_appended_where_github_wants_it(
+    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("summary").write_text("# Before\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "summary")
+    call("sweep", pads, "--report", "csv")
+    assert Path("summary").read_text().startswith("# Before\n## uictest sweep: 4 cases: 4 missed\n")
+
+
+def test_a_summary_that_cannot_be_written_undoes_nothing(
+    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(Path("no/folder")))
+    answer = call("sweep", pads, "--report", "md")
+    assert answer.code == 1
+    assert "GITHUB_STEP_SUMMARY cannot be written" in answer.err
+    assert (FOLDER / "summary.md").exists()
+
+
+def test_the_page_draws_the_worst_cases_and_can_be_made_again(call: Call, pads: Path) -> None:
+    call("sweep", pads)
+    page = FOLDER / "index.html"
+    first = page.read_bytes()
+    assert first.count(b'<details class="stop"') == 4
+    assert len(list((FOLDER / "recordings").iterdir())) == 4
+    page.unlink()
+    assert call("report", FOLDER, "--format", "html").code == 0
+    assert page.read_bytes() == first
+
+
+def test_a_case_that_cannot_be_simulated_is_named_and_not_drawn(call: Call, pads: Path) -> None:
+    steps = "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
+    pads.write_text(TEXT.split("grid")[0] + steps)
+    assert call("sweep", pads).code == 3
+    html = (FOLDER / "index.html").read_text()
+    assert 'class="word word-ERROR"' in html
+    assert html.count('<details class="stop"') == 3

@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.evaluation import CaseResult
+from uictest.recording import Recording
+from uictest.report import write_recording
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_contents import read_sweep
+
+MakeResult = Callable[..., CaseResult]
+MakeSweep = Callable[..., SweepContent]
+
+
+@pytest.fixture
+def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
+    """The folder of a finished sweep with one case worth looking at."""
+    content = make_sweep()
+    document = {**content.document, "worst": [make_result().to_dict()]}
+    (content.folder / "sweep.json").write_text(json.dumps(document))
+    (content.folder / "manifest.json").write_text(json.dumps(content.manifest))
+    return content.folder
+
+
+def test_a_sweep_is_read_back(folder: Path, make_sweep: MakeSweep, make_result: MakeResult) -> None:
+    content = read_sweep(folder)
+    assert {**content.document, "worst": []} == {**make_sweep().document, "worst": []}
+    assert (content.folder, content.manifest) == (folder, make_sweep().manifest)
+    assert [result.to_dict() for result in content.worst] == [make_result().to_dict()]
+    assert content.traces == {}
+
+
+def test_its_recordings_are_read_where_they_are_to_be_drawn(
+    folder: Path, make_recording: Callable[..., Recording]
+) -> None:
+    write_recording(folder, "dry-120[command=90]", make_recording(400))
+    assert list(read_sweep(folder, traces=True).traces) == ["dry-120[command=90]"]
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"schema": "uictest/result/1"}'])
+def test_what_is_no_sweep_is_refused(folder: Path, text: str) -> None:
+    (folder / "sweep.json").write_text(text)
+    with pytest.raises(ValueError, match=r"sweep\.json"):
+        read_sweep(folder)
+
+
+@pytest.mark.parametrize("worst", [[{}], [1], 1])
+def test_a_case_that_is_none_is_refused(folder: Path, worst: object) -> None:
+    document = json.loads((folder / "sweep.json").read_text())
+    (folder / "sweep.json").write_text(json.dumps(document | {"worst": worst}))
+    with pytest.raises(ValueError, match="not the result of a sweep"):
+        read_sweep(folder)

@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from uictest.evaluation import CaseResult
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_github import MOST_ANNOTATED, sweep_annotations
+
+MakeResult = Callable[..., CaseResult]
+MakeSweep = Callable[..., SweepContent]
+
+
+def test_cases_that_are_not_met_are_annotated_and_the_sweep_is_counted(
+    make_sweep: MakeSweep, make_result: MakeResult
+) -> None:
+    missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
+    assert list(sweep_annotations(make_sweep((missed, make_result()), "pads"))) == [
+        "::error file=scenarios/pads.sweep.yaml,title=MISSED b[x]::expected pass, came out fail; locked",
+        "::error file=scenarios/pads.sweep.yaml,title=MISSED lost[pads]::came out invalid: pads",
+        "::notice file=scenarios/pads.sweep.yaml,title=uictest sweep pads::4 cases: 3 met, 1 missed",
+    ]
+
+
+def test_there_are_no_more_annotations_than_github_shows(
+    make_sweep: MakeSweep, make_result: MakeResult
+) -> None:
+    missed = tuple(make_result(id=f"case-{k}", outcome="fail") for k in range(12))
+    lines = list(sweep_annotations(make_sweep(missed)))
+    assert sum(line.startswith("::error ") for line in lines) == MOST_ANNOTATED
+    assert "title=MISSED case-0::" in lines[0]
+
+
+def test_a_hostile_name_cannot_start_a_command_of_its_own(
+    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
+) -> None:
+    bad = make_result(id=hostile, parameters={hostile: hostile}, outcome="error", reason=hostile)
+    for line in sweep_annotations(make_sweep((bad,), hostile)):
+        assert line.startswith(("::error file=", "::notice file="))
+        assert not set("\n\r\x00\x1b\u202e") & set(line)
+        properties = line.split("::")[1]
+        assert properties.count(",") == 1

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from markdown_it import MarkdownIt
+
+from uictest.evaluation import CaseResult
+from uictest.report.step_summary import LIMIT
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_markdown import append_sweep_step_summary, sweep_markdown
+
+MakeResult = Callable[..., CaseResult]
+MakeSweep = Callable[..., SweepContent]
+
+_READER = MarkdownIt("commonmark", {"html": True}).enable("table")
+
+
+def _count(label: str, cases: int = 1) -> dict[str, Any]:
+    return {"value": label, "cases": cases, "met": cases, "outcomes": {}}
+
+
+def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: MakeResult) -> None:
+    worst = (make_result(id="b[x]", outcome="fail", criteria=(), reason="locked"), make_result())
+    text = sweep_markdown(make_sweep(worst))
+    assert text.startswith("## uictest sweep: 4 cases: 3 met, 1 missed\n")
+    assert [line.removeprefix("### ") for line in text.splitlines() if line.startswith("### ")] == [
+        "90 %",
+        "Share of cases met, %",
+        "Cases most worth looking at",
+        "Cases met by value of each parameter",
+        "Frontier along `90 %`",
+        "Share of the variance that each parameter explains",
+        "Figures",
+        "Notes",
+    ]
+    assert "| `brake.90 %` ↓ `rail.friction` → | 0.10 | 0.12 |" in text
+    assert "| 90 % | **0** | 100 |" in text
+    assert "| **MISSED** | `b[x]` | fail | 465.2 | – |  | expected pass, came out fail; locked |" in text  # noqa: RUF001 - a dash on paper
+    assert "|  | 90 % | 2 | 1 | 50 | █████░░░░░ |" in text
+    assert "| 90 % = 90 % | not met up to 90 %, met from 0.11 | 90 % |" in text
+
+
+def test_what_a_sweep_does_not_have_has_no_heading(make_sweep: MakeSweep) -> None:
+    nothing: dict[str, Any] = {
+        "maps": [],
+        "missed": [],
+        "sensitivities": [],
+        "distributions": [],
+        "notes": [],
+    }
+    text = sweep_markdown(make_sweep(frontier=None, **nothing))
+    assert text.count("### ") == 2
+
+
+def test_a_large_map_is_shown_small(make_sweep: MakeSweep) -> None:
+    values, ones = [str(k) for k in range(1000)], [[1] * 1000] * 1000
+    axes = {axis: {"parameter": axis, "values": values} for axis in ("rows", "columns")}
+    found = {"measure": "met", **axes, "means": ones, "met": [[0] * 1000, *ones[1:]], "cases": ones}
+    text = sweep_markdown(make_sweep(maps=[found]))
+    assert "→ | 0 … 41 | 42 … 83 |" in text
+    assert "| 0 … 41 | **98** |" in text
+    assert "`map-met.csv`" in text
+
+
+def test_a_parameter_with_many_values_is_referred_to(make_sweep: MakeSweep) -> None:
+    text = sweep_markdown(make_sweep(rates={"rail.friction": [_count(str(k)) for k in range(31)]}))
+    assert "| `rail.friction` | 31 values, see `rates.csv` |" in text
+
+
+@pytest.mark.parametrize("limit", [2_000, 20_000, LIMIT])
+def test_whatever_the_sweep_the_limit_is_kept(
+    make_sweep: MakeSweep, make_result: MakeResult, limit: int
+) -> None:
+    long = "💥`|&<" * 1000
+    rates = {f"{long}{key}": [_count(f"{long}{k}", 10) for k in range(30)] for key in range(40)}
+    text = sweep_markdown(make_sweep((make_result(id=long, reason=long),) * 12, long, rates=rates), limit)
+    assert len(text.encode()) <= limit
+    assert "more" in text.splitlines()[-1]
+
+
+def test_hostile_texts_are_shown_as_text(
+    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
+) -> None:
+    bad = f"{hostile}`|\\`` <img src=x> [a](javascript:b) ![c](d) ~~e~~ @team #1 https://example.org"
+    worst = make_result(id=bad, outcome="fail", criteria=(), reason=bad)
+    text = sweep_markdown(make_sweep((worst,), bad))
+    tokens = _READER.parse(text)
+    kinds = {child.type for token in tokens for child in (token.children or [])}
+    assert kinds <= {"text", "code_inline", "strong_open", "strong_close", "softbreak"}
+    assert {token.type for token in tokens} & {"html_block", "fence", "code_block", "hr"} == set()
+    assert not set("\x00\x1b\u202e") & set(text)
+
+
+def test_the_summary_is_appended_where_github_wants_it(
+    make_sweep: MakeSweep, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = tmp_path / "summary"
+    place.write_bytes(b"x" * 999_000 + b"\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(place))
+    append_sweep_step_summary(make_sweep())
+    assert b"\n## uictest sweep: 4 cases" in place.read_bytes()
+    assert place.stat().st_size <= 2**20

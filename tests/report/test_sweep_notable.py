@@ -1,0 +1,31 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from uictest.evaluation import CaseResult
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_notable import notable_cases
+
+MakeResult = Callable[..., CaseResult]
+MakeSweep = Callable[..., SweepContent]
+
+
+def test_each_case_stands_once_and_those_not_met_in_front(
+    make_sweep: MakeSweep, make_result: MakeResult
+) -> None:
+    missed = [{"id": name, "outcome": "error", "reason": "no air"} for name in ("a", "b")]
+    worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
+    cases = notable_cases(make_sweep(worst, missed=missed))
+    assert [case.id for case in cases] == ["a", "b", "narrow"]
+    assert [case.word for case in cases] == ["ERROR", "ERROR", "met"]
+    assert [case.why for case in cases] == [
+        "expected pass, came out error; no air",
+        "came out error: no air",
+        "",
+    ]
+    assert [case.distance for case in cases] == [465.25, None, 465.25]
+
+
+def test_without_a_reason_the_outcome_is_one(make_sweep: MakeSweep) -> None:
+    (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]))
+    assert case.why == "came out skipped"

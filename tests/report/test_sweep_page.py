@@ -1,0 +1,132 @@
+"""The page of a sweep: what stands on it, and that nothing in it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from uictest.evaluation import CaseResult
+from uictest.recording import Recording
+from uictest.report.page import sweep_page_html, trace_of
+from uictest.report.page.frontier_plot import frontier_plot
+from uictest.report.page.heat import heat_map
+from uictest.report.page.histogram import histogram
+from uictest.report.sweep_content import SweepContent
+
+from .test_page import Page
+
+MakeSweep = Callable[..., SweepContent]
+MakeResult = Callable[..., CaseResult]
+
+
+def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
+    text = Page(sweep_page_html(make_sweep())).text
+    for heading in (
+        "4 cases: 3 met, 1 missed",
+        "Cases met",
+        "Mean braking distance, m",
+        "Frontier along 90 %",
+        "Cases met by parameter",
+        "Distributions",
+        "What the figures depend on",
+        "Cases most worth looking at",
+        "Provenance",
+    ):
+        assert heading in text
+
+
+def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(
+    make_sweep: MakeSweep, make_result: MakeResult, make_recording: Callable[..., Recording]
+) -> None:
+    parameters = {"brake.90 %": "80 %", "rail.friction": "0.10"}
+    worst = make_result(id="stop[a]", parameters=parameters)
+    traces = {"stop[a]": trace_of(make_recording())}
+    page = Page(sweep_page_html(make_sweep((worst,), traces=traces)))
+    assert ("details", {"class": "stop", "id": "case-1"}) in page.elements
+    links = [attributes.get("href") for tag, attributes in page.elements if tag == "a"]
+    # From two maps and from the table of cases.
+    assert links.count("#case-1") == 3
+
+
+def test_without_recordings_there_is_nothing_to_draw(make_sweep: MakeSweep, make_result: MakeResult) -> None:
+    page = Page(sweep_page_html(make_sweep((make_result(id="stop[a]"),))))
+    assert "stop[a]" in page.text
+    assert not any(attributes.get("id") == "plotly" for attributes, _ in page.scripts)
+
+
+def test_hostile_texts_are_shown_and_make_no_element(
+    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
+) -> None:
+    harmless = Page(sweep_page_html(make_sweep((make_result(),))))
+    page = Page(sweep_page_html(make_sweep((make_result(id=hostile, reason=hostile),), text=hostile)))
+    assert [tag for tag, _ in page.elements if tag == "b"] == []
+    assert [tag for tag, _ in page.elements] == [tag for tag, _ in harmless.elements]
+    assert "<b>&" in page.text
+    assert "\u202e" not in page.text
+
+
+def test_a_map_of_a_million_cells_is_bundled(make_sweep: MakeSweep) -> None:
+    values = [str(k) for k in range(1000)]
+    cells = {name: [[1] * 1000] * 1000 for name in ("means", "met", "cases")}
+    axes = {name: {"parameter": name, "values": values} for name in ("rows", "columns")}
+    html = sweep_page_html(make_sweep(maps=[{"measure": "met", **axes, **cells}]))
+    assert len(html) < 1_000_000
+    assert "map-met.csv has each" in html
+
+
+def cells(**changes: Any) -> dict[str, Any]:
+    axes = {"rows": {"parameter": "a", "values": ["1"]}, "columns": {"parameter": "b", "values": ["x", "y"]}}
+    return {"measure": "met", **axes, "means": [[0.5, None]], "met": [[1, 0]], "cases": [[2, 0]], **changes}
+
+
+def test_cells_say_their_share_and_lead_to_a_drawn_case() -> None:
+    ((label, (first, second)),) = heat_map(cells(), {("1", "x"): "case-3"}).rows
+    assert (label, first.text, first.detail, first.tone, first.missed) == ("1", "50 %", "1 of 2", 50, True)
+    assert (first.key, second.key, second.tone) == ("case-3", "", 0)
+
+
+@pytest.mark.parametrize(("mean", "tone"), [(10.0, 0), (15.0, 50), (20.0, 100)])
+def test_cells_of_a_figure_are_toned_between_its_ends(mean: float, tone: int) -> None:
+    columns = {"columns": {"parameter": "b", "values": ["x", "y", "z"]}}
+    counts = {"met": [[1, 1, 1]], "cases": [[1, 1, 1]]}
+    found = cells(measure="braking_distance_m", means=[[10.0, 20.0, mean]], **columns, **counts)
+    assert heat_map(found, {}).rows[0][1][2].tone == tone
+
+
+def test_bars_stack_to_the_cases_of_their_bin() -> None:
+    counts = {"pass": [3, 0], "fail": [1, 2]}
+    ends = {"minimum": 0.0, "mean": 1.0, "maximum": 2.0}
+    drawn = histogram(
+        {"measure": "slide", "unit": "1", "cases": 6, "edges": [0.0, 1.0, 2.0], "counts": counts, **ends}
+    )
+    height = {(bar.outcome, round(bar.x)): bar.height for bar in drawn.bars}
+    per_case = (drawn.bottom - drawn.top) / 4
+    assert sorted(height.values()) == pytest.approx([per_case, 2 * per_case, 3 * per_case])
+    assert drawn.outcomes == ["pass", "fail"]
+
+
+def stretch(command: str, speed: str, low: str, high: str) -> dict[str, Any]:
+    flips = [{"low": low, "high": high, "met_at_low": False}]
+    return {"circumstances": {"command": command, "speed": speed}, "flips": flips, "note": ""}
+
+
+def test_the_frontier_is_drawn_over_the_first_parameter_that_changes() -> None:
+    stretches = [
+        stretch("80 %", "60 km/h", "0.10", "0.12"),
+        stretch("80 %", "90 km/h", "0.12", "0.14"),
+        stretch("80 %", "120 km/h", "0.14", "0.16"),
+    ]
+    plot = frontier_plot({"parameter": "rail.friction", "stretches": stretches})
+    assert plot is not None
+    assert plot.x_title == "speed, km/h"
+    (series,) = plot.series
+    xs, ys, _ = zip(*series.points, strict=True)
+    assert series.name == "command = 80 %"
+    assert list(xs) == sorted(xs)
+    assert list(ys) == sorted(ys, reverse=True)
+
+
+def test_a_frontier_over_no_other_number_is_a_table_only() -> None:
+    assert frontier_plot({"parameter": "rail.friction", "stretches": [stretch("a", "b", "1", "2")]}) is None

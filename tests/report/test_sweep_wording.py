@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+import pytest
+
+from uictest.report.sweep_wording import (
+    bar,
+    circumstances_words,
+    flip_words,
+    share_words,
+    sweep_tally,
+    swept_words,
+)
+
+
+def test_a_sweep_is_counted_and_none_is_counted_twice() -> None:
+    document = {"cases": 75, "met": 70, "outcomes": {"error": 1}}
+    assert sweep_tally(document) == "75 cases: 70 met, 4 missed, 1 in error"
+
+
+@pytest.mark.parametrize(
+    ("labels", "shown"),
+    [
+        (["80 %", "90 %"], "80 %, 90 %"),
+        (["0.1", "0.2", "0.3", "0.4"], "0.1 .. 0.4 (4 values)"),
+        (["0.08 .. 0.12", "0.12 .. 0.16 m/s"], "0.08 .. 0.16 m/s, drawn"),
+        ([], ""),
+    ],
+)
+def test_what_is_swept_is_said_by_its_ends(labels: list[str], shown: str) -> None:
+    assert swept_words(labels) == shown
+
+
+@pytest.mark.parametrize(
+    ("met", "cases", "share", "blocks"),
+    [(1000, 1000, "100", 10), (999, 1000, "99", 9), (1, 1000, "1", 1), (0, 9, "0", 0)],
+)
+def test_only_what_is_whole_is_shown_as_whole(met: int, cases: int, share: str, blocks: int) -> None:
+    assert share_words(met, cases) == share
+    assert bar(met, cases).count("█") == blocks
+    assert len(bar(met, cases)) == 10
+
+
+def test_no_case_has_no_share() -> None:
+    assert (share_words(0, 0), bar(0, 0)) == ("–", "")  # noqa: RUF001 - a dash on paper
+
+
+def test_a_flip_is_said_in_the_direction_it_has() -> None:
+    flip = {"low": "0.10", "high": "0.11", "met_at_low": True}
+    assert flip_words(flip) == "met up to 0.10, not met from 0.11"
+    assert flip_words(flip | {"met_at_low": False}) == "not met up to 0.10, met from 0.11"
+
+
+def test_circumstances_are_listed() -> None:
+    assert circumstances_words({"a": "1", "b": "2 m"}) == "a = 1, b = 2 m"
+    assert circumstances_words({}) == "all cases"

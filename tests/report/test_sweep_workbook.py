@@ -1,0 +1,130 @@
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from uictest.evaluation import CaseResult
+from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep_workbook import sweep_workbook_bytes
+
+openpyxl = pytest.importorskip("openpyxl")
+
+MakeResult = Callable[..., CaseResult]
+MakeSweep = Callable[..., SweepContent]
+SHEETS = ["Summary", "Cases", "Maps", "Rates", "Frontier", "Sensitivity", "Worst cases", "Provenance"]
+
+
+def _write_summary(folder: Path, rows: list[dict[str, Any]]) -> None:
+    pq.write_table(pa.Table.from_pylist(rows), folder / "summary.parquet")
+
+
+def _rows(count: int, **changes: object) -> list[dict[str, Any]]:
+    own = {"parameters.rail.friction": "0.1", "reason": "", "braking_distance_m": None}
+    return [{"index": k, "id": f"case-{k}", "met": k % 3 > 0, **own, **changes} for k in range(count)]
+
+
+def _read(content: SweepContent, **options: int) -> Any:
+    return openpyxl.load_workbook(io.BytesIO(sweep_workbook_bytes(content, **options)))
+
+
+def _table(sheet: Any) -> list[dict[str, Any]]:
+    header, *rows = ([cell.value for cell in row] for row in sheet.iter_rows())
+    return [dict(zip(header, row, strict=True)) for row in rows]
+
+
+def test_the_sheets_hold_what_the_sweep_found(make_sweep: MakeSweep, make_result: MakeResult) -> None:
+    content = make_sweep((make_result(),))
+    _write_summary(content.folder, _rows(4, braking_distance_m=465.25))
+    workbook = _read(content)
+    assert workbook.sheetnames == SHEETS
+    summary = {row["what"]: row["value"] for row in _table(workbook["Summary"])}
+    assert (summary["cases"], summary["met"], summary["outcome fail"]) == (4, 3, 1)
+    case = _table(workbook["Cases"])[0]
+    assert next(iter(case)) == "id"
+    assert (case["id"], case["met"], case["braking_distance_m"]) == ("case-0", "missed", 465.25)
+    assert _table(workbook["Rates"])[1]["share_met"] == 0.5
+    (flip,) = _table(workbook["Frontier"])
+    assert (flip["from"], flip["to"], flip["met_at_from"], flip["flips"]) == ("90 %", "0.11", False, 1)
+    (index,) = _table(workbook["Sensitivity"])
+    assert (index["first"], index["first_low"], index["total_high"]) == (0.5, 0.4, 0.6)
+    worst = _table(workbook["Worst cases"])
+    assert [row["case"] for row in worst] == ["lost[90 %]", "dry-120[command=90]"]
+    assert [row["braking_distance_m"] for row in worst] == [None, 465.25]
+    assert {"what": "versions: uictest", "value": "0.1.0"} in _table(workbook["Provenance"])
+
+
+def test_each_map_has_a_colour_scale_of_its_own(make_sweep: MakeSweep) -> None:
+    content = make_sweep()
+    _write_summary(content.folder, _rows(4))
+    sheet = _read(content)["Maps"]
+    assert sheet["A1"].value == "share of cases met: brake.90 % down, rail.friction across"
+    assert [cell.value for cell in sheet[4]] == ["90 %", 0, 1]
+    assert [cell.value for cell in sheet[9]] == ["90 %", None, 3.5]
+    scales = {str(each.sqref): each.rules[0].type for each in sheet.conditional_formatting}
+    assert scales == {"B3:C4": "colorScale", "B8:C9": "colorScale"}
+
+
+def test_what_a_sweep_does_not_have_has_no_sheet(make_sweep: MakeSweep) -> None:
+    content = make_sweep(maps=[], missed=[], sensitivities=[], frontier=None, distributions=[])
+    _write_summary(content.folder, _rows(1))
+    assert _read(content).sheetnames == ["Summary", "Cases", "Rates", "Provenance"]
+
+
+def test_cases_without_room_are_counted_and_those_not_met_are_kept(make_sweep: MakeSweep) -> None:
+    content = make_sweep(cases=12)
+    _write_summary(content.folder, _rows(12))
+    workbook = _read(content, most_cases=5)
+    *cases, note = _table(workbook["Cases"])
+    assert [case["id"] for case in cases] == ["case-0", "case-3", "case-6", "case-9", "case-1"]
+    assert note["id"] == "7 of 12 cases are in summary.csv only; those not met stand first here"
+    assert note["id"] in [row["value"] for row in _table(workbook["Summary"])]
+
+
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+1", "-1", "@SUM(A1)", "http://example.org", "mailto:a@b", "12", "{=A1}"]
+)
+def test_text_stays_text(make_sweep: MakeSweep, make_result: MakeResult, text: str) -> None:
+    result = make_result(id=text, parameters={text: text}, outcome="fail", reason=text, scenario=text)
+    content = make_sweep((result,), text)
+    _write_summary(content.folder, _rows(1, **{text: text, "reason": text}))
+    workbook = _read(content)
+    for cell in (cell for sheet in workbook for row in sheet.iter_rows() for cell in row):
+        assert cell.data_type in "sbn"
+        assert cell.hyperlink is None
+    assert _table(workbook["Cases"])[0][text] == text
+    assert _table(workbook["Worst cases"])[0][text] == text
+    assert _table(workbook["Frontier"])[0]["note"] == text
+
+
+def test_hostile_and_endless_texts_leave_a_workbook_that_opens(
+    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
+) -> None:
+    content = make_sweep((make_result(id=hostile, reason="x" * 40_000),), hostile)
+    _write_summary(content.folder, _rows(1, reason=hostile * 1000))
+    workbook = _read(content)
+    assert workbook.sheetnames == SHEETS
+    texts = [cell.value for sheet in workbook for row in sheet.iter_rows() for cell in row]
+    assert not any(set("\x00\x1b\u202e") & set(str(text)) for text in texts)
+
+
+def test_the_same_findings_give_the_same_bytes(make_sweep: MakeSweep) -> None:
+    content = make_sweep()
+    _write_summary(content.folder, _rows(40))
+    assert sweep_workbook_bytes(content) == sweep_workbook_bytes(content)
+
+
+def test_a_damaged_summary_is_no_summary_and_nothing_stays_behind(
+    make_sweep: MakeSweep, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    content = make_sweep()
+    (content.folder / "summary.parquet").write_bytes(b"PAR1 of a kind")
+    with pytest.raises(ValueError, match="Parquet"):
+        sweep_workbook_bytes(content)
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep"]
