@@ -13,7 +13,7 @@ from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
 from uictest.recording import Recording
 from uictest.report import RunContent
 from uictest.report.page import Trace
-from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep.content import SweepContent
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 

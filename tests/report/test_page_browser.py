@@ -16,7 +16,7 @@ from uictest.evaluation import CaseResult, Verdict
 from uictest.recording import Recording
 from uictest.report import RunContent, Subject
 from uictest.report.page import page_html, sweep_page_html, trace_of
-from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep.content import SweepContent
 from uictest.scenario.parts.measure_catalogue import MEASURES
 
 MakeResult = Callable[..., CaseResult]

@@ -13,7 +13,7 @@ from uictest.report.page import sweep_page_html, trace_of
 from uictest.report.page.frontier_plot import frontier_plot
 from uictest.report.page.heat import heat_map
 from uictest.report.page.histogram import histogram
-from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep.content import SweepContent
 
 from .test_page import Page
 

@@ -13,11 +13,11 @@ from uictest.report.run_contents import read_run
 from uictest.report.run_folder import RunFolder
 from uictest.report.run_report import RESULTS, run_name, write_recording, write_reports
 from uictest.report.subject import Subject
-from uictest.report.sweep_content import SweepContent
-from uictest.report.sweep_contents import SWEEP_RESULTS, read_sweep
-from uictest.report.sweep_formats import write_sweep_formats
-from uictest.report.sweep_github import sweep_annotations
-from uictest.report.sweep_markdown import append_sweep_step_summary
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.formats import write_sweep_formats
+from uictest.report.sweep.github import sweep_annotations
+from uictest.report.sweep.markdown import append_sweep_step_summary
+from uictest.report.sweep.reading import SWEEP_RESULTS, read_sweep
 from uictest.report.table import explanation_text, verdict_table
 from uictest.report.wording import counted, tally, verdict_word
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from uictest.report.page.axis import Axis, span
-from uictest.report.sweep_wording import circumstances_words, flip_words
+from uictest.report.sweep.wording import circumstances_words, flip_words
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
 _SIDES = ((_LEFT, _RIGHT), (_BOTTOM, _TOP))

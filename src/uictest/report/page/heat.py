@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from uictest.report.sweep_bundles import bundled, is_large
-from uictest.report.sweep_wording import figure_words, share_words
+from uictest.report.sweep.bundles import bundled, is_large
+from uictest.report.sweep.wording import figure_words, share_words
 
 MET = "met"
 """Measure of the map of verdicts."""

@@ -10,8 +10,8 @@ from uictest.report.page.frontier_plot import FrontierPlot, frontier_plot, front
 from uictest.report.page.heat import HeatMap, heat_map
 from uictest.report.page.histogram import histogram
 from uictest.report.page.rendering import render
-from uictest.report.sweep_notable import notable_cases
-from uictest.report.sweep_wording import (
+from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.wording import (
     circumstances_words,
     figure_words,
     share_words,
@@ -21,7 +21,7 @@ from uictest.report.sweep_wording import (
 from uictest.report.wording import counted, explanation, verdict_word
 
 if TYPE_CHECKING:
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 _MOST_VALUES = 40
 """Values of a parameter that get a bar each."""

@@ -11,7 +11,7 @@ from uictest.report.wording import explanation, verdict_word
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 
 @dataclass(frozen=True, slots=True)

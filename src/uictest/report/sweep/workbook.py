@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.sweep_cases import MOST_CASES, left_out, write_cases
-from uictest.report.sweep_map_sheet import write_maps
-from uictest.report.sweep_notable import notable_cases
-from uictest.report.sweep_wording import swept_words
+from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
+from uictest.report.sweep.map_sheet import write_maps
+from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.wording import swept_words
 from uictest.report.workbook import manifest_rows, result_row
 
 if TYPE_CHECKING:
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 
 def sweep_workbook_bytes(content: SweepContent, most_cases: int = MOST_CASES) -> bytes:

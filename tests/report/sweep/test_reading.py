@@ -9,8 +9,8 @@ import pytest
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
 from uictest.report import write_recording
-from uictest.report.sweep_content import SweepContent
-from uictest.report.sweep_contents import read_sweep
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.reading import read_sweep
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from uictest.report.run_contents import read_traces
 from uictest.report.subject import Subject
-from uictest.report.sweep_content import SweepContent
+from uictest.report.sweep.content import SweepContent
 
 SWEEP_RESULTS: Final = "sweep.json"
 _MANIFEST: Final = "manifest.json"

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Final
 
 from uictest.report.github import annotation
-from uictest.report.sweep_notable import notable_cases
-from uictest.report.sweep_wording import sweep_tally
+from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.wording import sweep_tally
 
 if TYPE_CHECKING:
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 MOST_ANNOTATED: Final = 10
 """GitHub shows ten annotations of one kind per step."""

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uictest.report.sweep_bundles import bundled, is_large
+from uictest.report.sweep.bundles import bundled, is_large
 
 
 def _map(rows: int, columns: int) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.report.sheet import Styles, width, write_cell
-from uictest.report.sweep_bundles import bundled, is_large
+from uictest.report.sweep.bundles import bundled, is_large
 
 if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet

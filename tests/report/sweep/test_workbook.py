@@ -10,8 +10,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.evaluation import CaseResult
-from uictest.report.sweep_content import SweepContent
-from uictest.report.sweep_workbook import sweep_workbook_bytes
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.workbook import sweep_workbook_bytes
 
 openpyxl = pytest.importorskip("openpyxl")
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from uictest.report.formats import ReportFormat
 
 if TYPE_CHECKING:
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 
 def write_sweep_formats(folder: Path, content: SweepContent, formats: Iterable[ReportFormat]) -> list[Path]:
@@ -37,10 +37,10 @@ def _file(content: SweepContent, wanted: ReportFormat) -> tuple[str, bytes]:
 
         return "index.html", sweep_page_html(content).encode()
     if wanted is ReportFormat.XLSX:
-        from uictest.report.sweep_workbook import sweep_workbook_bytes
+        from uictest.report.sweep.workbook import sweep_workbook_bytes
 
         return "report.xlsx", sweep_workbook_bytes(content)
-    from uictest.report.sweep_markdown import sweep_markdown
+    from uictest.report.sweep.markdown import sweep_markdown
 
     return "summary.md", sweep_markdown(content).encode()
 

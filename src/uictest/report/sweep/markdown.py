@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from uictest.report.markdown_table import MarkdownTable, row
 from uictest.report.markdown_text import code, figure, prose
 from uictest.report.step_summary import LIMIT, append_to_step_summary
-from uictest.report.sweep_bundles import bundled, is_large
-from uictest.report.sweep_notable import NotableCase, notable_cases
-from uictest.report.sweep_wording import (
+from uictest.report.sweep.bundles import bundled, is_large
+from uictest.report.sweep.notable import NotableCase, notable_cases
+from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
     flip_words,
@@ -21,7 +21,7 @@ from uictest.report.sweep_wording import (
 )
 
 if TYPE_CHECKING:
-    from uictest.report.sweep_content import SweepContent
+    from uictest.report.sweep.content import SweepContent
 
 _MOST_ROWS = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown here."""

@@ -3,8 +3,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.evaluation import CaseResult
-from uictest.report.sweep_content import SweepContent
-from uictest.report.sweep_github import MOST_ANNOTATED, sweep_annotations
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.github import MOST_ANNOTATED, sweep_annotations
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]

@@ -8,8 +8,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.report import ReportFormat
-from uictest.report.sweep_content import SweepContent
-from uictest.report.sweep_formats import write_sweep_formats
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.formats import write_sweep_formats
 
 MakeSweep = Callable[..., SweepContent]
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.report.sweep_wording import (
+from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
     flip_words,
