@@ -14,7 +14,7 @@ from typing import Any
 
 import machine
 import numpy as np
-from c_library import PLAIN, CLanes, CStop
+from c_library import PLAIN, STRICT, CLanes, CStop
 from numpy.typing import NDArray
 from open_records import opened, rolling, step_in
 from reduced_model import integrated_seconds
@@ -57,21 +57,16 @@ def different_stops(stop: Stop) -> tuple[Any, NDArray[np.float64]]:
     return parameters, rails
 
 
-def c_scalar(stop: Stop) -> float:
-    """Run stops one by one in C."""
-    return float(run(CStop(PLAIN), *stop, 0).car.steps * _WHEELSETS)
+def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
+    """Run a stop on a scalar rig."""
+    return float(run(stop_of, *stop, 0).car.steps * _WHEELSETS)
 
 
-def ours_scalar(stop: Stop) -> float:
-    """Run a stop on the compiled rig."""
-    return float(run(compiled_stop(), *stop, 0).car.steps * _WHEELSETS)
-
-
-def c_lanes(stop: Stop, width: int) -> float:
+def c_lanes(lanes: CLanes, stop: Stop) -> float:
     """Run stops in C in lanes."""
     parameters, rails = different_stops(stop)
     measures, wheelset_measures = np.zeros(STOPS, MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
-    CLanes(width)(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
+    lanes(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
     return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
 
 
@@ -158,11 +153,14 @@ class JaxColumns:
 
 def peers(stop: Stop) -> Iterator[Peer]:
     """Yield the peers, the one that all are compared with first."""
-    yield "C, scalar, gcc -O3 -march=native", lambda: c_scalar(stop)
-    yield "uictest, scalar, strict", lambda: ours_scalar(stop)
+    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop()
+    eight, sixteen = CLanes(8), CLanes(16)
+    yield "C, scalar, gcc -O3 -march=native", lambda: one_by_one(in_c, stop)
+    yield "C, scalar, without contraction", lambda: one_by_one(strict_in_c, stop)
+    yield "uictest, scalar, strict", lambda: one_by_one(ours, stop)
     yield "uictest, lanes, strict", lambda: ours_in_lanes(stop)
-    yield "C, 8 lanes, -ffast-math", lambda: c_lanes(stop, 8)
-    yield "C, 16 lanes, -ffast-math", lambda: c_lanes(stop, 16)
+    yield "C, 8 lanes, -ffast-math", lambda: c_lanes(eight, stop)
+    yield "C, 16 lanes, -ffast-math", lambda: c_lanes(sixteen, stop)
     yield "numpy over 256 runs", lambda: numpy_columns(stop, 256, 50)
     yield "numpy over 4096 runs", lambda: numpy_columns(stop, 4096, 10)
     if find_spec("jax"):

@@ -77,13 +77,11 @@ def _tank_rate(pressure: float, p: Any) -> float:
     inflow = mass_flow(
         supply,
         pressure,
-        1.0 / max(supply, pressure),
         p.fill_conductance,
         p.flow_density,
         p.critical_ratio,
         p.subsonic_scale,
-        p.laminar_ratio,
-        p.laminar_scale,
+        p.laminar_slope,
     )
     return pressure_change(pressure, p.polytropic_exponent / p.tank_volume, inflow, 0.0, p.air)
 

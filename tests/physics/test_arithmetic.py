@@ -12,7 +12,6 @@ from uictest.physics.arithmetic import (
     clamp,
     exp,
     floor,
-    inverses,
     maximum,
     minimum,
     octant,
@@ -76,11 +75,6 @@ def test_rest_of_an_arctangent_is_at_most_an_eighth_of_a_half_turn(y: float, x: 
 @given(st.floats(-1e15, 1e15))
 def test_floor_is_the_c_librarys(x: float) -> None:
     assert floor(x) == math.floor(x)
-
-
-@given(st.floats(1e-100, 1e100), st.floats(1e-100, 1e100))
-def test_two_inverses_for_one_division(a: float, b: float) -> None:
-    assert inverses(a, b) == pytest.approx((1.0 / a, 1.0 / b), rel=1e-15)
 
 
 def test_power_of_two_thirds_is_within_1e_12() -> None:

@@ -16,8 +16,8 @@ LAW = orifice_law(critical_ratio=0.35, laminar_ratio=0.995, temperature=293.15)
 pressures = st.floats(1e4, 2e6)
 
 
-def flow(pressure_1: float, pressure_2: float, law: tuple[float, float, float, float, float] = LAW) -> float:
-    return mass_flow(pressure_1, pressure_2, 1.0 / max(pressure_1, pressure_2), 1e-8, *law)
+def flow(pressure_1: float, pressure_2: float, law: tuple[float, float, float, float] = LAW) -> float:
+    return mass_flow(pressure_1, pressure_2, 1e-8, *law)
 
 
 def test_critical_pressure_ratio_of_an_ideal_nozzle() -> None:
@@ -77,6 +77,16 @@ def test_flow_has_no_jump_anywhere() -> None:
     ratios = np.linspace(0.2, 1.0, 80_001).tolist()
     flows = [flow(1e6, r * 1e6) for r in ratios]
     assert max(abs(a - b) for a, b in pairwise(flows)) < 1e-3 * flow(1e6, 1e3)
+
+
+@given(st.floats(0.0, 1.0))
+def test_flow_follows_the_curve_up_to_the_laminar_ratio_and_its_chord_beyond(ratio: float) -> None:
+    def curve(r: float) -> float:
+        return math.sqrt(1.0 - (max(r - 0.35, 0.0) / 0.65) ** 2)
+
+    chord = curve(0.995) * (1.0 - ratio) / 0.005
+    expected = curve(ratio) if ratio <= 0.995 else chord
+    assert flow(1e6, ratio * 1e6) / flow(1e6, 0.0) == pytest.approx(expected, rel=1e-11, abs=1e-14)
 
 
 def test_slope_stays_finite_at_equal_pressures() -> None:

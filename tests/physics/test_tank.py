@@ -24,7 +24,7 @@ def emptied(start: float, exponent: float, duration: float, step: float) -> np.n
     pressures = [start]
     for _ in range(round(duration / step)):
         p = pressures[-1]
-        lost = step * mass_flow(p, ATMOSPHERE, 1.0 / p, CONDUCTANCE, *LAW)
+        lost = step * mass_flow(p, ATMOSPHERE, CONDUCTANCE, *LAW)
         pressures.append(p + pressure_change(p, exponent / VOLUME, -lost, 0.0, AIR))
     return np.array(pressures)
 
@@ -44,7 +44,7 @@ def blow_down_error(step: float) -> float:
     """Largest deviation from scipy's solution of the same equation, over the pressure at the start."""
 
     def slope(_: float, p: np.ndarray) -> list[float]:
-        flow = mass_flow(float(p[0]), ATMOSPHERE, 1.0 / float(p[0]), CONDUCTANCE, *LAW)
+        flow = mass_flow(float(p[0]), ATMOSPHERE, CONDUCTANCE, *LAW)
         return [-1.2 / VOLUME * R * T * flow]
 
     ours = emptied(4.8e5, 1.2, 2.0, step)

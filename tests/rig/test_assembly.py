@@ -29,10 +29,11 @@ def test_wheels_carry_the_weight(rig: Any) -> None:
 
 
 def test_orifice_law_is_that_of_the_air_and_the_valves(rig: Any) -> None:
-    p = rig.parameters("brake.system.critical_pressure_ratio=0.4", "brake.system.air.temperature=10 degC")[0]
+    ratios = ("brake.system.critical_pressure_ratio=0.4", "brake.system.laminar_pressure_ratio=0.98")
+    p = rig.parameters(*ratios, "brake.system.air.temperature=10 degC")[0]
     assert p.flow_density == pytest.approx(REFERENCE_DENSITY * np.sqrt(REFERENCE_TEMPERATURE / 283.15))
     assert (p.critical_ratio, p.subsonic_scale) == pytest.approx((0.4, 1.0 / 0.6))
-    assert p.laminar_scale == pytest.approx(1.0 / (1.0 - p.laminar_ratio))
+    assert p.laminar_slope == pytest.approx(np.sqrt(1.0 - (0.58 / 0.6) ** 2) / 0.02)
 
 
 @pytest.mark.parametrize("step", [0.25, 0.5])

@@ -18,7 +18,7 @@ from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.stop import stop
 from uictest.rig.trace import ROW
 
-QUICK_BRAKE = {"dead_time": 0.0, "fill_time": 0.05, "fill_conductance": 5e-7, "moving_speed": 0.5}
+QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 # Each setting takes other ways through the code, within few steps.
 SETTINGS = {
     "standstill on a dry rail": (
@@ -122,7 +122,7 @@ def test_seed_and_case_change_the_noise_and_nothing_else_does(rig: Any) -> None:
     assert np.all(speeds[0] != speeds[3])
 
 
-THROUGH_AN_ORIFICE = (8e5, 1e5, 1.0 / 8e5, 1e-8, *orifice_law(0.35, 0.995, 293.15))
+THROUGH_AN_ORIFICE = (8e5, 1e5, 1e-8, *orifice_law(0.35, 0.995, 293.15))
 
 
 def test_translation_wraps_every_function_of_the_package_and_leaves_the_originals_alone() -> None:

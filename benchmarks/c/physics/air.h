@@ -4,16 +4,16 @@
 
 #include "arithmetic.h"
 
-OURS real mass_flow(real pressure_1, real pressure_2, real inverse_upstream, real conductance, real density,
-                    real critical_ratio, real subsonic_scale, real laminar_ratio, real laminar_scale)
+OURS real mass_flow(real pressure_1, real pressure_2, real conductance, real density, real critical_ratio,
+                    real subsonic_scale, real laminar_slope)
 {
     real upstream = maximum(pressure_1, pressure_2);
     real downstream = minimum(pressure_1, pressure_2);
-    real ratio = downstream * inverse_upstream;
     real direction = choose(pressure_2 > pressure_1, number(-1.0), number(1.0));
-    real subsonic = maximum((minimum(ratio, laminar_ratio) - critical_ratio) * subsonic_scale, number(0.0));
-    real laminar = minimum((upstream - downstream) * inverse_upstream * laminar_scale, number(1.0));
-    return direction * upstream * conductance * density * sqrt_of(1.0 - subsonic * subsonic) * laminar;
+    real subsonic = maximum(downstream - critical_ratio * upstream, number(0.0)) * subsonic_scale;
+    real curve = sqrt_of(maximum(upstream * upstream - subsonic * subsonic, number(0.0)));
+    real chord = (upstream - downstream) * laminar_slope;
+    return direction * (conductance * density) * minimum(curve, chord);
 }
 
 OURS real pressure_change(real pressure, real stiffness, real mass_change, real volume_change, real air)
@@ -21,14 +21,14 @@ OURS real pressure_change(real pressure, real stiffness, real mass_change, real 
     return stiffness * (air * mass_change - pressure * volume_change);
 }
 
-OURS real demand(real time, real full_demand, real dead_time, real fill_time)
+OURS real demand(real time, real full_demand, real dead_time, real filling_rate)
 {
-    return full_demand * clamp((time - dead_time) / fill_time, number(0.0), number(1.0));
+    return full_demand * clamp((time - dead_time) * filling_rate, number(0.0), number(1.0));
 }
 
-OURS real relay_opening(real demanded, real pressure, real proportional_band)
+OURS real relay_opening(real demanded, real pressure, real gain)
 {
-    return clamp((demanded - pressure) / proportional_band, number(-1.0), number(1.0));
+    return clamp((demanded - pressure) * gain, number(-1.0), number(1.0));
 }
 
 OURS real compressor_running(real pressure, real running, real cut_in, real cut_out)

@@ -4,27 +4,24 @@
 #include "../physics/air.h"
 #include "records.h"
 
-OURS real orifice(real pressure_1, real pressure_2, real inverse_upstream, real conductance, const Parameters *p)
+OURS real orifice(real pressure_1, real pressure_2, real conductance, const Parameters *p)
 {
-    return mass_flow(pressure_1, pressure_2, inverse_upstream, conductance, p->flow_density, p->critical_ratio,
-                     p->subsonic_scale, p->laminar_ratio, p->laminar_scale);
+    return mass_flow(pressure_1, pressure_2, conductance, p->flow_density, p->critical_ratio, p->subsonic_scale,
+                     p->laminar_slope);
 }
 
 /* Air that flows in a step from a source into a vessel, and from there to the atmosphere (returned). */
 OURS real through(real source, real vessel, real conductance_in, real conductance_out, const Parameters *p, real *gained)
 {
-    real atmosphere = p->atmospheric_pressure;
-    real upstream_in = maximum(source, vessel), upstream_out = maximum(vessel, atmosphere);
-    real inverse = 1.0 / (upstream_in * upstream_out);
-    *gained = p->step * orifice(source, vessel, upstream_out * inverse, conductance_in, p);
-    return p->step * orifice(vessel, atmosphere, upstream_in * inverse, conductance_out, p);
+    *gained = p->step * orifice(source, vessel, conductance_in, p);
+    return p->step * orifice(vessel, p->atmospheric_pressure, conductance_out, p);
 }
 
 OURS void step_supply(Car *car, real drawn, const Parameters *p)
 {
     real gauge = car->line_pressure - p->atmospheric_pressure;
-    car->demand = demand(car->time, p->demanded_pressure, p->dead_time, p->fill_time);
-    real opening = relay_opening(car->demand, gauge, p->relay_band);
+    car->demand = demand(car->time, p->demanded_pressure, p->dead_time, p->filling_rate);
+    real opening = relay_opening(car->demand, gauge, p->relay_gain);
     real filled;
     real exhausted =
         through(car->reservoir_pressure, car->line_pressure, p->relay_conductance * maximum(opening, number(0.0)),

@@ -14,8 +14,10 @@ from uictest.lanes.block import block
 from uictest.lanes.functions import floor, maximum, minimum, select, sqrt
 from uictest.lanes.host import register_width
 from uictest.lanes.records import lane, put, vectors
+from uictest.lanes.stack import align_stack
 
 __all__ = [
+    "align_stack",
     "block",
     "floor",
     "lane",

@@ -29,3 +29,5 @@ signature: Callable[..., Any] = templates.signature
 """Signature of a function: type of the result, types of the arguments."""
 member_of_record: Callable[..., Any] = cgutils.get_record_member
 """Address of a field of an ordinary record."""
+local_variable: Callable[..., Any] = cgutils.alloca_once
+"""Address of a variable on the stack of the function being compiled."""

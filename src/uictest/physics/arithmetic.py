@@ -67,12 +67,6 @@ def floor(x: float) -> float:
     return float(math.floor(x))
 
 
-def inverses(a: float, b: float) -> tuple[float, float]:
-    """Return ``1 / a`` and ``1 / b`` for one division: in a lane nothing costs as much."""
-    inverse = 1.0 / (a * b)
-    return b * inverse, a * inverse
-
-
 def clamp(x: float, low: float, high: float) -> float:
     """Limit ``x`` to ``[low, high]``."""
     return minimum(maximum(x, low), high)

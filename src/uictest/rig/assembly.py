@@ -104,14 +104,14 @@ def _command(scenario: Scenario) -> Iterator[Value]:
     yield "algorithm", ALGORITHMS.index(scenario.controller.algorithm)
     yield "demanded_pressure", scenario.brake.command * position.maximum_pressure
     yield "dead_time", position.dead_time
-    yield "fill_time", position.fill_time
+    yield "filling_rate", 1.0 / position.fill_time
 
 
 def _supply(scenario: Scenario) -> Iterator[Value]:
     system = scenario.brake.system
     atmosphere = system.air.atmospheric_pressure
     yield "relay_conductance", system.relay_valve.conductance
-    yield "relay_band", system.relay_valve.proportional_band
+    yield "relay_gain", 1.0 / system.relay_valve.proportional_band
     air = float(system.air.gas_constant) * float(system.air.temperature)
     yield "line_volume", system.brake_line.volume
     yield "line_stiffness", system.tank.polytropic_exponent / system.brake_line.volume
@@ -130,7 +130,7 @@ def _supply(scenario: Scenario) -> Iterator[Value]:
         float(system.laminar_pressure_ratio),
         float(system.air.temperature),
     )
-    names = ("flow_density", "critical_ratio", "subsonic_scale", "laminar_ratio", "laminar_scale")
+    names = ("flow_density", "critical_ratio", "subsonic_scale", "laminar_slope")
     yield from zip(names, law, strict=True)
 
 

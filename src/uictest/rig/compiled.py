@@ -22,9 +22,6 @@ from uictest.user_cache import user_cache
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = ("physics", "controllers", "measures", "lanes", "rig")
-SCHEDULING = "-enable-misched=false"
-"""Option of LLVM that keeps instructions in the order of the source, where the chains of the four wheelsets
-lie side by side; its scheduler would string them one after the other, which makes the lanes slower."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
 
 
@@ -66,9 +63,7 @@ def cache_folder() -> Path:
     The compiler itself notices neither an edited callee nor a changed option, so both are part of the
     name. Where the user's cache cannot be written, a folder for this process serves.
     """
-    digest = hashlib.sha256(
-        repr((OPTIONS, SCHEDULING, sys.version_info[:2], metadata.version("numba"))).encode()
-    )
+    digest = hashlib.sha256(repr((OPTIONS, sys.version_info[:2], metadata.version("numba"))).encode())
     package = Path(__file__).parent.parent
     for room in _SOURCES:
         for source in sorted((package / room).glob("*.py")):
@@ -77,13 +72,11 @@ def cache_folder() -> Path:
 
 
 def use_cache() -> None:
-    """Point the compiler at our cache folder, and keep it from reordering what it compiles."""
+    """Point the compiler at our cache folder."""
     _load_without_blas()
-    from llvmlite import binding
     from numba.core import config
 
     cast(Any, config).CACHE_DIR = str(cache_folder())
-    binding.set_option("uictest", SCHEDULING)
 
 
 def _load_without_blas() -> None:

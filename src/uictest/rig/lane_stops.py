@@ -7,7 +7,7 @@ measures have the same bits.
 
 from typing import Any, NamedTuple
 
-from uictest.lanes import lane, put, vectors
+from uictest.lanes import align_stack, lane, put, vectors
 from uictest.rig.cycle import begin_cycle, sense
 from uictest.rig.start import start
 from uictest.rig.step import step
@@ -46,6 +46,7 @@ def run_queue(rig: Rig, settings: Any, blank: Rig, cases: Cases, queue: Any, run
             the same number of steps in a controller cycle.
         running: for each lane, the number of its case; set here.
     """
+    align_stack()
     begun = 0
     for k in range(running.size):
         # A lane that finds the queue empty steps this case, and so meets no numbers that a case does not.

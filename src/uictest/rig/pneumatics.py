@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from uictest.physics.arithmetic import inverses, maximum, select
+from uictest.physics.arithmetic import maximum, select
 from uictest.physics.brake_operating_unit import demand, relay_opening
 from uictest.physics.flow import mass_flow
 from uictest.physics.reservoir import compressor_running, isothermal_pressure
@@ -14,14 +14,14 @@ Record = Any
 
 def step_supply(car: Record, drawn: float, p: Record) -> None:
     """Advance compressor, reservoir, relay valve and the brake line, which lost ``drawn`` kg to the tanks."""
-    car.demand = demand(car.time, p.demanded_pressure, p.dead_time, p.fill_time)
+    car.demand = demand(car.time, p.demanded_pressure, p.dead_time, p.filling_rate)
     follow_demand(car, drawn, p)
 
 
 def follow_demand(car: Record, drawn: float, p: Record) -> None:
     """Let the relay valve bring the brake line towards ``car.demand``, whoever demands it."""
     gauge = car.line_pressure - p.atmospheric_pressure
-    opening = relay_opening(car.demand, gauge, p.relay_band)
+    opening = relay_opening(car.demand, gauge, p.relay_gain)
     filled, exhausted = _through(
         car.reservoir_pressure,
         car.line_pressure,
@@ -71,23 +71,17 @@ def _through(
     source: float, vessel: float, conductance_in: float, conductance_out: float, p: Record
 ) -> tuple[float, float]:
     """Air that flows in a step from a source into a vessel and from there to the atmosphere, kg."""
-    atmosphere = p.atmospheric_pressure
-    inverse_in, inverse_out = inverses(maximum(source, vessel), maximum(vessel, atmosphere))
-    gained = p.step * _orifice(source, vessel, inverse_in, conductance_in, p)
-    return gained, p.step * _orifice(vessel, atmosphere, inverse_out, conductance_out, p)
+    gained = p.step * _orifice(source, vessel, conductance_in, p)
+    return gained, p.step * _orifice(vessel, p.atmospheric_pressure, conductance_out, p)
 
 
-def _orifice(
-    pressure_1: float, pressure_2: float, inverse_upstream: float, conductance: float, p: Record
-) -> float:
+def _orifice(pressure_1: float, pressure_2: float, conductance: float, p: Record) -> float:
     return mass_flow(
         pressure_1,
         pressure_2,
-        inverse_upstream,
         conductance,
         p.flow_density,
         p.critical_ratio,
         p.subsonic_scale,
-        p.laminar_ratio,
-        p.laminar_scale,
+        p.laminar_slope,
     )

@@ -29,9 +29,9 @@ _PARAMETERS = [
     # brake operating unit, reservoir, compressor, brake line
     ("demanded_pressure", "f8"),  # of the command, gauge, Pa
     ("dead_time", "f8"),
-    ("fill_time", "f8"),
+    ("filling_rate", "f8"),  # share of the demanded pressure per second
     ("relay_conductance", "f8"),  # m3/(s Pa)
-    ("relay_band", "f8"),  # Pa
+    ("relay_gain", "f8"),  # opening per missing pressure, 1/Pa
     ("line_volume", "f8"),
     ("line_stiffness", "f8"),  # polytropic exponent over its volume, 1/m3
     ("reservoir_volume", "f8"),
@@ -46,11 +46,10 @@ _PARAMETERS = [
     ("air_temperature", "f8"),
     ("air", "f8"),  # gas constant times temperature, J/kg
     ("polytropic_exponent", "f8"),
-    ("flow_density", "f8"),  # this and the next four: physics.flow.orifice_law
+    ("flow_density", "f8"),  # this and the next three: physics.flow.orifice_law
     ("critical_ratio", "f8"),
     ("subsonic_scale", "f8"),
-    ("laminar_ratio", "f8"),
-    ("laminar_scale", "f8"),
+    ("laminar_slope", "f8"),
     # WSP valve and tanks
     ("fill_conductance", "f8"),
     ("vent_conductance", "f8"),
