@@ -9,7 +9,7 @@ from stops import Stop
 
 from uictest.physics import arithmetic
 from uictest.rig.compiled import translate
-from uictest.rig.cycle import begin_cycle, sense
+from uictest.rig.cycle import begin_cycle, command_valves, sense
 from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.start import start
 from uictest.rig.step import step
@@ -52,6 +52,7 @@ def rolling(stop: Stop) -> Rig:
     start(car[0], bogies, wheelsets, parameters)
     sense(car[0], wheelsets, parameters)
     begin_cycle(car[0], wheelsets, parameters, rail)
+    command_valves(car[0], wheelsets, parameters)
     return Rig(
         opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]
     )

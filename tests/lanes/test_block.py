@@ -15,6 +15,11 @@ def test_a_field_of_a_block_is_one_row_of_lanes(width: int) -> None:
     assert not wheelsets["speed"].any()
 
 
+def test_a_field_of_several_numbers_is_left_out() -> None:
+    table = np.dtype((np.record, [("speed", "f8"), ("slides", "f8", (21,)), ("mode", "i8")]))
+    assert block(table, 8).dtype.names == ("speed", "mode")
+
+
 def test_a_block_begins_at_a_cache_line() -> None:
     assert all(block(LAYOUT, 8, count).ctypes.data % 64 == 0 for count in range(1, 20))
 

@@ -21,6 +21,7 @@ Operation = Callable[[Any, Any], Any]
 
 OPERATIONS: dict[str, Operation] = {
     "add": lambda a, b: a + b,
+    "multiply": lambda a, b: a * b,
     "and": lambda a, b: a & b,
     "or": lambda a, b: a | b,
     "xor": lambda a, b: a ^ b,
@@ -28,6 +29,14 @@ OPERATIONS: dict[str, Operation] = {
     "right": lambda a, b: b >> 13,
     "number on the left": lambda a, b: 0x1BD11BDA ^ a,
     "number on the right": lambda a, b: b + 5,
+}
+CHOICES: dict[str, tuple[Operation, Operation]] = {
+    "less": (lambda a, b: lanes.select(a < b, a, b), lambda a, b: np.where(a < b, a, b)),
+    "less than a number": (lambda a, b: lanes.select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
+    "equal": (
+        lambda a, b: lanes.select(a & 1 == b & 1, 7, a + 1),
+        lambda a, b: np.where(a & 1 == b & 1, 7, a + 1),
+    ),
 }
 
 
@@ -62,6 +71,31 @@ def test_operations_are_those_of_numpy(
 ) -> None:
     in_lanes, in_numpy = operation
     np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
+
+
+@pytest.fixture(scope="module", params=CHOICES)
+def choice(request: pytest.FixtureRequest) -> tuple[Operation, Operation]:
+    in_lanes, in_numpy = CHOICES[request.param]
+    return applied(in_lanes), in_numpy
+
+
+@given(a=numbers, b=numbers)
+@settings(deadline=None)
+def test_choices_are_those_of_numpy(choice: tuple[Operation, Operation], a: list[int], b: list[int]) -> None:
+    in_lanes, in_numpy = choice
+    np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
+
+
+def test_a_counter_counts_in_every_lane() -> None:
+    @numba.njit
+    def count(block: Any) -> None:
+        record = lanes.vectors(block)
+        record.a += 1
+
+    block = lanes.block(PAIR, WIDTH)
+    block["a"] = np.arange(WIDTH) - 3
+    count(block)
+    np.testing.assert_array_equal(block["a"][0], np.arange(WIDTH) - 2)
 
 
 def test_a_sum_with_a_float_is_a_float() -> None:

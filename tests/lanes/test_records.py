@@ -91,6 +91,29 @@ def test_put_copies_every_field_of_a_record() -> None:
     assert all(block[name][2, 5].tobytes() == record[name].tobytes() for name in record.dtype.names or ())
 
 
+def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
+    @numba.njit
+    def copy(records: Any, block: Any) -> None:
+        lanes.take(records[1], lanes.lane(block, 5)[2])
+
+    block = counted(8)
+    block["mode"][2, 5] = BIG
+    records = np.full(2, 7, np.dtype([("table", "f8", (3,)), *LAYOUT.descr]))
+    copy(records, block)
+    assert all(records[name][1].tobytes() == block[name][2, 5].tobytes() for name in LAYOUT.names or ())
+    assert records["table"].tolist() == [[7.0] * 3] * 2
+    assert records["speed"][0] == 7.0
+
+
+def test_a_record_without_a_field_of_the_lane_takes_nothing() -> None:
+    @numba.njit
+    def copy(records: Any, block: Any) -> None:
+        lanes.take(records[0], lanes.lane(block, 0))
+
+    with pytest.raises(TypingError, match="take"):
+        copy(np.zeros(1, np.dtype([("speed", "f8")])), counted(8))
+
+
 def test_integer_fields_are_no_vectors() -> None:
     @numba.njit
     def read(block: Any) -> None:

@@ -13,7 +13,11 @@ from uictest.measures import (
     MEASURES,
     WHEELSET_MEASURES,
     begin,
+    begin_slides,
     begin_wheelset,
+    begin_window,
+    keep_slide,
+    keep_window,
     observe_train,
     observe_wheelset,
 )
@@ -76,16 +80,20 @@ def _measured(samples: Samples) -> tuple[Any, Any]:
     wheelsets = np.zeros(4, WHEELSET_MEASURES)
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
     begin(train, *map(float, first))
+    begin_window(train)
     for i in range(4):
         begin_wheelset(wheelsets[i])
+        begin_slides(wheelsets[i])
     for k in range(1, samples.time.size):
         time, speed = float(samples.time[k]), float(samples.speed[k])
         for i in range(4):
             row = (samples.wheel_speed[k, i], samples.venting[k, i], samples.clamping_force[k, i])
             observe_wheelset(wheelsets[i], train, definition, i + 1, time, speed, *map(float, row))
+            keep_slide(wheelsets[i], wheelsets[i], definition, speed)
         observe_train(
             train, definition, time, float(samples.distance[k]), speed, float(samples.reservoir_pressure[k])
         )
+        keep_window(train, train)
     return train, wheelsets.view(np.recarray)
 
 

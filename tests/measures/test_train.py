@@ -80,7 +80,7 @@ def test_a_train_that_never_stopped_has_no_braking_distance(stop: Stop) -> None:
 
 def test_standstill_ends_the_stop(samples: Any, measured: Measured) -> None:
     train = measured(samples)[0]
-    finish(train, 27.5, 410.0)
+    finish(train, True, 27.5, 410.0)
     assert (train.stopped, train.braking_time, train.braking_distance) == (1.0, 27.5, 410.0)
     assert (train.end_time, train.end_distance, train.end_speed) == (27.5, 410.0, 0.0)
 

@@ -9,7 +9,7 @@ import pytest
 from uictest.controllers import decide
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.compiled import translate
-from uictest.rig.cycle import begin_cycle, sense
+from uictest.rig.cycle import begin_cycle, command_valves, sense
 from uictest.rig.step import step
 
 Benches = Callable[[Any], Any]
@@ -33,6 +33,7 @@ def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[st
     vent, fill = [], []
     for _ in range(cycles):
         cycle(bench.car, bench.wheelsets, bench.p, rail)
+        command_valves(bench.car, bench.wheelsets, bench.p)
         for _ in range(bench.p.steps_per_cycle):
             step(bench.car, bench.bogies, bench.wheelsets, bench.p)
             vent.append(bench.wheelsets[0].vent_opening)
@@ -104,6 +105,7 @@ def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
     for _ in range(400):
         sense(rolling.car, rolling.wheelsets, rolling.p)
         begin_cycle(rolling.car, rolling.wheelsets, rolling.p, rail)
+        command_valves(rolling.car, rolling.wheelsets, rolling.p)
         noise.append([(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets])
     channels = np.array(noise).reshape(400, 12)
     np.testing.assert_allclose(np.corrcoef(channels.T), np.eye(12), atol=5.0 / np.sqrt(400))

@@ -11,9 +11,9 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     m->initial_speed = speed;
     m->stopped = 0.0;
     m->braking_time = m->braking_distance = NAN;
-    m->end_time = time;
+    m->previous_time = m->end_time = time;
     m->end_distance = distance;
-    m->end_speed = speed;
+    m->previous_speed = m->end_speed = speed;
     m->minimum_deceleration = m->maximum_deceleration = NAN;
     m->filtered_deceleration = 0.0;
     m->sliding_time = m->sliding_wheelset = NAN;
@@ -59,6 +59,8 @@ static inline void observe_train(Measures *m, const Parameters *p, double time, 
     observe_deceleration(m, p, time, speed);
     observe_window(m, time, speed);
     m->reservoir_minimum_pressure = minimum(m->reservoir_minimum_pressure, reservoir_pressure);
+    m->previous_time = m->end_time;
+    m->previous_speed = m->end_speed;
     m->end_time = time;
     m->end_distance = distance;
     m->end_speed = speed;

@@ -8,7 +8,7 @@
 
 static inline void begin_wheelset(WheelsetMeasures *m)
 {
-    m->maximum_slide = 0.0;
+    m->slide = m->maximum_slide = 0.0;
     for (int k = 0; k < SPEED_CLASSES; k++)
         m->maximum_slide_above[k] = NAN;
     m->first_sliding_time = NAN;
@@ -21,10 +21,12 @@ static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Par
                                  double speed, double slip)
 {
     double slide = slip / speed;
+    m->slide = slide;
     m->maximum_slide = maximum(m->maximum_slide, slide);
-    for (int k = 0; k < SPEED_CLASSES; k++)
-        if (speed * (3.6 / 10.0) > k && !(m->maximum_slide_above[k] >= slide))
-            m->maximum_slide_above[k] = slide;
+    double classes = speed * (3.6 / 10.0);
+    int64_t k = classes >= SPEED_CLASSES ? SPEED_CLASSES - 1 : (int64_t)classes - ((int64_t)classes == classes);
+    for (; k >= 0 && !(m->maximum_slide_above[k] >= slide); k--)
+        m->maximum_slide_above[k] = slide;
     if (!(slide > p->sliding_slide && slip > p->sliding_slip))
         return;
     m->sliding_duration += time - train->end_time;

@@ -13,7 +13,7 @@ import uictest.lanes.integers  # noqa: F401 - gives whole numbers their operator
 from uictest.lanes.block import block
 from uictest.lanes.functions import floor, maximum, minimum, select, sqrt
 from uictest.lanes.host import register_width
-from uictest.lanes.records import lane, put, vectors
+from uictest.lanes.records import lane, put, take, vectors
 from uictest.lanes.stack import align_stack
 
 __all__ = [
@@ -27,5 +27,6 @@ __all__ = [
     "register_width",
     "select",
     "sqrt",
+    "take",
     "vectors",
 ]

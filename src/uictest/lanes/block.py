@@ -13,7 +13,8 @@ def block(layout: np.dtype[Any], width: int, count: int = 1) -> NDArray[Any]:
     """Return ``count`` zeroed records of ``width`` lanes each.
 
     Args:
-        layout: structured type of one record; every field takes eight bytes (``f8`` or ``i8``).
+        layout: structured type of one record; every number takes eight bytes (``f8`` or ``i8``). Fields of
+            several numbers are left out: tables are for scalar code.
         width: number of lanes.
         count: number of records, such as the four wheelsets of a car.
 
@@ -21,7 +22,7 @@ def block(layout: np.dtype[Any], width: int, count: int = 1) -> NDArray[Any]:
         Structured array of shape (count,). Its fields have the names of ``layout`` and hold one number for
         each lane, side by side, so that a field is read into a register at once.
     """
-    names = layout.names or ()
+    names = [name for name in layout.names or () if not layout[name].shape]
     wide = np.dtype([(name, layout[name], (width,)) for name in names])
     size = count * wide.itemsize
     memory = np.zeros(size + _CACHE_LINE, np.uint8)

@@ -3,22 +3,27 @@
 from typing import Any
 
 from uictest.lanes.compiler import in_compiled_code
+from uictest.lanes.integers import common_integers, everywhere
 from uictest.lanes.operators import call_llvm, common_vector, spread
 from uictest.lanes.types import Mask, Vector
 
 
 @in_compiled_code
 def select(typing: Any, condition: Any, when_true: Any, when_false: Any) -> Any:
-    """Choose one of two vectors or numbers in each lane of a mask."""
+    """Choose one of two in each lane of a mask: whole numbers where both are, and one of them in lanes."""
     if not isinstance(condition, Mask):
         return None
-    result = Vector(condition.width)
-    if common_vector(result, when_true, when_false) != result:
+    whole = common_integers(when_true, when_false)
+    result = whole or Vector(condition.width)
+    if result.width != condition.width or not (
+        whole or common_vector(result, when_true, when_false) == result
+    ):
         return None
+    fill = everywhere if whole else spread
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         choices = (
-            spread(context, builder, value, kind, result.width)
+            fill(context, builder, value, kind, result.width)
             for value, kind in zip(args[1:], sig.args[1:], strict=True)
         )
         return builder.select(args[0], *choices)

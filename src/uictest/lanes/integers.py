@@ -1,4 +1,4 @@
-"""Operators of whole numbers in lanes: what counters and a generator of random bits need."""
+"""Operators of whole numbers in lanes: what counters, commands and a generator of random bits need."""
 
 import operator
 from typing import Any
@@ -8,32 +8,36 @@ from numba.core.typing.templates import AbstractTemplate
 
 from uictest.lanes.compiler import code_of, signature, typing_of
 from uictest.lanes.operators import filled, spread
-from uictest.lanes.types import Integers, Vector, integers_of_llvm, vector_of_llvm
+from uictest.lanes.types import Integers, Mask, Vector, integers_of_llvm, vector_of_llvm
 
 _OPERATORS: dict[Any, Any] = {
     operator.add: lambda builder, a, b: builder.add(a, b),
+    operator.iadd: lambda builder, a, b: builder.add(a, b),
+    operator.mul: lambda builder, a, b: builder.mul(a, b),
     operator.and_: lambda builder, a, b: builder.and_(a, b),
     operator.or_: lambda builder, a, b: builder.or_(a, b),
     operator.xor: lambda builder, a, b: builder.xor(a, b),
     operator.lshift: lambda builder, a, b: builder.shl(a, b),
     operator.rshift: lambda builder, a, b: builder.ashr(a, b),
 }
+_COMPARISONS: dict[Any, Any] = {
+    operator.eq: lambda builder, a, b: builder.icmp_signed("==", a, b),
+    operator.lt: lambda builder, a, b: builder.icmp_signed("<", a, b),
+}
 
 
-def _define(function: Any, emit: Any) -> None:
+def _define(function: Any, emit: Any, result: type) -> None:
     """Give ``function`` a meaning for two of them, or one of them and a whole number."""
 
     @typing_of(function)
     class _Template(AbstractTemplate):
         def generic(self, args: Any, kws: Any) -> Any:
-            widths = {kind.width for kind in args if isinstance(kind, Integers)}
-            whole = all(isinstance(kind, Integers | types.Integer) for kind in args)
-            fits = whole and len(args) == 2 and len(widths) == 1
-            return signature(Integers(widths.pop()), *args) if fits else None
+            integers = common_integers(*args) if len(args) == 2 else None
+            return signature(result(integers.width), *args) if integers else None
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         width = sig.return_type.width
-        a, b = (_everywhere(context, builder, x, kind, width) for x, kind in zip(args, sig.args, strict=True))
+        a, b = (everywhere(context, builder, x, kind, width) for x, kind in zip(args, sig.args, strict=True))
         return emit(builder, a, b)
 
     code_of(function, Integers, types.Integer)(lower)
@@ -41,14 +45,24 @@ def _define(function: Any, emit: Any) -> None:
     code_of(function, Integers, Integers)(lower)
 
 
-def _everywhere(context: Any, builder: Any, value: Any, kind: Any, width: int) -> Any:
+def common_integers(*kinds: Any) -> Integers | None:
+    """Type that whole numbers and those of lanes combine to; None when they do not."""
+    found = {kind for kind in kinds if isinstance(kind, Integers)}
+    fits = all(isinstance(kind, Integers | types.Integer) for kind in kinds)
+    return found.pop() if fits and len(found) == 1 else None
+
+
+def everywhere(context: Any, builder: Any, value: Any, kind: Any, width: int) -> Any:
+    """Whole number of type ``kind`` in every lane; those of lanes are left as they are."""
     if isinstance(kind, Integers):
         return value
     return filled(builder, context.cast(builder, value, kind, types.int64), integers_of_llvm(width))
 
 
 for _function, _emit in _OPERATORS.items():
-    _define(_function, _emit)
+    _define(_function, _emit, Integers)
+for _function, _emit in _COMPARISONS.items():
+    _define(_function, _emit, Mask)
 
 
 @typing_of(operator.add)

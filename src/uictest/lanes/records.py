@@ -50,12 +50,7 @@ def lane(typing: Any, block: Any, number: Any) -> Any:
 @in_compiled_code
 def put(typing: Any, place: Any, record: Any) -> Any:
     """Set every field of one lane's record to that of an ordinary record, which must have them all."""
-    if not isinstance(place, LaneView) or not isinstance(record, types.Record):
-        return None
-    if any(
-        field not in record.fields or record.typeof(field) != place.number(field)
-        for field in place.record.fields
-    ):
+    if not _has_fields_of(record, place):
         return None
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
@@ -67,6 +62,24 @@ def put(typing: Any, place: Any, record: Any) -> Any:
         return context.get_dummy_value()
 
     return types.void(place, record), lower
+
+
+@in_compiled_code
+def take(typing: Any, record: Any, place: Any) -> Any:
+    """Set those fields of an ordinary record that one lane's record has; it must have them all."""
+    if not _has_fields_of(record, place):
+        return None
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        to, source = sig.args
+        for field in source.record.fields:
+            kind = to.typeof(field)
+            member = member_of_record(builder, args[0], to.offset(field), context.get_data_type(kind))
+            number = builder.load(_field(builder, source, args[1], field), align=_BYTES)
+            context.pack_value(builder, kind, number, member)
+        return context.get_dummy_value()
+
+    return types.void(record, place), lower
 
 
 @typing_of(operator.getitem)
@@ -112,6 +125,16 @@ def _store(context: Any, builder: Any, sig: Any, args: Any, field: str) -> None:
 
 def _write(builder: Any, place: LaneType, address: Any, field: str, value: Any) -> None:
     builder.store(value, _field(builder, place, address, field), align=_BYTES)
+
+
+def _has_fields_of(record: Any, place: Any) -> bool:
+    """Whether an ordinary record has every field of a lane's record, of the same type."""
+    if not isinstance(place, LaneView) or not isinstance(record, types.Record):
+        return False
+    return all(
+        field in record.fields and record.typeof(field) == place.number(field)
+        for field in place.record.fields
+    )
 
 
 def _is_block(kind: Any) -> bool:

@@ -19,8 +19,12 @@ from uictest.measures import (
     WHEELSET_MEASURES,
     WINDOW_SECONDS,
     begin,
+    begin_slides,
     begin_wheelset,
+    begin_window,
     finish,
+    keep_slide,
+    keep_window,
     observe_train,
     observe_wheelset,
 )
@@ -79,8 +83,10 @@ def _observe(stop: MeasuredStop, train: Any, wheelsets: list[Any], definition: A
     venting = [_venting(_samples(recording, f"valve_command_{n}")).tolist() for n in WHEELSETS]
     force = [_samples(recording, f"clamping_force_{n}").tolist() for n in WHEELSETS]
     begin(train, time[0], distance[0], speed[0], reservoir[0])
+    begin_window(train)
     for wheelset in wheelsets:
         begin_wheelset(wheelset)
+        begin_slides(wheelset)
     rest = stop.standstill
     for k in range(1, len(time)):
         if rest is not None and time[k] >= rest[0]:
@@ -97,10 +103,13 @@ def _observe(stop: MeasuredStop, train: Any, wheelsets: list[Any], definition: A
                 venting[i][k],
                 force[i][k],
             )
+            keep_slide(wheelset, wheelset, definition, speed[k])
         observe_train(train, definition, time[k], distance[k], speed[k], reservoir[k])
+        keep_window(train, train)
     if rest is not None:
         observe_train(train, definition, rest[0], rest[1], 0.0, train.reservoir_minimum_pressure)
-        finish(train, *rest)
+        keep_window(train, train)
+        finish(train, True, *rest)
 
 
 def _samples(recording: Recording, name: str) -> NDArray[np.float64]:

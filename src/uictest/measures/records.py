@@ -18,6 +18,8 @@ MEASURES = np.dtype(
             ("stopped", "f8"),  # 1 when the train came to a standstill
             ("braking_time", "f8"),  # from the command to standstill, s
             ("braking_distance", "f8"),  # from the command to standstill, m
+            ("previous_time", "f8"),  # last sample but one, s
+            ("previous_speed", "f8"),  # m/s
             ("end_time", "f8"),  # last sample, s
             ("end_distance", "f8"),  # m
             ("end_speed", "f8"),  # m/s
@@ -40,6 +42,7 @@ WHEELSET_MEASURES = np.dtype(
     (
         np.record,
         [
+            ("slide", "f8"),  # last sample, train moving
             ("maximum_slide", "f8"),  # train moving
             ("maximum_slide_above", "f8", (SPEED_CLASSES,)),  # train faster than 0, 10, .. km/h
             ("first_sliding_time", "f8"),  # s

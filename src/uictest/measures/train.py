@@ -3,7 +3,7 @@
 from typing import Any
 
 from uictest.measures.records import WINDOW_SECONDS
-from uictest.physics.arithmetic import minimum
+from uictest.physics.arithmetic import maximum, minimum, select
 
 Record = Any
 NAN = float("nan")
@@ -15,6 +15,8 @@ def begin(measures: Record, time: float, distance: float, speed: float, reservoi
     measures.stopped = 0.0
     measures.braking_time = NAN
     measures.braking_distance = NAN
+    measures.previous_time = time
+    measures.previous_speed = speed
     measures.end_time = time
     measures.end_distance = distance
     measures.end_speed = speed
@@ -23,13 +25,17 @@ def begin(measures: Record, time: float, distance: float, speed: float, reservoi
     measures.filtered_deceleration = 0.0
     measures.sliding_time = NAN
     measures.sliding_wheelset = NAN
-    for second in range(WINDOW_SECONDS + 1):
-        measures.speed_after_sliding[second] = NAN
     measures.reservoir_minimum_pressure = reservoir_pressure
     measures.air_consumed = NAN
     measures.energy_residual = NAN
     measures.air_residual = NAN
     measures.samples = 1.0
+
+
+def begin_window(measures: Record) -> None:
+    """Start the speeds after the first sliding."""
+    for second in range(WINDOW_SECONDS + 1):
+        measures.speed_after_sliding[second] = NAN
 
 
 def observe_train(
@@ -42,22 +48,42 @@ def observe_train(
 ) -> None:
     """Take in the next sample, after the wheelsets' (s since the command, m, m/s, Pa gauge)."""
     _observe_deceleration(measures, definition, time, speed)
-    _observe_window(measures, time, speed)
     measures.reservoir_minimum_pressure = minimum(measures.reservoir_minimum_pressure, reservoir_pressure)
+    measures.previous_time = measures.end_time
+    measures.previous_speed = measures.end_speed
     measures.end_time = time
     measures.end_distance = distance
     measures.end_speed = speed
     measures.samples += 1.0
 
 
-def finish(measures: Record, time: float, distance: float) -> None:
-    """Note that the train came to a standstill at ``time`` s after ``distance`` m."""
-    measures.stopped = 1.0
-    measures.braking_time = time
-    measures.braking_distance = distance
-    measures.end_time = time
-    measures.end_distance = distance
-    measures.end_speed = 0.0
+def keep_window(measures: Record, samples: Record) -> None:
+    """Keep the speed at whole seconds after the first sliding, linear between the last two samples.
+
+    Args:
+        measures: record that holds the window.
+        samples: record that :func:`observe_train` filled; may be the same.
+    """
+    since = samples.end_time - samples.sliding_time
+    if not since >= 0.0:
+        return
+    before = samples.previous_time - samples.sliding_time
+    change = samples.end_speed - samples.previous_speed
+    second = int(before) if before >= 0.0 else -1
+    while second < WINDOW_SECONDS and second + 1.0 <= since:
+        second += 1
+        share = (second - before) / (since - before)
+        measures.speed_after_sliding[second] = samples.previous_speed + share * change
+
+
+def finish(measures: Record, stands: bool, time: float, distance: float) -> None:
+    """Where the train ``stands``, note that it came to a standstill at ``time`` s after ``distance`` m."""
+    measures.stopped = select(stands, 1.0, measures.stopped)
+    measures.braking_time = select(stands, time, measures.braking_time)
+    measures.braking_distance = select(stands, distance, measures.braking_distance)
+    measures.end_time = select(stands, time, measures.end_time)
+    measures.end_distance = select(stands, distance, measures.end_distance)
+    measures.end_speed = select(stands, 0.0, measures.end_speed)
 
 
 def _observe_deceleration(measures: Record, definition: Record, time: float, speed: float) -> None:
@@ -67,23 +93,10 @@ def _observe_deceleration(measures: Record, definition: Record, time: float, spe
     share = interval / (interval + definition.deceleration_filter)
     filtered = measures.filtered_deceleration + share * (deceleration - measures.filtered_deceleration)
     measures.filtered_deceleration = filtered
-    if speed < definition.moving_speed:
-        return
-    # Until the first sample the extremes are NaN, and every comparison with NaN is false.
-    if not measures.maximum_deceleration >= filtered:
-        measures.maximum_deceleration = filtered
-    if time >= definition.developed_time and not measures.minimum_deceleration <= filtered:
-        measures.minimum_deceleration = filtered
-
-
-def _observe_window(measures: Record, time: float, speed: float) -> None:
-    """Keep the speed at whole seconds after the first sliding, linear between samples."""
-    since = time - measures.sliding_time
-    if not since >= 0.0:
-        return
-    before = measures.end_time - measures.sliding_time
-    second = int(before) if before >= 0.0 else -1
-    while second < WINDOW_SECONDS and second + 1.0 <= since:
-        second += 1
-        share = (second - before) / (since - before)
-        measures.speed_after_sliding[second] = measures.end_speed + share * (speed - measures.end_speed)
+    moves = speed >= definition.moving_speed
+    developed = moves & (time >= definition.developed_time)
+    # Until the first sample the extremes are NaN; minimum and maximum then give the other number.
+    highest = maximum(measures.maximum_deceleration, filtered)
+    lowest = minimum(measures.minimum_deceleration, filtered)
+    measures.maximum_deceleration = select(moves, highest, measures.maximum_deceleration)
+    measures.minimum_deceleration = select(developed, lowest, measures.minimum_deceleration)

@@ -3,7 +3,7 @@
 from typing import Any
 
 from uictest.measures.records import SPEED_CLASSES
-from uictest.physics.arithmetic import maximum
+from uictest.physics.arithmetic import maximum, minimum, select
 
 Record = Any
 NAN = float("nan")
@@ -14,8 +14,7 @@ _CLASSES_PER_SPEED = 3.6 / 10.0
 def begin_wheelset(measures: Record) -> None:
     """Start the measures of a wheelset that rolls with its brake released."""
     measures.maximum_slide = 0.0
-    for k in range(SPEED_CLASSES):
-        measures.maximum_slide_above[k] = NAN
+    measures.slide = 0.0
     measures.first_sliding_time = NAN
     measures.sliding_duration = 0.0
     measures.locked_time = 0.0
@@ -25,6 +24,12 @@ def begin_wheelset(measures: Record) -> None:
     measures.venting = 0.0
     measures.maximum_clamping_force = 0.0
     measures.air_vented = NAN
+
+
+def begin_slides(measures: Record) -> None:
+    """Start the slides of the classes of speed."""
+    for k in range(SPEED_CLASSES):
+        measures.maximum_slide_above[k] = NAN
 
 
 def observe_wheelset(
@@ -51,39 +56,62 @@ def observe_wheelset(
         venting: 1.0 while the WSP valve is commanded to vent, else 0.0.
         clamping_force: of one caliper, N.
     """
-    if venting > measures.venting:
-        measures.valve_actuations += 1.0
+    measures.valve_actuations += select(venting > measures.venting, 1.0, 0.0)
     measures.venting = venting
     measures.maximum_clamping_force = maximum(measures.maximum_clamping_force, clamping_force)
-    if speed > definition.moving_speed:
-        slip = speed - wheel_speed
-        _observe_slide(measures, train, definition, number, time, speed, slip)
-        _observe_lock(measures, definition, time - train.end_time, wheel_speed)
+    moves = speed > definition.moving_speed
+    interval = time - train.end_time
+    slip = speed - wheel_speed
+    slide = slip / select(moves, speed, 1.0)
+    measures.slide = select(moves, slide, measures.slide)
+    measures.maximum_slide = select(moves, maximum(measures.maximum_slide, slide), measures.maximum_slide)
+    slides = moves & (slide > definition.sliding_slide) & (slip > definition.sliding_slip)
+    _observe_sliding(measures, train, slides, number, time, interval)
+    _observe_lock(measures, moves, moves & (wheel_speed < definition.locked_speed), interval)
 
 
-def _observe_slide(
-    measures: Record, train: Record, definition: Record, number: int, time: float, speed: float, slip: float
+def keep_slide(measures: Record, samples: Record, definition: Record, speed: float) -> None:
+    """Keep the largest slide for each lowest train speed.
+
+    Args:
+        measures: record that holds a slide for each class of speed.
+        samples: record that :func:`observe_wheelset` filled with the last sample; may be the same.
+        definition: record with the fields of :data:`~uictest.measures.records.DEFINITION`.
+        speed: of the train at that sample, m/s.
+    """
+    if not speed > definition.moving_speed:
+        return
+    k = _highest_class_below(speed)
+    # What counts above one speed counts above every lower one: where one class has as much, so have those.
+    while k >= 0 and not measures.maximum_slide_above[k] >= samples.slide:
+        measures.maximum_slide_above[k] = samples.slide
+        k -= 1
+
+
+def _highest_class_below(speed: float) -> int:
+    """Number of the highest class whose lowest speed is below ``speed`` > 0."""
+    classes = speed * _CLASSES_PER_SPEED
+    if classes >= SPEED_CLASSES:
+        return SPEED_CLASSES - 1
+    highest = int(classes)
+    return highest - 1 if highest == classes else highest
+
+
+def _observe_sliding(
+    measures: Record, train: Record, slides: bool, number: int, time: float, interval: float
 ) -> None:
-    """Keep the largest slide, overall and for each lowest train speed, and the time spent sliding."""
-    slide = slip / speed
-    measures.maximum_slide = maximum(measures.maximum_slide, slide)
-    for k in range(SPEED_CLASSES):
-        if speed * _CLASSES_PER_SPEED > k and not measures.maximum_slide_above[k] >= slide:
-            measures.maximum_slide_above[k] = slide
-    if slide > definition.sliding_slide and slip > definition.sliding_slip:
-        measures.sliding_duration += time - train.end_time
-        if not measures.first_sliding_time <= time:
-            measures.first_sliding_time = time
-        if not train.sliding_time <= time:
-            train.sliding_time = time
-            train.sliding_wheelset = number
+    """Add up the time spent sliding, and note which wheelset slid first and when."""
+    measures.sliding_duration += select(slides, interval, 0.0)
+    # Before the first sliding the times are NaN; the minimum then gives the other number.
+    first = minimum(measures.first_sliding_time, time)
+    measures.first_sliding_time = select(slides, first, measures.first_sliding_time)
+    leader = select(train.sliding_time <= time, train.sliding_wheelset, float(number))
+    train.sliding_wheelset = select(slides, leader, train.sliding_wheelset)
+    train.sliding_time = select(slides, minimum(train.sliding_time, time), train.sliding_time)
 
 
-def _observe_lock(measures: Record, definition: Record, interval: float, wheel_speed: float) -> None:
+def _observe_lock(measures: Record, moves: bool, locked: bool, interval: float) -> None:
     """Add up the time during which the wheelset stands while the train moves."""
-    if wheel_speed < definition.locked_speed:
-        measures.locked_time += interval
-        measures.lock += interval
-        measures.longest_lock = maximum(measures.longest_lock, measures.lock)
-    else:
-        measures.lock = 0.0
+    measures.locked_time += select(locked, interval, 0.0)
+    measures.lock = select(locked, measures.lock + interval, select(moves, 0.0, measures.lock))
+    measures.longest_lock = maximum(measures.longest_lock, measures.lock)

@@ -6,6 +6,9 @@ are always evaluated, so neither may divide by zero.
 """
 
 import math
+from typing import TypeVar
+
+Number = TypeVar("Number", bound=float)
 
 # (exp(t) - 1) / t on [-36/128, 0] and (arctan(t) / t - 1) / t^2 as a polynomial in t^2, |t| <= tan(pi/8):
 # interpolated at Chebyshev nodes.
@@ -42,7 +45,7 @@ _EXP_FLOOR = -36.0
 _EXP_REDUCTION = 1.0 / 128.0
 
 
-def select(condition: bool, when_true: float, when_false: float) -> float:
+def select(condition: bool, when_true: Number, when_false: Number) -> Number:
     """Return one of two values; both have been evaluated."""
     return when_true if condition else when_false
 

@@ -1,6 +1,7 @@
 """What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
 
-Sensors are read without branches, in lanes too; the rest is scalar code that may branch and look up tables.
+Sensors are read and valves are told without branches, in lanes too; what lies between is scalar code that may
+branch and look up tables.
 Between two cycles :func:`uictest.rig.step.step` runs alone.
 """
 
@@ -8,6 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from uictest.controllers import decide
+from uictest.physics.arithmetic import select
 from uictest.physics.noise import bell, threefry
 from uictest.physics.rail import interpolated
 from uictest.physics.sensors import speed_reading
@@ -28,7 +30,7 @@ def sense(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
 
 
 def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) -> None:
-    """Let the controller decide on what was sensed and set the valve targets for the steps of the cycle.
+    """Find the friction under each wheelset and let the controller decide on what was sensed.
 
     Args:
         car: car record.
@@ -42,8 +44,14 @@ def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) 
         along = interpolated(place, rail[0], rail[1], p.friction_points)
         wheelset.friction = along * interpolated(car.time, rail[2], rail[3], p.friction_times)
     decide(car, wheelsets, p)
-    for i in range(4):
-        command_valve(wheelsets[i], p)
+
+
+def command_valves(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+    """Set the valve targets for the steps of the cycle, which begins now."""
+    command_valve(wheelsets[0], p)
+    command_valve(wheelsets[1], p)
+    command_valve(wheelsets[2], p)
+    command_valve(wheelsets[3], p)
     car.substep = 0.0
     car.cycle += 1
 
@@ -71,16 +79,17 @@ def sensor_noise(p: Record, cycle: int, channel: int) -> float:
 
 def command_valve(wheelset: Record, p: Record) -> None:
     """Put the newest command into the register and find what the delay lets through in this cycle."""
-    if p.wsp_active == 0:
-        wheelset.command = FILL
-    register = remember(wheelset.command_register, wheelset.command)
+    command = select(p.wsp_active == 0, FILL, wheelset.command)
+    register = remember(wheelset.command_register, command)
+    wheelset.command = command
     wheelset.command_register = register
     before = command_before(register, p.valve_delay_cycles + 1)
     after = command_before(register, p.valve_delay_cycles)
-    wheelset.fill_before = 1.0 if before == FILL else 0.0
-    wheelset.fill_after = 1.0 if after == FILL else 0.0
-    wheelset.vent_before = 1.0 if before == VENT else 0.0
-    wheelset.vent_after = 1.0 if after == VENT else 0.0
-    wheelset.venting = 1.0 if wheelset.command == VENT else 0.0
-    wheelset.filling_cycles = wheelset.filling_cycles + 1 if wheelset.command == FILL else 0
-    wheelset.wsp_acting = 1.0 if wheelset.filling_cycles < p.wsp_acting_cycles else 0.0
+    filling_cycles = select(command == FILL, wheelset.filling_cycles + 1, 0)
+    wheelset.fill_before = select(before == FILL, 1.0, 0.0)
+    wheelset.fill_after = select(after == FILL, 1.0, 0.0)
+    wheelset.vent_before = select(before == VENT, 1.0, 0.0)
+    wheelset.vent_after = select(after == VENT, 1.0, 0.0)
+    wheelset.venting = select(command == VENT, 1.0, 0.0)
+    wheelset.filling_cycles = filling_cycles
+    wheelset.wsp_acting = select(filling_cycles < p.wsp_acting_cycles, 1.0, 0.0)

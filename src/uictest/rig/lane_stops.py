@@ -1,17 +1,23 @@
 """Stops side by side: each lane runs one, and takes the next from a queue when it has ended.
 
-Compiled only. What branches - controllers, measures - runs lane by lane once per controller cycle; sensors
-and the steps between run in all lanes at once. A lane does what :func:`uictest.rig.stop.stop` does, and its
-measures have the same bits.
+Compiled only. What branches or looks up tables - friction laws, controllers, tables of measures - runs lane
+by lane once per controller cycle; everything else runs in all lanes at once. A lane does what
+:func:`uictest.rig.stop.stop` does, and its measures have the same bits.
 """
 
 from typing import Any, NamedTuple
 
-from uictest.lanes import align_stack, lane, put, vectors
-from uictest.rig.cycle import begin_cycle, sense
+from uictest.lanes import align_stack, lane, put, take, vectors
+from uictest.rig.cycle import begin_cycle, command_valves, sense
 from uictest.rig.start import start
 from uictest.rig.step import step
-from uictest.rig.stop import begin_stop_measures, close_stop_measures, observe_cycle
+from uictest.rig.stop import (
+    begin_stop_measures,
+    begin_tables,
+    close_stop_measures,
+    keep_tables,
+    observe_cycle,
+)
 
 _IDLE = -1
 """Number of a lane's case when it has none."""
@@ -25,6 +31,15 @@ class Rig(NamedTuple):
     wheelsets: Any
 
 
+class Lanes(NamedTuple):
+    """Blocks of lanes (:func:`uictest.lanes.block`): a rig, its parameters, the measures of its stop."""
+
+    rig: Rig
+    settings: Any
+    measures: Any
+    wheelset_measures: Any
+
+
 class Cases(NamedTuple):
     """What stops are given and the records that take their measures, an entry for each case."""
 
@@ -34,12 +49,11 @@ class Cases(NamedTuple):
     wheelset_measures: Any
 
 
-def run_queue(rig: Rig, settings: Any, blank: Rig, cases: Cases, queue: Any, running: Any) -> None:
-    """Run the cases of ``queue`` in the lanes of ``rig`` and fill their measures.
+def run_queue(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any) -> None:
+    """Run the cases of ``queue`` in ``lanes`` and fill their measures.
 
     Args:
-        rig: blocks of lanes (:func:`uictest.lanes.block`).
-        settings: block of the parameters in as many lanes.
+        lanes: blocks, all of as many lanes.
         blank: records of zeros, with which a lane begins.
         cases: parameters and measures of all cases.
         queue: numbers of the cases to be run, in the order in which they begin; at least one, and all with
@@ -50,72 +64,73 @@ def run_queue(rig: Rig, settings: Any, blank: Rig, cases: Cases, queue: Any, run
     begun = 0
     for k in range(running.size):
         # A lane that finds the queue empty steps this case, and so meets no numbers that a case does not.
-        _set(rig, settings, blank, cases.parameters[queue[0]], k)
-        begun = _take(rig, settings, blank, cases, queue, running, begun, k)
+        _set(lanes, blank, cases.parameters[queue[0]], k)
+        begun = _take(lanes, blank, cases, queue, running, begun, k)
     ended = 0
     while ended < queue.size:
-        _run_cycle(rig, settings, cases, running)
+        _run_cycle(lanes, cases, running)
         for k in range(running.size):
-            if running[k] != _IDLE and _ends(rig, cases, running[k], k):
+            if running[k] != _IDLE and _ends(lanes, cases, running[k], k):
                 ended += 1
-                begun = _take(rig, settings, blank, cases, queue, running, begun, k)
+                begun = _take(lanes, blank, cases, queue, running, begun, k)
 
 
-def _take(
-    rig: Rig,
-    settings: Any,
-    blank: Rig,
-    cases: Cases,
-    queue: Any,
-    running: Any,
-    begun: int,
-    k: int,
-) -> int:
+def _take(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any, begun: int, k: int) -> int:
     """Let lane ``k`` begin the next case, or idle when none waits; return how many have begun."""
     if begun == queue.size:
         running[k] = _IDLE
         return begun
     case = queue[begun]
     running[k] = case
-    p = cases.parameters[case]
-    _set(rig, settings, blank, p, k)
-    begin_stop_measures(lane(rig.car, k), cases.measures[case], cases.wheelset_measures[case], p)
+    _set(lanes, blank, cases.parameters[case], k)
+    begin_tables(cases.measures[case], cases.wheelset_measures[case])
     return begun + 1
 
 
-def _set(rig: Rig, settings: Any, blank: Rig, p: Any, k: int) -> None:
+def _set(lanes: Lanes, blank: Rig, p: Any, k: int) -> None:
     """Set lane ``k`` to the instant of the brake command."""
+    rig = lanes.rig
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
-    put(lane(settings, k), p)
+    put(lane(lanes.settings, k), p)
     put(car, blank.car[0])
     for j in range(2):
         put(bogies[j], blank.bogies[j])
     for i in range(4):
         put(wheelsets[i], blank.wheelsets[i])
     start(car, bogies, wheelsets, p)
+    begin_stop_measures(car, lane(lanes.measures, k), lane(lanes.wheelset_measures, k), p)
 
 
-def _run_cycle(rig: Rig, settings: Any, cases: Cases, running: Any) -> None:
-    """Begin a controller cycle in every lane that runs a case, then step all lanes through it."""
+def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Step all lanes through a controller cycle; the controllers of lanes that run no case keep still."""
+    rig = lanes.rig
+    car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
+    settings = vectors(lanes.settings)
     steps = 0
-    sense(vectors(rig.car), vectors(rig.wheelsets), vectors(settings))
+    sense(car, wheelsets, settings)
     for k in range(running.size):
         case = running[k]
         if case != _IDLE:
             p = cases.parameters[case]
             begin_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             steps = p.steps_per_cycle
+    command_valves(car, wheelsets, settings)
     for _ in range(steps):
-        step(vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets), vectors(settings))
+        step(car, bogies, wheelsets, settings)
+    observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
 
 
-def _ends(rig: Rig, cases: Cases, case: int, k: int) -> bool:
+def _ends(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     """Take in the end of a cycle of lane ``k``; whether its stop has ended, which completes its measures."""
-    p = cases.parameters[case]
+    p, rig = cases.parameters[case], lanes.rig
     measures, wheelset_measures = cases.measures[case], cases.wheelset_measures[case]
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
-    observe_cycle(car, wheelsets, measures, wheelset_measures, p)
+    samples, wheelset_samples = lane(lanes.measures, k), lane(lanes.wheelset_measures, k)
+    keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
     if car.stopped == 0.0 and car.cycle < p.cycles:
         return False
+    take(measures, samples)
+    for i in range(4):
+        take(wheelset_measures[i], wheelset_samples[i])
     close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
     return True

@@ -60,25 +60,31 @@ def _queues(steps_per_cycle: NDArray[np.int64]) -> list[NDArray[np.int64]]:
 
 def _run_queue(cases: Any, queue: NDArray[np.int64], width: int) -> None:
     from uictest.lanes import block
-    from uictest.rig.lane_stops import Rig
+    from uictest.rig.lane_stops import Lanes, Rig
 
-    rig = Rig(block(CAR, width), block(BOGIE, width, 2), block(WHEELSET, width, 4))
+    lanes = Lanes(
+        Rig(block(CAR, width), block(BOGIE, width, 2), block(WHEELSET, width, 4)),
+        block(PARAMETERS, width),
+        block(MEASURES, width),
+        block(WHEELSET_MEASURES, width, 4),
+    )
     blank = Rig(np.zeros(1, CAR), np.zeros(2, BOGIE), np.zeros(4, WHEELSET))
     with _compiling:
         run_queue = _compiled()
-    run_queue(rig, block(PARAMETERS, width), blank, cases, queue, np.empty(width, np.int64))
+    run_queue(lanes, blank, cases, queue, np.empty(width, np.int64))
 
 
 @cache
 def _compiled() -> Any:
-    """Return the loop over a queue of cases compiled: its steps for lanes, all else for one lane."""
+    """Return the loop over a queue of cases compiled: what has no branches for lanes, the rest for one."""
     use_cache()
     import numba
 
     from uictest import lanes
-    from uictest.rig.cycle import sense
+    from uictest.rig.cycle import command_valves, sense
     from uictest.rig.lane_stops import run_queue
     from uictest.rig.step import step
+    from uictest.rig.stop import observe_cycle
 
     njit: Any = numba.njit(**OPTIONS)
     in_lanes: dict[Function, Any] = {
@@ -88,6 +94,7 @@ def _compiled() -> Any:
         arithmetic.sqrt: lanes.sqrt,
         arithmetic.floor: lanes.floor,
     }
-    wide = {function: translate(function, njit, in_lanes) for function in (sense, step)}
+    without_branches = (sense, command_valves, step, observe_cycle)
+    wide = {function: translate(function, njit, in_lanes) for function in without_branches}
     entry = translate(run_queue, njit, wide)
     return numba.njit(**OPTIONS, cache=True)(entry.py_func)

@@ -3,10 +3,20 @@
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.measures import begin as begin_measures
-from uictest.measures import begin_wheelset, finish, observe_train, observe_wheelset
+from uictest.measures import (
+    begin,
+    begin_slides,
+    begin_wheelset,
+    begin_window,
+    finish,
+    keep_slide,
+    keep_window,
+    observe_train,
+    observe_wheelset,
+)
+from uictest.physics.arithmetic import select
 from uictest.rig.balance import air_residual, energy_residual
-from uictest.rig.cycle import begin_cycle, sense
+from uictest.rig.cycle import begin_cycle, command_valves, sense
 from uictest.rig.start import start
 from uictest.rig.step import step
 from uictest.rig.trace import sample
@@ -34,11 +44,13 @@ def stop(
     """
     start(car, bogies, wheelsets, p)
     begin_stop_measures(car, measures, wheelset_measures, p)
+    begin_tables(measures, wheelset_measures)
     rows = 0
     steps = 0
     while car.stopped == 0.0 and car.cycle < p.cycles:
         sense(car, wheelsets, p)
         begin_cycle(car, wheelsets, p, rail)
+        command_valves(car, wheelsets, p)
         if steps_per_sample > 0 and rows == 0:
             sample(trace[0], car, wheelsets, p)
             rows = 1
@@ -49,6 +61,7 @@ def stop(
                 sample(trace[rows], car, wheelsets, p)
                 rows += 1
         observe_cycle(car, wheelsets, measures, wheelset_measures, p)
+        keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
     close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
     return rows
 
@@ -56,37 +69,56 @@ def stop(
 def begin_stop_measures(
     car: Record, measures: Record, wheelset_measures: Sequence[Record], p: Record
 ) -> None:
-    """Start the measures of a stop."""
-    begin_measures(
-        measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure
-    )
+    """Start the measures of a stop that are one number."""
+    begin(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
     for i in range(4):
         begin_wheelset(wheelset_measures[i])
+
+
+def begin_tables(measures: Record, wheelset_measures: Sequence[Record]) -> None:
+    """Start the measures of a stop that are a table."""
+    begin_window(measures)
+    for i in range(4):
+        begin_slides(wheelset_measures[i])
 
 
 def observe_cycle(
     car: Record, wheelsets: Sequence[Record], measures: Record, wheelset_measures: Sequence[Record], p: Record
 ) -> None:
     """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
-    reservoir = car.reservoir_pressure - p.atmospheric_pressure
-    if car.stopped > 0.0:
-        observe_train(measures, p, car.stop_time, car.stop_position, 0.0, reservoir)
-        finish(measures, car.stop_time, car.stop_position)
-        return
+    stands = car.stopped > 0.0
+    time = select(stands, car.stop_time, car.time)
+    position = select(stands, car.stop_position, car.position)
+    speed = select(stands, 0.0, car.speed)
     for i in range(4):
         wheelset = wheelsets[i]
+        observed = wheelset_measures[i]
         observe_wheelset(
-            wheelset_measures[i],
+            observed,
             measures,
             p,
             i + 1,
-            car.time,
-            car.speed,
+            time,
+            speed,
             wheelset.rotation * p.wheel_radius,
-            wheelset.venting,
-            wheelset.clamping_force,
+            select(stands, observed.venting, wheelset.venting),
+            select(stands, 0.0, wheelset.clamping_force),
         )
-    observe_train(measures, p, car.time, car.position, car.speed, reservoir)
+    observe_train(measures, p, time, position, speed, car.reservoir_pressure - p.atmospheric_pressure)
+    finish(measures, stands, time, position)
+
+
+def keep_tables(
+    measures: Record,
+    wheelset_measures: Sequence[Record],
+    samples: Record,
+    wheelset_samples: Sequence[Record],
+    p: Record,
+) -> None:
+    """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
+    keep_window(measures, samples)
+    for i in range(4):
+        keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
 
 
 def close_stop_measures(

@@ -17,7 +17,7 @@ from uictest.scenario.validation import dotted
 from uictest.sweep.plan import Plan, Value
 from uictest.sweep.variation import refusals, varied
 
-_MOST_KEPT: Final = 10_000
+_MOST_KEPT: Final = 1_000
 """Results of one facet that are kept from block to block: listed values come again, drawn ones do not."""
 Settings = Mapping[str, Sequence[Value]]
 
