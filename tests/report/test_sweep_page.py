@@ -13,6 +13,7 @@ from uictest.report.page import sweep_page_html, trace_of
 from uictest.report.page.frontier_plot import frontier_plot
 from uictest.report.page.heat import heat_map
 from uictest.report.page.histogram import histogram
+from uictest.report.page.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
 
 from .test_page import Page
@@ -29,6 +30,7 @@ def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
         "Mean braking distance, m",
         "Frontier along 90 %",
         "Cases met by parameter",
+        "Figures by parameter",
         "Distributions",
         "What the figures depend on",
         "Cases most worth looking at",
@@ -105,6 +107,48 @@ def test_bars_stack_to_the_cases_of_their_bin() -> None:
     per_case = (drawn.bottom - drawn.top) / 4
     assert sorted(height.values()) == pytest.approx([per_case, 2 * per_case, 3 * per_case])
     assert drawn.outcomes == ["pass", "fail"]
+
+
+def drawn(values: list[str], means: list[float | None], cases: int = 1, met: int = 1) -> TrendPlot | None:
+    ends = {"minimum": [mean and mean - 1.0 for mean in means], "maximum": means}
+    own = {"parameter": "speed", "measure": "distance", "unit": "m", "cases": [cases] * len(values)}
+    counts = [{"cases": cases, "met": met}] * len(values)
+    return trend_plot({**own, "values": values, "mean": means, **ends}, counts)
+
+
+def test_a_trend_is_drawn_in_the_order_of_its_numbers() -> None:
+    plot = drawn(["120 km/h", "80 km/h", "100 km/h"], [400.0, 200.0, 300.0])
+    assert plot is not None
+    assert (plot.title, plot.x_title, plot.band) == ("distance, m", "speed, km/h", "")
+    assert [point.label[:8] for point in plot.points] == ["80 km/h:", "100 km/h", "120 km/h"]
+    xs, ys = ([getattr(point, name) for point in plot.points] for name in ("x", "y"))
+    assert xs == sorted(xs)
+    assert ys == sorted(ys, reverse=True)
+    assert not any(point.missed for point in plot.points)
+
+
+def test_a_value_of_several_cases_has_a_band_and_says_how_many_missed() -> None:
+    plot = drawn(["0.08 .. 0.09", "0.09 .. 0.1"], [2.0, 3.0], cases=4, met=3)
+    assert plot is not None
+    assert plot.band.endswith("Z")
+    assert plot.points[0].missed
+    assert plot.points[0].label == "0.08 .. 0.09: 2 (1 .. 2), 4 cases, 1 not met"
+    # A stretch lies at its middle, so that two of them are one step apart.
+    (low, _), (high, _) = plot.x_ticks[0], plot.x_ticks[-1]
+    assert low < high
+
+
+def test_a_value_without_the_figure_is_passed_over() -> None:
+    plot = drawn(["1", "2", "3"], [5.0, None, 6.0])
+    assert plot is not None
+    assert [point.label[:2] for point in plot.points] == ["1:", "3:"]
+
+
+@pytest.mark.parametrize(
+    "values", [["full", "none"], ["80 km/h", "20 m/s"], ["80 km/h"], ["full", "3"], ["80 km/h", "80 km/h"]]
+)
+def test_what_has_no_common_axis_is_not_drawn(values: list[str]) -> None:
+    assert drawn(values, [1.0, 2.0][: len(values)]) is None
 
 
 def stretch(command: str, speed: str, low: str, high: str) -> dict[str, Any]:

@@ -9,10 +9,12 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 
 from uictest.sweep import Plan, Selection, Store, Worker
 from uictest.sweep.findings import Findings, gather, read_result, write_findings
+from uictest.sweep.trends import MOST_VALUES
 
 from .conftest import GRID, Load
 
@@ -51,6 +53,28 @@ def test_counts_by_parameter(finished: Callable[..., tuple[Findings, Path]]) -> 
     # Wheels lock where command - 9 friction exceeds 0.2.
     assert by_friction == {"0.08": ("2", "1"), "0.10": ("2", "2"), "0.12": ("2", "2")}
     assert [row[0] for row in findings.tally.missed] == ["study[friction=0.08,command=100]"]
+
+
+def test_trends_of_a_figure_along_each_parameter(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    _, folder = finished()
+    cases = pq.read_table(folder / "summary.parquet").to_pylist()
+    trends = {tuple(row[:3]): row[3:] for row in table(folder / "trends.csv")}
+    for key, value in {
+        (key, case[f"parameters.{key}"]) for case in cases for key in ("rail.friction", "brake.command")
+    }:
+        own = [case["braking_distance_m"] for case in cases if case[f"parameters.{key}"] == value]
+        unit, count, *numbers = trends[key, value, "braking distance"]
+        assert (unit, count) == ("m", str(len(own)))
+        expected = [min(own), sum(own) / len(own), max(own)]
+        assert [float(number) for number in numbers] == pytest.approx(expected)
+
+
+def test_a_parameter_of_too_many_values_has_no_trend(
+    finished: Callable[..., tuple[Findings, Path]],
+) -> None:
+    many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
+    _, folder = finished(GRID.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
+    assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
 
 
 def test_maps(finished: Callable[..., tuple[Findings, Path]]) -> None:

@@ -19,6 +19,7 @@ from uictest.recording import atomic_path, write_text_atomic
 from uictest.report.csv_table import Cell, csv_text
 from uictest.report.escaping import csv_cell
 from uictest.report.subject import Subject
+from uictest.report.sweep.trends import TREND_COLUMNS, trend_rows
 from uictest.sweep.distributions import Distribution, figures_to_show
 from uictest.sweep.frontier import UNKNOWN, Stretch
 from uictest.sweep.junit import junit_xml
@@ -27,6 +28,7 @@ from uictest.sweep.selection import Selection
 from uictest.sweep.sensitivity import Sensitivity, saltelli_sample, sensitivities
 from uictest.sweep.store import Store
 from uictest.sweep.tally import OUTCOMES, Count, Tally
+from uictest.sweep.trends import MOST_VALUES, Trends
 from uictest.sweep.worst import Worst
 
 if TYPE_CHECKING:
@@ -47,6 +49,7 @@ class Findings:
     worst_indices: list[int]
     """Cases most worth looking at; `worst` has them in full, once they were examined."""
     distributions: list[Distribution] = field(default_factory=list)
+    trends: list[Trends] = field(default_factory=list)
     sensitivities: list[Sensitivity] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     frontier: list[Stretch] = field(default_factory=list)
@@ -77,7 +80,9 @@ def gather(
     verdicts = np.full(plan.size, UNKNOWN, np.int8)
     whole = saltelli_sample(plan) is not None and selection.chosen is None
     figures = {name: np.full(plan.size, np.nan) for name in measures} if whole else {}
-    worst, distributions = Worst(), [Distribution(each) for each in figures_to_show(measures)]
+    shown = figures_to_show(measures)
+    worst, distributions = Worst(), [Distribution(each) for each in shown]
+    trends = [Trends(plan, each, shown) for each in tally.classes.values() if len(each.labels) <= MOST_VALUES]
     with _summary_files(store.folder) as write:
         for table in store.tables(range(selection.parts)):
             write(table)
@@ -87,11 +92,13 @@ def gather(
                 found.take(table)
             for each in distributions:
                 each.span(table)
+            for trend in trends:
+                trend.take(table)
             indices = table.column("index").to_numpy()
             verdicts[indices] = table.column("met").to_numpy(zero_copy_only=False)
             for name, values in figures.items():
                 values[indices] = table.column(name).to_numpy(zero_copy_only=False)
-    findings = Findings(tally, maps, verdicts, worst.indices())
+    findings = Findings(tally, maps, verdicts, worst.indices(), trends=trends)
     findings.distributions = _counted(distributions, selection, store)
     _add_sensitivities(findings, figures | ({MET: verdicts.astype(float)} if whole else {}))
     return findings
@@ -127,6 +134,7 @@ def write_findings(folder: Path, findings: Findings) -> str:
     texts = {
         "rates.csv": _rates_csv(findings.tally),
         **{f"map-{each.measure}.csv": each.csv() for each in findings.maps},
+        "trends.csv": _trends_csv(findings.trends),
         "junit.xml": junit_xml(findings.tally),
         RESULTS: document,
     }
@@ -154,6 +162,7 @@ def result_document(findings: Findings) -> dict[str, Any]:
         "rates": {key: [_count_form(count) for count in tally.by_class(key)] for key in tally.classes},
         "maps": [_map_form(each) for each in findings.maps],
         "distributions": [each.form() for each in findings.distributions],
+        "trends": [form for each in findings.trends for form in each.forms()],
         "worst": [result.to_dict() for result in findings.worst],
         "subjects": {name: subject.to_dict() for name, subject in findings.subjects.items()},
         "sensitivities": [dataclasses.asdict(each) for each in findings.sensitivities],
@@ -186,6 +195,11 @@ def _rates_csv(tally: Tally) -> str:
                 yield {"parameter": key, "value": count.label, **own, **count.outcomes}
 
     return csv_text(["parameter", "value", "cases", "met", "share_met", *OUTCOMES], rows())
+
+
+def _trends_csv(trends: Sequence[Trends]) -> str:
+    forms = (form for each in trends for form in each.forms())
+    return csv_text(TREND_COLUMNS, (row for form in forms for row in trend_rows(form)))
 
 
 def _sensitivity_csv(found: Sequence[Sensitivity]) -> str:

@@ -17,7 +17,17 @@ openpyxl = pytest.importorskip("openpyxl")
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]
-SHEETS = ["Summary", "Cases", "Maps", "Rates", "Frontier", "Sensitivity", "Worst cases", "Provenance"]
+SHEETS = [
+    "Summary",
+    "Cases",
+    "Maps",
+    "Rates",
+    "Trends",
+    "Frontier",
+    "Sensitivity",
+    "Worst cases",
+    "Provenance",
+]
 
 
 def _write_summary(folder: Path, rows: list[dict[str, Any]]) -> None:
@@ -49,6 +59,8 @@ def test_the_sheets_hold_what_the_sweep_found(make_sweep: MakeSweep, make_result
     assert next(iter(case)) == "id"
     assert (case["id"], case["met"], case["braking_distance_m"]) == ("case-0", "missed", 465.25)
     assert _table(workbook["Rates"])[1]["share_met"] == 0.5
+    trend = _table(workbook["Trends"])
+    assert [(row["value"], row["cases"], row["mean"]) for row in trend] == [("80 %", 2, 2), ("90 %", 1, 4)]
     (flip,) = _table(workbook["Frontier"])
     assert (flip["from"], flip["to"], flip["met_at_from"], flip["flips"]) == ("90 %", "0.11", False, 1)
     (index,) = _table(workbook["Sensitivity"])
@@ -71,7 +83,7 @@ def test_each_map_has_a_colour_scale_of_its_own(make_sweep: MakeSweep) -> None:
 
 
 def test_what_a_sweep_does_not_have_has_no_sheet(make_sweep: MakeSweep) -> None:
-    content = make_sweep(maps=[], missed=[], sensitivities=[], frontier=None, distributions=[])
+    content = make_sweep(maps=[], missed=[], sensitivities=[], frontier=None, distributions=[], trends=[])
     _write_summary(content.folder, _rows(1))
     assert _read(content).sheetnames == ["Summary", "Cases", "Rates", "Provenance"]
 

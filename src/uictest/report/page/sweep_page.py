@@ -10,6 +10,7 @@ from uictest.report.page.frontier_plot import FrontierPlot, frontier_plot, front
 from uictest.report.page.heat import HeatMap, heat_map
 from uictest.report.page.histogram import histogram
 from uictest.report.page.rendering import render
+from uictest.report.page.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.wording import (
     circumstances_words,
@@ -40,6 +41,7 @@ def sweep_page_html(content: SweepContent) -> str:
         maps=list(_maps(content, keys)),
         rates={key: counts for key, counts in document["rates"].items() if len(counts) <= _MOST_VALUES},
         frontier=_frontier(document),
+        trends=list(_trends(document)),
         histograms=[histogram(found) for found in document["distributions"]],
         notable=notable_cases(content),
         drawn=drawn,
@@ -80,6 +82,11 @@ def _maps(content: SweepContent, keys: Mapping[str, str]) -> Iterator[HeatMap]:
             if result.id in keys
         }
         yield heat_map(found, places)  # type: ignore[arg-type]  # pairs have two members
+
+
+def _trends(document: Mapping[str, Any]) -> Iterator[TrendPlot]:
+    plots = (trend_plot(found, document["rates"][found["parameter"]]) for found in document["trends"])
+    yield from (plot for plot in plots if plot is not None)
 
 
 def _frontier(document: Mapping[str, Any]) -> tuple[FrontierPlot | None, list[tuple[str, str, str]]] | None:

@@ -15,7 +15,7 @@ _MANIFEST: Final = "manifest.json"
 _SCHEMA: Final = "uictest/sweep-result/1"
 _FINDINGS: Final = (
     *("name", "title", "cases", "met", "outcomes", "missed", "rates", "maps", "distributions"),
-    *("worst", "subjects", "frontier", "sensitivities", "notes"),
+    *("trends", "worst", "subjects", "frontier", "sensitivities", "notes"),
 )
 
 

@@ -10,6 +10,7 @@ from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.trends import trend_rows
 from uictest.report.sweep.wording import swept_words
 from uictest.report.workbook import manifest_rows, result_row
 
@@ -41,6 +42,7 @@ def _tables(content: SweepContent) -> dict[str, list[Row]]:
     document = content.document
     return {
         "Rates": list(_rates(document["rates"])),
+        "Trends": [row for trend in document["trends"] for row in trend_rows(trend)],
         "Frontier": list(_frontier(document["frontier"] or {"stretches": ()})),
         "Sensitivity": list(_sensitivities(document["sensitivities"])),
         "Worst cases": list(_worst(content)),
