@@ -33,7 +33,7 @@ def test_parts_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
     selection = Selection(Sized(size))  # type: ignore[arg-type]
     edges = [selection.part(0)[0], selection.part(selection.parts - 1)[-1]]
     assert edges == [0, size - 1]
-    assert selection.part(0).size <= selection.part_size <= 1024
+    assert selection.part(0).size <= selection.part_size <= 256
     assert sum(selection.part(number).size for number in (0, selection.parts - 1)[: selection.parts]) <= size
 
 

@@ -14,7 +14,7 @@ from uictest.sweep.plan import Plan
 from uictest.sweep.simulating import Device
 
 _SMALLEST: Final = 16
-_CUTS: Final[dict[str, tuple[int, int]]] = {"cpu": (1024, 64), "cuda": (65_536, 8)}
+_CUTS: Final[dict[str, tuple[int, int]]] = {"cpu": (256, 32), "cuda": (65_536, 8)}
 """Most cases in a part and parts wanted, by device: a GPU is busy only with many cases at once."""
 _AT_ONCE: Final = 4096
 
