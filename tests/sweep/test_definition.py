@@ -93,6 +93,7 @@ def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
         ("grid: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
         ("grid: {rail.friction: [0.1, 0.1]}\n", "is there twice"),
         ("grid: {name: [a, b]}\n", "cannot vary"),
+        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under ranges"),
         ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
         ("", "nothing varies"),
         ("grid: {rail.friction: [0.1]}\nzip: {rail.friction: [0.2]}\n", "is under grid as well"),

@@ -42,6 +42,7 @@ def load_sweep(path: Path, overrides: Sequence[str] = (), seed: int | None = Non
     parsed = parse_overrides(overrides, seed)
     tree = read_file(path)
     _refuse_other_schema(tree)
+    _refuse_ranges_in_grid(tree)
     file: SweepFile = validated(SweepFile, plain(tree), tree)
     tree = _without_keys(tree, {each.key for each in parsed})
     fixed = [each for each in parsed if len(each.values) == 1]
@@ -165,6 +166,22 @@ def _refuse_other_schema(tree: Map) -> None:
         found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
         hint = "a scenario is run with `uictest run`"
         raise refusal(schema.place, f"expected {SWEEP_SCHEMA}, found {found}", "schema", hint)
+
+
+def _refuse_ranges_in_grid(tree: Map) -> None:
+    """Say where a stretch of numbers belongs, which a list does not hold."""
+    found = [
+        diagnose(
+            entry.node.place,
+            f"expected a list of values, found {describe(entry.node)}",
+            f"grid.{key}",
+            "a stretch of numbers goes under ranges: {first, last, step} or {first, last, count}",
+        )
+        for key, entry in _entries(tree, "grid")
+        if isinstance(entry.node, Map)
+    ]
+    if found:
+        raise ScenarioErrors(found)
 
 
 def _without_keys(tree: Map, keys: set[str]) -> Map:
