@@ -41,7 +41,7 @@ def sweep_page_html(content: SweepContent) -> str:
         maps=list(_maps(content, keys)),
         rates={key: counts for key, counts in document["rates"].items() if len(counts) <= _MOST_VALUES},
         frontier=_frontier(document),
-        trends=list(_trends(document)),
+        trends=_trends(document),
         histograms=[histogram(found) for found in document["distributions"]],
         notable=notable_cases(content),
         drawn=drawn,
@@ -84,9 +84,15 @@ def _maps(content: SweepContent, keys: Mapping[str, str]) -> Iterator[HeatMap]:
         yield heat_map(found, places)  # type: ignore[arg-type]  # pairs have two members
 
 
-def _trends(document: Mapping[str, Any]) -> Iterator[TrendPlot]:
-    plots = (trend_plot(found, document["rates"][found["parameter"]]) for found in document["trends"])
-    yield from (plot for plot in plots if plot is not None)
+def _trends(document: Mapping[str, Any]) -> dict[str, list[TrendPlot]]:
+    """Return the plots of each parameter that has any."""
+    drawn: dict[str, list[TrendPlot]] = {}
+    for found in document["trends"]:
+        key = found["parameter"]
+        plot = trend_plot(found, document["rates"][key])
+        if plot is not None:
+            drawn.setdefault(key, []).append(plot)
+    return drawn
 
 
 def _frontier(document: Mapping[str, Any]) -> tuple[FrontierPlot | None, list[tuple[str, str, str]]] | None:
