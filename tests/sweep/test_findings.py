@@ -69,6 +69,15 @@ def test_trends_of_a_figure_along_each_parameter(finished: Callable[..., tuple[F
         assert [float(number) for number in numbers] == pytest.approx(expected)
 
 
+def test_figures_name_the_columns_that_they_are_of(finished: Callable[..., tuple[Findings, Path]]) -> None:
+    _, folder = finished()
+    found = read_result(folder)
+    columns = set(pq.read_schema(folder / "summary.parquet").names)
+    figures = [*found["distributions"], *found["trends"]]
+    assert {len(each["columns"]) for each in figures} == {1, 4}
+    assert all(columns.issuperset(each["columns"]) for each in figures)
+
+
 def test_a_parameter_of_too_many_values_has_no_trend(
     finished: Callable[..., tuple[Findings, Path]],
 ) -> None:

@@ -102,6 +102,7 @@ class Distribution:
         return {
             "measure": self.figure.name,
             "unit": self.figure.unit,
+            "columns": list(self.figure.columns),
             "cases": self.cases,
             "minimum": self.minimum,
             "mean": self._sum / self.cases,

@@ -34,7 +34,7 @@ class Selection:
 
     @property
     def part_size(self) -> int:
-        """Cases in a part: a few seconds of work, and the same on every machine."""
+        """Cases in a part: about a second of work, and the same on every machine."""
         largest, parts = _CUTS[self.device]
         return min(largest, max(_SMALLEST, self.size // parts))
 

@@ -52,6 +52,7 @@ class Trends:
                     "values": list(self.classes.labels),
                     "measure": figure.name,
                     "unit": figure.unit,
+                    "columns": list(figure.columns),
                     "cases": cases.tolist(),
                     "minimum": np.where(known, self._least[place], np.nan).tolist(),
                     "mean": mean.tolist(),
