@@ -58,9 +58,10 @@ static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *
 {
     const double *places = rail.rows, *frictions = places + rail.width;
     const double *times = frictions + rail.width, *factors = times + rail.width;
+    double factor = interpolated(car->time, times, factors, p->friction_times);
     for (int i = 0; i < 4; i++) {
         double along = interpolated(car->position - wheelsets[i].behind, places, frictions, p->friction_points);
-        wheelsets[i].friction = along * interpolated(car->time, times, factors, p->friction_times);
+        wheelsets[i].friction = along * factor;
     }
     if (p->algorithm == 1)
         decide_by_slip_band(car, wheelsets, p);

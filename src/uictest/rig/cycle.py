@@ -38,11 +38,11 @@ def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) 
         p: parameter record.
         rail: array of shape (4, n): places in m, friction coefficients there, times in s, factors then.
     """
+    factor = interpolated(car.time, rail[2], rail[3], p.friction_times)
     for i in range(4):
         wheelset = wheelsets[i]
-        place = car.position - wheelset.behind
-        along = interpolated(place, rail[0], rail[1], p.friction_points)
-        wheelset.friction = along * interpolated(car.time, rail[2], rail[3], p.friction_times)
+        along = interpolated(car.position - wheelset.behind, rail[0], rail[1], p.friction_points)
+        wheelset.friction = along * factor
     decide(car, wheelsets, p)
 
 
