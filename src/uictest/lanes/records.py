@@ -1,6 +1,7 @@
 """Records in lanes, for compiled code: attributes that load and store vectors, or the numbers of one lane."""
 
 import operator
+from collections.abc import Iterator
 from typing import Any
 
 from llvmlite import ir
@@ -55,9 +56,7 @@ def put(typing: Any, place: Any, record: Any) -> Any:
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         to, source = sig.args
-        for field in to.record.fields:
-            kind = source.typeof(field)
-            member = member_of_record(builder, args[1], source.offset(field), context.get_data_type(kind))
+        for field, kind, member in _members(context, builder, source, args[1], to):
             _write(builder, to, args[0], field, context.unpack_value(builder, kind, member))
         return context.get_dummy_value()
 
@@ -72,9 +71,7 @@ def take(typing: Any, record: Any, place: Any) -> Any:
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         to, source = sig.args
-        for field in source.record.fields:
-            kind = to.typeof(field)
-            member = member_of_record(builder, args[0], to.offset(field), context.get_data_type(kind))
+        for field, kind, member in _members(context, builder, to, args[0], source):
             number = builder.load(_field(builder, source, args[1], field), align=_BYTES)
             context.pack_value(builder, kind, number, member)
         return context.get_dummy_value()
@@ -135,6 +132,19 @@ def _has_fields_of(record: Any, place: Any) -> bool:
         field in record.fields and record.typeof(field) == place.number(field)
         for field in place.record.fields
     )
+
+
+def _members(
+    context: Any, builder: Any, record: Any, address: Any, place: LaneType
+) -> Iterator[tuple[str, Any, Any]]:
+    """Yield the fields of a lane's record with their types and addresses in an ordinary one."""
+    for field in place.record.fields:
+        kind = record.typeof(field)
+        yield (
+            field,
+            kind,
+            member_of_record(builder, address, record.offset(field), context.get_data_type(kind)),
+        )
 
 
 def _is_block(kind: Any) -> bool:

@@ -23,6 +23,7 @@ def align_stack(typing: Any) -> Any:
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         variable = local_variable(builder, vector_of_llvm(_NUMBERS))
         variable.align = _CACHE_LINE
+        # No instruction at all, but one that names the variable: without a use it would be optimised away.
         keep = ir.FunctionType(ir.VoidType(), [variable.type])
         builder.asm(keep, "", "r", [variable], side_effect=True)
         return context.get_dummy_value()

@@ -1,8 +1,7 @@
 """What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
 
 Sensors are read and valves are told without branches, in lanes too; what lies between is scalar code that may
-branch and look up tables.
-Between two cycles :func:`uictest.rig.step.step` runs alone.
+branch and look up tables. Between two cycles :func:`uictest.rig.step.step` runs alone.
 """
 
 from collections.abc import Sequence

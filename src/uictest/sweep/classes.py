@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.report.sweep.wording import STRETCH
 from uictest.sweep.axes import ends_of
 from uictest.sweep.plan import Draw, Listed, Plan
 from uictest.sweep.table import text_column
@@ -61,5 +62,5 @@ def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:
     ends: Any = np.linspace(float(low.number), float(high.number), STRETCHES + 1).tolist()
     shown = [f"{end:.10g}" for end in ends]
     unit = f" {low.unit}" if low.unit else ""
-    labels = tuple(f"{shown[k]} .. {shown[k + 1]}{unit}" for k in range(STRETCHES))
+    labels = tuple(f"{shown[k]}{STRETCH}{shown[k + 1]}{unit}" for k in range(STRETCHES))
     return Classes(key, labels, place, tuple(ends[1:-1]))

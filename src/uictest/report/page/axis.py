@@ -9,6 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+Tick = tuple[float, str]
+"""Where a round value lies, in pixels, and its label."""
+
 
 @dataclass(frozen=True, slots=True)
 class Axis:
@@ -34,6 +37,10 @@ class Axis:
         decimals = max(0, -math.floor(math.log10(step) + 1e-9))
         first, last = math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9)
         return [(k * step, f"{k * step:.{decimals}f}") for k in range(first, last + 1)]
+
+    def tick_marks(self, most: int) -> list[Tick]:
+        """Return these ticks in pixels."""
+        return [(self.at(value), label) for value, label in self.ticks(most)]
 
     @property
     def _pixels_per_unit(self) -> float:

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from uictest.report.page.axis import Axis, span
+from uictest.report.page.axis import Axis, Tick, span
+from uictest.report.page.labels import number_in, unit_in, with_unit
 from uictest.report.sweep.wording import circumstances_words, flip_words
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
 _SIDES = ((_LEFT, _RIGHT), (_BOTTOM, _TOP))
 _MOST_SERIES = 6
-Tick = tuple[float, str]
 Point = tuple[float, float, str]
 """Where a flip is drawn, and what it says."""
 
@@ -73,13 +73,11 @@ def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
         for name in names[:_MOST_SERIES]
     ]
     return FrontierPlot(
-        _with_unit(key, (each["circumstances"][key] for each in found["stretches"])),
-        _with_unit(
-            found["parameter"], (flip["low"] for each in found["stretches"] for flip in each["flips"])
-        ),
+        _title(key, (each["circumstances"][key] for each in found["stretches"])),
+        _title(found["parameter"], (flip["low"] for each in found["stretches"] for flip in each["flips"])),
         series,
-        [(x.at(value), label) for value, label in x.ticks(8)],
-        [(y.at(value), label) for value, label in y.ticks(6)],
+        x.tick_marks(8),
+        y.tick_marks(6),
         len(names) - len(series),
     )
 
@@ -88,20 +86,19 @@ def _flips(stretches: Sequence[Mapping[str, Any]], key: str) -> Iterator[tuple[f
     """Yield of each flip where it lies on both axes, what it belongs to, and what it says."""
     for each in stretches:
         for flip in each["flips"]:
-            place, middle = _number(each["circumstances"][key]), _middle(flip)
+            place, middle = number_in(each["circumstances"][key]), _middle(flip)
             if place is not None and middle is not None:
                 yield place, middle, _others(each["circumstances"], key), flip_words(flip)
 
 
-def _with_unit(key: str, texts: Iterable[str]) -> str:
-    unit = next((text.partition(" ")[2] for text in texts), "")
-    return f"{key}, {unit}" if unit else key
+def _title(key: str, texts: Iterable[str]) -> str:
+    return with_unit(key, next(map(unit_in, texts), ""))
 
 
 def _numeric_key(stretches: Sequence[Mapping[str, Any]]) -> str | None:
     keys = stretches[0]["circumstances"] if stretches else {}
     for key in keys:
-        numbers = {_number(each["circumstances"][key]) for each in stretches}
+        numbers = {number_in(each["circumstances"][key]) for each in stretches}
         if None not in numbers and len(numbers) > 1:
             return str(key)
     return None
@@ -113,13 +110,5 @@ def _others(circumstances: Mapping[str, str], key: str) -> str:
 
 
 def _middle(flip: Mapping[str, str]) -> float | None:
-    low, high = _number(flip["low"]), _number(flip["high"])
+    low, high = number_in(flip["low"]), number_in(flip["high"])
     return None if low is None or high is None else 0.5 * (low + high)
-
-
-def _number(text: str) -> float | None:
-    """Return the number that a text begins with."""
-    try:
-        return float(text.split()[0])
-    except (ValueError, IndexError):
-        return None

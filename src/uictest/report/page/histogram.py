@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from uictest.report.page.axis import Axis
+from uictest.report.page.axis import Axis, Tick
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 402, 26, 150
 _GAP = 1.0
 _STACKED = ("pass", "fail", "invalid", "skipped", "error")
 """Outcomes from the axis upwards."""
-Tick = tuple[float, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +58,7 @@ def histogram(found: Mapping[str, Any]) -> Histogram:
         (smallest, mean, largest),
         [outcome for outcome in _STACKED if outcome in counts],
         list(_bars(edges, counts, x, y)),
-        [(x.at(value), label) for value, label in x.ticks(6)],
+        x.tick_marks(6),
         [(y.at(value), label) for value, label in y.ticks(4) if value == round(value)],
     )
 

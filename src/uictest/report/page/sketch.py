@@ -9,7 +9,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.report.page.axis import Axis, span
+from uictest.report.page.axis import Axis, Tick, span
 from uictest.report.page.marks import Mark
 from uictest.report.page.polyline import dots, path, path_over_time
 from uictest.report.page.quantities import (
@@ -31,8 +31,6 @@ _BELOW = 32  # the panels: tick labels and what they count
 _BAND = 15
 _LOOP_WIDTH, _LOOP_HEIGHT = 316, 230
 _STATES = {1: "hold", 2: "vent"}  # fill, the state of every valve without WSP action, is left blank
-
-Tick = tuple[float, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +125,8 @@ def _panel(
         RIGHT,
         upper,
         lower,
-        [(time.at(at), label) for at, label in time.ticks(10)],
-        [(y.at(at), label) for at, label in y.ticks(4)],
+        time.tick_marks(10),
+        y.tick_marks(4),
         y_title=panel.unit,
         paths=[(line, path_over_time(across, y.pixels(trace.series[line.series]))) for line in lines],
         shaded=list(_shaded(marks, time, upper, lower)),
@@ -147,7 +145,7 @@ def _valves(trace: Trace, time: Axis, top: float) -> Drawing:
     ]
     bottom = upper + len(WHEELSETS) * _BAND
     y_ticks = [(upper + (row + 0.5) * _BAND, str(n)) for row, n in enumerate(WHEELSETS)]
-    x_ticks = [(time.at(at), label) for at, label in time.ticks(10)]
+    x_ticks = time.tick_marks(10)
     title = "WSP valves: hold (faint), vent (strong)"
     return Drawing("valves", title, LEFT, RIGHT, upper, bottom, x_ticks, y_ticks, shaded=shaded)
 
@@ -179,8 +177,8 @@ def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
         x.end,
         y.end,
         y.start,
-        [(x.at(at), label) for at, label in x.ticks(5)],
-        [(y.at(at), label) for at, label in y.ticks(5)],
+        x.tick_marks(5),
+        y.tick_marks(5),
         loop.across_title,
         loop.up_title,
         [(line, draw(x.pixels(across), y.pixels(values))) for line, across, values in pairs],

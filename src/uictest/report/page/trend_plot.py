@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from uictest.report.page.axis import Axis, span
+from uictest.report.page.axis import Axis, Tick, span
+from uictest.report.page.labels import number_in, unit_in, with_unit
 from uictest.report.wording import counted
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 52, 402, 26, 166
-_STRETCH = " .. "
-Tick = tuple[float, str]
 Pixels = tuple[float, float]
 
 
@@ -70,7 +69,7 @@ def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) ->
         found: the trend.
         counts: the rates of the parameter, which has a value each.
     """
-    units = {_unit(label) for label in found["values"]}
+    units = {unit_in(label) for label in found["values"]}
     values = sorted(_values(found, counts), key=lambda value: value.at)
     if len(units) != 1 or len({value.at for value in values}) < 2:
         return None
@@ -78,13 +77,13 @@ def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) ->
     reached = np.array([(value.minimum, value.maximum) for value in values])
     y = Axis(*span([reached.ravel()], ()), _BOTTOM, _TOP)
     return TrendPlot(
-        _with_unit(found["measure"], "" if found["unit"] == "1" else found["unit"]),
-        _with_unit(found["parameter"], units.pop()),
+        with_unit(found["measure"], "" if found["unit"] == "1" else found["unit"]),
+        with_unit(found["parameter"], units.pop()),
         _line((x.at(value.at), y.at(value.mean)) for value in values),
         _band(values, x, y) if any(value.cases > 1 for value in values) else "",
         [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.met < v.cases) for v in values],
-        [(x.at(value), label) for value, label in x.ticks(6)],
-        [(y.at(value), label) for value, label in y.ticks(5)],
+        x.tick_marks(6),
+        y.tick_marks(5),
     )
 
 
@@ -92,7 +91,7 @@ def _values(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) -> It
     """Yield the values of the parameter that are numbers and have cases with the figure."""
     lists = (found[name] for name in ("values", "minimum", "mean", "maximum"))
     for count, label, *reached in zip(counts, *lists, strict=True):
-        at = _number(label)
+        at = number_in(label)
         if at is not None and None not in reached:
             yield _Value(at, label, count["cases"], count["met"], *reached)
 
@@ -105,20 +104,3 @@ def _band(values: Sequence[_Value], x: Axis, y: Axis) -> str:
 
 def _line(points: Iterable[Pixels]) -> str:
     return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
-
-
-def _number(label: str) -> float | None:
-    """Return the number that a label begins with, the middle of a stretch; None where there is none."""
-    try:
-        ends = [float(end.split()[0]) for end in label.split(_STRETCH)]
-    except (ValueError, IndexError):
-        return None
-    return sum(ends) / len(ends)
-
-
-def _unit(label: str) -> str:
-    return label.rpartition(_STRETCH)[2].partition(" ")[2]
-
-
-def _with_unit(name: str, unit: str) -> str:
-    return f"{name}, {unit}" if unit else name

@@ -8,7 +8,8 @@ from typing import Any
 from uictest.report.wording import counted
 
 _NAMED = 3  # values that are listed rather than counted
-_STRETCH = " .. "
+STRETCH = " .. "
+"""What stands between the ends of a stretch of numbers."""
 
 
 def sweep_tally(document: Mapping[str, Any]) -> str:
@@ -20,11 +21,11 @@ def sweep_tally(document: Mapping[str, Any]) -> str:
 
 def swept_words(labels: Sequence[str]) -> str:
     """Return what a parameter takes, e.g. `0.02 .. 0.16 (15 values)`, from the labels of its classes."""
-    if labels and all(_STRETCH in label for label in labels):
-        return f"{labels[0].partition(_STRETCH)[0]}{_STRETCH}{labels[-1].partition(_STRETCH)[2]}, drawn"
+    if labels and all(STRETCH in label for label in labels):
+        return f"{labels[0].partition(STRETCH)[0]}{STRETCH}{labels[-1].partition(STRETCH)[2]}, drawn"
     if len(labels) <= _NAMED:
         return ", ".join(labels)
-    return f"{labels[0]}{_STRETCH}{labels[-1]} ({len(labels)} values)"
+    return f"{labels[0]}{STRETCH}{labels[-1]} ({len(labels)} values)"
 
 
 def share_words(met: int, cases: int) -> str:
