@@ -172,5 +172,25 @@ def test_the_frontier_is_drawn_over_the_first_parameter_that_changes() -> None:
     assert list(ys) == sorted(ys, reverse=True)
 
 
+def test_a_window_has_a_line_at_each_end_and_a_gap_where_nothing_flips() -> None:
+    window = [
+        {"low": "0.1", "high": "0.1", "met_at_low": False},
+        {"low": "0.3", "high": "0.3", "met_at_low": True},
+    ]
+    stretches = [
+        {"circumstances": {"speed": f"{speed} km/h"}, "flips": flips, "note": ""}
+        for speed, flips in ((60, window), (80, window), (100, []), (120, window), (160, []))
+    ]
+    plot = frontier_plot({"parameter": "rail.friction", "stretches": stretches})
+    assert plot is not None
+    (series,) = plot.series
+    # At either end of the window: two neighbours joined, and one beyond the gap alone.
+    assert [stroke.count("L") for stroke in series.path.split("M")[1:]] == [1, 0, 1, 0]
+    assert len(series.points) == 6
+    # The axis reaches to what was scanned, also where nothing flips.
+    assert plot.x_ticks[-1][1] == "160"
+    assert max(x for x, _, _ in series.points) < plot.right - 100
+
+
 def test_a_frontier_over_no_other_number_is_a_table_only() -> None:
     assert frontier_plot({"parameter": "rail.friction", "stretches": [stretch("a", "b", "1", "2")]}) is None

@@ -21,15 +21,25 @@ Point = tuple[float, float, str]
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Flips at one combination of the parameters that are not on the axes."""
+    """Flips at one combination of the parameters that are not on the axes.
+
+    `path` has lines through flips of the same direction, with gaps where a value has none, as SVG writes it.
+    """
 
     name: str
     points: Sequence[Point]
+    path: str
 
-    @property
-    def path(self) -> str:
-        """The line through the points, as SVG writes it."""
-        return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y, _ in self.points)
+
+@dataclass(frozen=True, slots=True)
+class _Flip:
+    """A flip on both axes, the series that it belongs to, its direction, and what it says."""
+
+    at: float
+    middle: float
+    series: str
+    met_at_low: bool
+    words: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +74,12 @@ def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
     flips = list(_flips(found["stretches"], key))
     if not flips:
         return None
-    x, y = (Axis(*span([np.array([flip[place] for flip in flips])], ()), *_SIDES[place]) for place in (0, 1))
-    names = list(dict.fromkeys(flip[2] for flip in flips))
+    scanned = sorted({_place(each, key) for each in found["stretches"]})
+    x = Axis(*span([np.array(scanned)], ()), *_SIDES[0])
+    y = Axis(*span([np.array([flip.middle for flip in flips])], ()), *_SIDES[1])
+    names = list(dict.fromkeys(flip.series for flip in flips))
     series = [
-        Series(
-            name, sorted((x.at(a), y.at(b), f"{a:g}: {words}") for a, b, own, words in flips if own == name)
-        )
+        _series(name, [flip for flip in flips if flip.series == name], scanned, x, y)
         for name in names[:_MOST_SERIES]
     ]
     return FrontierPlot(
@@ -82,13 +92,43 @@ def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
     )
 
 
-def _flips(stretches: Sequence[Mapping[str, Any]], key: str) -> Iterator[tuple[float, float, str, str]]:
-    """Yield of each flip where it lies on both axes, what it belongs to, and what it says."""
+def _flips(stretches: Sequence[Mapping[str, Any]], key: str) -> Iterator[_Flip]:
     for each in stretches:
+        others = _others(each["circumstances"], key)
         for flip in each["flips"]:
-            place, middle = number_in(each["circumstances"][key]), _middle(flip)
-            if place is not None and middle is not None:
-                yield place, middle, _others(each["circumstances"], key), flip_words(flip)
+            middle = _middle(flip)
+            if middle is not None:
+                yield _Flip(_place(each, key), middle, others, flip["met_at_low"], flip_words(flip))
+
+
+def _place(stretch: Mapping[str, Any], key: str) -> float:
+    place = number_in(stretch["circumstances"][key])
+    assert place is not None  # a numeric key has numbers only
+    return place
+
+
+def _series(name: str, flips: Sequence[_Flip], scanned: Sequence[float], x: Axis, y: Axis) -> Series:
+    points = sorted((x.at(flip.at), y.at(flip.middle), f"{flip.at:g}: {flip.words}") for flip in flips)
+    strokes = [
+        stroke
+        for direction in (False, True)
+        for stroke in _strokes([flip for flip in flips if flip.met_at_low == direction], scanned)
+    ]
+    lines = ("L".join(f"{x.at(flip.at):.1f} {y.at(flip.middle):.1f}" for flip in each) for each in strokes)
+    return Series(name, points, "".join(f"M{line}" for line in lines))
+
+
+def _strokes(flips: Sequence[_Flip], scanned: Sequence[float]) -> Iterator[list[_Flip]]:
+    """Yield flips at neighbouring scanned values together."""
+    stroke: list[_Flip] = []
+    for at in scanned:
+        here = [flip for flip in flips if flip.at == at]
+        if stroke and not here:
+            yield stroke
+            stroke = []
+        stroke.extend(here)
+    if stroke:
+        yield stroke
 
 
 def _title(key: str, texts: Iterable[str]) -> str:
