@@ -16,7 +16,7 @@ import machine
 import numpy as np
 from c_library import PLAIN, STRICT, CLanes, CStop
 from numpy.typing import NDArray
-from open_records import opened, rolling, step_in
+from open_records import opened, rolling, step_in, step_on_floats
 from reduced_model import integrated_seconds
 from stops import Stop, shipped
 
@@ -24,7 +24,6 @@ from uictest.measures import MEASURES, WHEELSET_MEASURES
 from uictest.rig.lanes import run_batch
 from uictest.rig.native import compiled_stop
 from uictest.rig.run import run
-from uictest.rig.step import step
 
 CASE = "slide-80[compensation=full]"
 STOPS = 64
@@ -78,9 +77,10 @@ def ours_in_lanes(stop: Stop) -> float:
 
 def plain_python(stop: Stop, steps: int) -> float:
     """Step the rig as the interpreter reads it."""
+    on_floats = step_on_floats()
     rig, parameters = rolling(stop), opened(stop[0])
     for _ in range(steps):
-        step(rig.car, rig.bogies, rig.wheelsets, parameters)
+        on_floats(rig.car, rig.bogies, rig.wheelsets, parameters)
     return steps * _WHEELSETS
 
 
@@ -106,12 +106,13 @@ def python_control(stop: Stop, steps: int) -> float:
     """Step the rig as the update function of a discrete nonlinear system of python-control."""
     import control
 
+    on_floats = step_on_floats()
     one, parameters = rolling(stop), opened(stop[0])
     start = np.array(list(one.numbers()), float)
 
     def update(_time: float, x: Any, _input: Any, _parameters: Any) -> list[Any]:
         rig = one.filled(x)
-        step(rig.car, rig.bogies, rig.wheelsets, parameters)
+        on_floats(rig.car, rig.bogies, rig.wheelsets, parameters)
         return list(rig.numbers())
 
     system = control.nlsys(update, None, inputs=1, states=start.size, dt=parameters.step)

@@ -9,15 +9,17 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from open_records import opened
+from open_records import opened, rounded_twice
 from stops import Stop
 
+from uictest.physics import arithmetic
 from uictest.physics.disc_brake import torque
 from uictest.physics.flow import mass_flow
 from uictest.physics.hysteresis import line
 from uictest.physics.polach import creep_force
 from uictest.physics.tank import pressure_change
 from uictest.physics.wheelset import SLOWEST_CREEP
+from uictest.rig.compiled import translate
 
 _CYLINDER_LAG = 0.02
 """Time constant of the cylinder, s."""
@@ -27,6 +29,7 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
     """Integrate the beginning of a stop; return the simulated time, s."""
     from scipy.integrate import solve_ivp
 
+    rates = translate(right_hand_side, lambda function: function, {arithmetic.fma: rounded_twice})
     p = opened(stop[0])
     friction = float(stop[1][1, 0])
     start = np.concatenate(
@@ -36,7 +39,7 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
         ]
     )
     solution = solve_ivp(
-        lambda _, x: right_hand_side(x, p, friction),
+        lambda _, x: rates(x, p, friction),
         (0.0, duration),
         start,
         method="LSODA",

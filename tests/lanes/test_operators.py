@@ -1,6 +1,7 @@
 """Each operation of vectors against numpy's, bit for bit."""
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numba
@@ -91,6 +92,45 @@ def test_a_product_is_rounded_before_it_is_added() -> None:
     # 1 - (1 + e) (1 - e) is e^2 when product and sum are fused, and 0 when the product is rounded.
     difference = applied(lambda a, b: 1.0 - (1.0 + a) * (1.0 - a))
     assert np.all(difference(2.0**-30, 0.0) == 0.0)
+
+
+# A product and its rounding error are far from the ends of the range.
+moderate = st.floats(1e-100, 1e100) | st.floats(-1e100, -1e-100) | st.just(0.0)
+
+
+@given(a=moderate, b=moderate, c=moderate, nearly=st.integers(-3, 3))
+@settings(deadline=None, max_examples=300)
+def test_a_fused_product_is_rounded_once(
+    fused: tuple[Callable[..., Any], Callable[..., Any]], a: float, b: float, c: float, nearly: int
+) -> None:
+    in_lanes, of_numbers = fused
+    close = -(a * b) * (1.0 + nearly * 2.0**-52)
+    for term in (c, close):
+        exact = float(Fraction(a) * Fraction(b) + Fraction(term))
+        assert np.all(in_lanes(a, b, term) == exact)
+        assert of_numbers(a, b, term) == exact
+
+
+@pytest.fixture(scope="module")
+def fused() -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """A fused multiply-add in lanes, its third term a number, and of numbers alone."""
+
+    @numba.njit
+    def of_numbers(a: float, b: float, c: float) -> Any:
+        return lanes.fma(a, b, c)
+
+    @numba.njit
+    def apply(block: Any, c: float) -> None:
+        record = lanes.vectors(block)
+        record.result = lanes.fma(record.a, record.b, c)
+
+    def in_lanes(a: float, b: float, c: float) -> Numbers:
+        block = lanes.block(PAIR, WIDTH)
+        block["a"], block["b"] = a, b
+        apply(block, c)
+        return np.array(block["result"][0])
+
+    return in_lanes, of_numbers
 
 
 def test_a_sum_is_not_reordered() -> None:

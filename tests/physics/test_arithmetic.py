@@ -1,6 +1,7 @@
 """Our exponential, arctangent and power of two thirds against the C library, within their stated errors."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from uictest.physics.arithmetic import (
     clamp,
     exp,
     floor,
+    fma,
     maximum,
     minimum,
     octant,
@@ -70,6 +72,32 @@ def test_rest_of_an_arctangent_is_at_most_an_eighth_of_a_half_turn(y: float, x: 
     assert adjacent > 0.0
     assert abs(opposite / adjacent) <= math.tan(math.pi / 8) * (1.0 + 1e-15)
     assert arctan(y, x) == pytest.approx(math.atan2(y, x), rel=2e-15, abs=0.0)
+
+
+@given(finite, finite, finite, st.integers(-3, 3))
+def test_product_and_sum_are_rounded_once(a: float, b: float, c: float, nearly: int) -> None:
+    for term in (c, -(a * b) * (1.0 + nearly * 2.0**-52)):
+        assert fma(a, b, term) == float(Fraction(a) * Fraction(b) + Fraction(term))
+
+
+def test_a_fused_sum_keeps_what_rounding_the_product_would_lose() -> None:
+    assert fma(1.0 + 2.0**-30, 1.0 - 2.0**-30, -1.0) == -(2.0**-60)
+    assert fma(5e-324, 0.5, 5e-324) == 1e-323
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "expected"),
+    [
+        (-0.0, 1.0, -0.0, -0.0),
+        (-0.0, 1.0, 0.0, 0.0),
+        (-5e-324, 0.25, 0.0, -0.0),
+        (math.inf, -1.0, 0.0, -math.inf),
+        (math.inf, 1.0, -math.inf, math.nan),
+        (1e200, 1e200, 0.0, math.inf),
+    ],
+)
+def test_zeros_and_what_is_not_finite(a: float, b: float, c: float, expected: float) -> None:
+    assert np.float64(fma(a, b, c)).tobytes() == np.float64(expected).tobytes() or math.isnan(expected)
 
 
 @given(st.floats(-1e15, 1e15))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uictest.physics.polach import contact_stiffness, creep_force, friction
+from uictest.physics.polach import contact_stiffness, creep_force, friction_limit
 
 # mu0, A, B, kA, kS of Polach (2005).
 DRY = (0.55, 0.40, 0.60, 1.00, 0.40)
@@ -70,7 +70,7 @@ def test_without_reductions_it_is_polach_1999(w: float) -> None:
 def test_force_never_exceeds_the_friction_limit(
     w: float, v: float, load: float, law: tuple[float, ...]
 ) -> None:
-    limit = load * friction(w, *law[:3])
+    limit, _ = friction_limit(w, load, *law[:3])
     assert 0.0 <= force(w, v, law, load) <= limit * (1.0 + 1e-12)
 
 
@@ -86,8 +86,9 @@ def test_slope_is_the_derivative_of_the_force(share: float, v: float, law: tuple
 @pytest.mark.parametrize("law", [DRY, WET])
 def test_friction_falls_from_mu0_to_the_share_a(law: tuple[float, ...]) -> None:
     mu0, ratio, decay = law[:3]
-    assert friction(0.0, mu0, ratio, decay) == mu0
-    assert friction(200.0, mu0, ratio, decay) == pytest.approx(ratio * mu0, rel=1e-12)
+    at_rest, fast = (friction_limit(w, LOAD, mu0, ratio, decay)[0] for w in (0.0, 200.0))
+    assert at_rest == pytest.approx(LOAD * mu0, rel=1e-15)
+    assert fast == pytest.approx(LOAD * ratio * mu0, rel=1e-12)
 
 
 @given(loads)

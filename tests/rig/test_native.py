@@ -1,16 +1,21 @@
 """The compiled stop without its compiler: kept as machine code, refusing what it was not compiled for."""
 
+import os
+import platform
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.measures import MEASURES, WHEELSET_MEASURES
+from uictest.rig import simulate
 from uictest.rig.native import compiled_stop, is_warm
 from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.trace import ROW
+from uictest.scenario import load
 
 WITHOUT_COMPILER = """
 import sys
@@ -19,6 +24,17 @@ from pathlib import Path
 from uictest.rig import simulate
 from uictest.scenario import load
 print(float(simulate(load([Path(sys.argv[1])])[0]).measures.stopped))
+"""
+ON_AN_OLD_PROCESSOR = """
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from llvmlite import binding
+binding.get_host_cpu_name = lambda: "x86-64"
+binding.get_host_cpu_features = lambda: SimpleNamespace(flatten=str)
+from uictest.rig import simulate
+from uictest.scenario import load
+print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())
 """
 
 
@@ -45,6 +61,24 @@ def test_a_warm_start_needs_no_compiler(tmp_path: Any) -> None:
     command = [sys.executable, "-c", WITHOUT_COMPILER, scenario]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.stdout == "1.0\n", done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="names a processor of this architecture")
+def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Path) -> None:
+    scenario = tmp_path / "stop.yaml"
+    scenario.write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 40 km/h\nrail: {condition: wet}\n"
+    )
+    command = [sys.executable, "-c", ON_AN_OLD_PROCESSOR, scenario]
+    done = subprocess.run(
+        command,
+        env=os.environ | {"UICTEST_CACHE": str(tmp_path / "cache")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stdout.strip() == simulate(load([scenario])[0]).measures.tobytes().hex(), done.stderr
 
 
 @pytest.mark.parametrize(

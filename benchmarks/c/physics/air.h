@@ -10,15 +10,15 @@ OURS real mass_flow(real pressure_1, real pressure_2, real conductance, real den
     real upstream = maximum(pressure_1, pressure_2);
     real downstream = minimum(pressure_1, pressure_2);
     real direction = choose(pressure_2 > pressure_1, number(-1.0), number(1.0));
-    real subsonic = maximum(downstream - critical_ratio * upstream, number(0.0)) * subsonic_scale;
-    real curve = sqrt_of(maximum(upstream * upstream - subsonic * subsonic, number(0.0)));
+    real subsonic = maximum(fma(-critical_ratio, upstream, downstream), number(0.0)) * subsonic_scale;
+    real curve = sqrt_of(maximum(fma(-subsonic, subsonic, upstream * upstream), number(0.0)));
     real chord = (upstream - downstream) * laminar_slope;
     return direction * (conductance * density) * minimum(curve, chord);
 }
 
 OURS real pressure_change(real pressure, real stiffness, real mass_change, real volume_change, real air)
 {
-    return stiffness * (air * mass_change - pressure * volume_change);
+    return stiffness * fma(air, mass_change, -pressure * volume_change);
 }
 
 OURS real demand(real time, real full_demand, real dead_time, real filling_rate)

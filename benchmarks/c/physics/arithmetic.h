@@ -16,9 +16,9 @@ OURS real exponential(real x)
     real t = maximum(x, number(-36.0)) * (1.0 / 128.0);
     real t2 = t * t;
     real t4 = t2 * t2;
-    real low = (e0 + e1 * t) + t2 * (e2 + e3 * t);
-    real high = (e4 + e5 * t) + t2 * (e6 + e7 * t);
-    real p = 1.0 + t * (low + t4 * (high + t4 * e8));
+    real low = fma(t2, fma(e3, t, e2), fma(e1, t, e0));
+    real high = fma(t2, fma(e7, t, e6), fma(e5, t, e4));
+    real p = fma(t, fma(t4, fma(t4, e8, high), low), 1.0);
     p = p * p;
     p = p * p;
     p = p * p;
@@ -46,19 +46,19 @@ OURS real arctan_within_octant(real t)
     real z = t * t;
     real z2 = z * z;
     real z4 = z2 * z2;
-    real low = (a0 + a1 * z) + z2 * (a2 + a3 * z);
-    real middle = (a4 + a5 * z) + z2 * (a6 + a7 * z);
-    return t + t * z * (low + z4 * (middle + z4 * (a8 + a9 * z)));
+    real low = fma(z2, fma(a3, z, a2), fma(a1, z, a0));
+    real middle = fma(z2, fma(a7, z, a6), fma(a5, z, a4));
+    return fma(t * z, fma(z4, fma(z4, fma(a9, z, a8), middle), low), t);
 }
 
 /* x^(2/3) on [0.2, 2.5]: Householder's iteration for x^(-1/3). */
 OURS real power_two_thirds(real x)
 {
     real x2 = x * x;
-    real y = (2.13334891 + -2.69745314 * x) + x2 * ((2.39251789 + -0.99271232 * x) + x2 * 0.15147739);
+    real y = fma(x2, fma(x2, 0.15147739, fma(-0.99271232, x, 2.39251789)), fma(-2.69745314, x, 2.13334891));
     for (int i = 0; i < 2; i++) {
         real cube = (x * y) * (y * y);
-        y = y * (14.0 - cube * (7.0 - 2.0 * cube)) * (1.0 / 9.0);
+        y = y * fma(-cube, fma(-2.0, cube, 7.0), 14.0) * (1.0 / 9.0);
     }
     return x * y;
 }

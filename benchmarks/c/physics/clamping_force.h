@@ -8,13 +8,13 @@ OURS real stroke_after(real stroke, real pressure, real piston_area, real preloa
                        real clearance, real damping, real squeezing_stiffness, real releasing_stiffness,
                        real free_compliance, real squeezing_compliance, real releasing_compliance)
 {
-    real load = pressure * piston_area - preload + damping * stroke;
+    real load = fma(pressure, piston_area, fma(damping, stroke, -preload));
     real squeezing_load = load - coulomb_friction;
     real releasing_load = load + coulomb_friction;
     real squeezing = minimum(squeezing_load * free_compliance,
-                             (squeezing_load + squeezing_stiffness * clearance) * squeezing_compliance);
+                             fma(squeezing_stiffness, clearance, squeezing_load) * squeezing_compliance);
     real releasing = minimum(releasing_load * free_compliance,
-                             (releasing_load + releasing_stiffness * clearance) * releasing_compliance);
+                             fma(releasing_stiffness, clearance, releasing_load) * releasing_compliance);
     return maximum(clamp(stroke, squeezing, releasing), number(0.0));
 }
 
@@ -23,11 +23,11 @@ OURS real clamping_force(real stroke, real clearance, real contact_stiffness, re
     return lever_ratio * contact_stiffness * maximum(stroke - clearance, number(0.0));
 }
 
-OURS real cylinder_output(real pressure, real memory_1, real b0) { return b0 * pressure + memory_1; }
+OURS real cylinder_output(real pressure, real memory_1, real b0) { return fma(b0, pressure, memory_1); }
 
 OURS real cylinder_memory(real pressure, real filtered, real b, real a, real following)
 {
-    return b * pressure - a * filtered + following;
+    return fma(b, pressure, fma(-a, filtered, following));
 }
 
 OURS real phase_share(real share, real wsp_acting, real largest_change)
@@ -37,7 +37,7 @@ OURS real phase_share(real share, real wsp_acting, real largest_change)
 
 OURS real force_line(real pressure, real slope, real intercept)
 {
-    return maximum(slope * pressure + intercept, number(0.0));
+    return maximum(fma(slope, pressure, intercept), number(0.0));
 }
 
 OURS real force_after(real force, real squeezing, real releasing)
@@ -56,7 +56,7 @@ OURS real nearest(real x)
 OURS real analogue_reading(real value, real gain_error, real offset, real noise, real measuring_range,
                            real resolution, real steps_per_unit)
 {
-    real limited = clamp(value * (1.0 + gain_error) + offset + noise, number(0.0), measuring_range);
+    real limited = clamp(fma(value, 1.0 + gain_error, offset + noise), number(0.0), measuring_range);
     return nearest(limited * steps_per_unit) * resolution;
 }
 

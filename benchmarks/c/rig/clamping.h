@@ -29,11 +29,11 @@ OURS void step_hysteresis(Wheelset *wheelset, const Parameters *p)
     real pressure = wheelset->compensated_pressure;
     real share = phase_share(wheelset->wsp_share, wheelset->wsp_acting, p->phase_change_per_step);
     real squeezing =
-        force_line(pressure, p->bc_squeezing_slope + share * (p->wsp_squeezing_slope - p->bc_squeezing_slope),
-                   p->bc_squeezing_intercept + share * (p->wsp_squeezing_intercept - p->bc_squeezing_intercept));
+        force_line(pressure, fma(share, p->wsp_squeezing_slope - p->bc_squeezing_slope, p->bc_squeezing_slope),
+                   fma(share, p->wsp_squeezing_intercept - p->bc_squeezing_intercept, p->bc_squeezing_intercept));
     real releasing =
-        force_line(pressure, p->bc_releasing_slope + share * (p->wsp_releasing_slope - p->bc_releasing_slope),
-                   p->bc_releasing_intercept + share * (p->wsp_releasing_intercept - p->bc_releasing_intercept));
+        force_line(pressure, fma(share, p->wsp_releasing_slope - p->bc_releasing_slope, p->bc_releasing_slope),
+                   fma(share, p->wsp_releasing_intercept - p->bc_releasing_intercept, p->bc_releasing_intercept));
     wheelset->wsp_share = share;
     real hysteretic = force_after(wheelset->computed_force, squeezing, releasing);
     real linear = force_line(pressure, p->linear_slope, p->linear_intercept);

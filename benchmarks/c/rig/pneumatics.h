@@ -51,7 +51,7 @@ OURS real step_tank(Wheelset *wheelset, const Car *car, const Parameters *p)
                           p->vent_conductance * wheelset->vent_opening, p, &drawn);
     real swept = wheelset->has_caliper * p->piston_area;
     real fixed = choose(wheelset->has_caliper > 0.0, p->caliper_tank_volume, p->tank_volume);
-    real stiffness = p->polytropic_exponent / (fixed + swept * wheelset->stroke);
+    real stiffness = p->polytropic_exponent / fma(swept, wheelset->stroke, fixed);
     real growth = swept * wheelset->stroke_change;
     wheelset->air_mass += drawn - vented;
     wheelset->vented_air += vented;

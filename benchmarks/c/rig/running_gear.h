@@ -69,21 +69,20 @@ OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
     real lift = suspension_force(p->primary_vertical_stiffness, p->primary_vertical_damping, rise, rise_rate);
     bogie->longitudinal_force += pull;
     bogie->vertical_force -= lift;
-    bogie->moment -= above * pull + wheelset->ahead * lift;
-    car->damper_loss += p->step * (p->primary_longitudinal_damping * rate * rate +
-                                   p->primary_vertical_damping * rise_rate * rise_rate);
+    bogie->moment -= fma(above, pull, wheelset->ahead * lift);
+    car->damper_loss += p->step * fma(p->primary_longitudinal_damping * rate, rate,
+                                      p->primary_vertical_damping * rise_rate * rise_rate);
     wheelset->thrust = -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
-    wheelset->wheel_load = maximum(p->static_wheel_load - 0.5 * lift, LOWEST_LOAD * p->reference_load);
+    wheelset->wheel_load = maximum(fma(-0.5, lift, p->static_wheel_load), LOWEST_LOAD * p->reference_load);
     wheelset->torque = brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
                                     p->pad_friction, p->disc_radius);
 }
 
 OURS void find_limit(Wheelset *wheelset, const Parameters *p)
 {
-    real fading = fading_share(wheelset->slip_estimate, p->friction_ratio, p->friction_decay);
-    real weight = wheelset->wheel_load * wheelset->friction;
-    wheelset->friction_limit = weight * (fading + p->friction_ratio);
-    wheelset->limit_slope = -p->friction_decay * weight * fading;
+    wheelset->friction_limit =
+        friction_limit(wheelset->slip_estimate, wheelset->wheel_load, wheelset->friction, p->friction_ratio,
+                       p->friction_decay, &wheelset->limit_slope);
 }
 
 OURS void find_gradient(Wheelset *wheelset, const Parameters *p)
@@ -117,9 +116,10 @@ OURS void begin_slip(Wheelset *wheelset, const Parameters *p)
 {
     real load_ratio = minimum(wheelset->wheel_load * p->load_scale, number(HIGHEST_LOAD));
     wheelset->contact_stiffness = contact_stiffness(p->creep_stiffness, load_ratio);
-    real slip = wheelset->speed - p->wheel_radius * wheelset->rotation;
+    real slip = fma(-p->wheel_radius, wheelset->rotation, wheelset->speed);
     real braking = turning_direction(wheelset->rotation, wheelset->speed) * wheelset->torque;
-    real free_slip = slip + p->mass_response * wheelset->thrust + p->inertia_response * p->wheel_radius * braking;
+    real pushed = fma(p->mass_response, wheelset->thrust, slip);
+    real free_slip = fma(p->inertia_response * p->wheel_radius, braking, pushed);
     real direction = choose(free_slip < 0.0, number(-1.0), number(1.0));
     wheelset->slip_direction = direction;
     wheelset->free_slip = direction * free_slip;
@@ -136,18 +136,19 @@ OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
     real sense = turning_direction(rotation, speed);
     real slip_change = wheelset->free_slip - wheelset->slip_estimate;
     real turning_creep = wheelset->slip_direction * slip_change * p->slip_stiffness;
-    real turned = rotation + p->inertia_response * (p->wheel_radius * turning_creep - sense * wheelset->torque);
+    real moment = fma(p->wheel_radius, turning_creep, -sense * wheelset->torque);
+    real turned = fma(p->inertia_response, moment, rotation);
     mask locked = turned * sense <= 0.0;
-    real free_speed = speed + p->mass_response * wheelset->thrust;
+    real free_speed = fma(p->mass_response, wheelset->thrust, speed);
     real sliding_creep = locked_force(speed, free_speed, wheelset->sliding_force, p->mass_response);
-    real holding = p->wheel_radius * sliding_creep + rotation * p->inertia_stiffness;
+    real holding = fma(p->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
     real creep = choose(locked, sliding_creep, turning_creep);
     real braking = choose(locked, holding, sense * wheelset->torque);
     wheelset->creep_force = creep;
-    wheelset->speed = free_speed - p->mass_response * creep;
+    wheelset->speed = fma(-p->mass_response, creep, free_speed);
     wheelset->rotation = choose(locked, number(0.0), turned);
     wheelset->position += p->step * wheelset->speed;
-    wheelset->slip_speed = wheelset->speed - p->wheel_radius * wheelset->rotation;
+    wheelset->slip_speed = fma(-p->wheel_radius, wheelset->rotation, wheelset->speed);
     real turning = 0.5 * (rotation + wheelset->rotation);
     wheelset->brake_heat += p->step * braking * (turning + bogie->pitch_rate);
     wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - p->wheel_radius * turning);

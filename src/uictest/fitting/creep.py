@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics.arithmetic import maximum, select
+from uictest.physics.arithmetic import fma, maximum, select
 from uictest.physics.polach import contact_stiffness, creep_force
 from uictest.rig.compiled import translate
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from uictest.scenario.parts.rail import RailCondition
 
 Array = NDArray[np.float64]
-_FOR_ARRAYS: dict[Any, Any] = {maximum: np.maximum, select: np.where}
+_FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maximum, select: np.where}
 
 
 def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail: RailCondition) -> Array:
@@ -33,14 +34,12 @@ def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail
     contact = rail.contact
     area = np.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
     reference = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
-    # Plain arithmetic, so that arrays pass.
-    stiffness: Any = contact_stiffness
-    stiffness = stiffness(float(reference), load / float(contact.reference_wheel_load))
-    force, _ = _law()(
+    load_ratio = load / float(contact.reference_wheel_load)
+    force, _ = _of_arrays(creep_force)(
         slip,
         speed,
         load,
-        stiffness,
+        _of_arrays(contact_stiffness)(float(reference), load_ratio),
         friction,
         float(rail.friction_ratio),
         float(rail.friction_decay),
@@ -53,6 +52,7 @@ def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail
 
 
 @cache
-def _law() -> Any:
-    """Return the rig's creep law with numpy's functions for its scalar ones."""
-    return translate(creep_force, lambda f: f, dict(_FOR_ARRAYS))
+def _of_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of the rig's creep law with numpy's functions for its scalar ones."""
+    translated: Callable[..., Any] = translate(function, lambda f: f, dict(_FOR_ARRAYS))
+    return translated

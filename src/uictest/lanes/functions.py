@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from numba.core import types
+
 from uictest.lanes.compiler import in_compiled_code
 from uictest.lanes.integers import common_integers, everywhere
 from uictest.lanes.operators import call_llvm, common_vector, spread
@@ -57,6 +59,23 @@ def minimum(typing: Any, a: Any, b: Any) -> Any:
 def maximum(typing: Any, a: Any, b: Any) -> Any:
     """Larger number of each lane (``b`` where they cannot be ordered)."""
     return _smaller_or_larger(">", a, b)
+
+
+@in_compiled_code
+def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
+    """Product of ``a`` and ``b`` plus ``c``, rounded once: of numbers, or in each lane."""
+    of_numbers = all(isinstance(kind, types.Float | types.Integer) for kind in (a, b, c))
+    result = types.float64 if of_numbers else common_vector(a, b, c)
+    if result is None:
+        return None
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        terms = (
+            context.cast(builder, value, kind, result) for value, kind in zip(args, sig.args, strict=True)
+        )
+        return call_llvm(builder, "fma", *terms)
+
+    return result(a, b, c), lower
 
 
 def _rounded(function: str, x: Any) -> Any:

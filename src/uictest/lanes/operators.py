@@ -101,11 +101,14 @@ def _define_unary(function: Any, emit: Callable[[Any, Any], Any]) -> None:
     code_of(function, Vector)(lambda context, builder, sig, args: emit(builder, args[0]))
 
 
-def call_llvm(builder: Any, name: str, value: Any) -> Any:
-    """LLVM's own function ``name`` of one vector."""
-    kind = ir.FunctionType(value.type, [value.type])
-    function = builder.module.declare_intrinsic(f"llvm.{name}.v{value.type.count}f64", (), kind)
-    return builder.call(function, [value])
+def call_llvm(builder: Any, name: str, *values: Any) -> Any:
+    """LLVM's own function ``name`` of numbers or of vectors."""
+    kind = values[0].type
+    suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
+    function = builder.module.declare_intrinsic(
+        f"llvm.{name}.{suffix}", (), ir.FunctionType(kind, [kind] * len(values))
+    )
+    return builder.call(function, values)
 
 
 for _functions, _emit in _ARITHMETIC.items():

@@ -65,6 +65,20 @@ def sqrt(x: float) -> float:
     return math.sqrt(x)
 
 
+def fma(a: float, b: float, c: float) -> float:
+    """Return a b + c rounded once (IEEE 754 fusedMultiplyAdd), unless it overflows.
+
+    One instruction of a processor. Where a compiler may choose what to fuse, machines round differently; so
+    we choose. Plain Python adds exactly, in whole numbers, and their quotient is rounded correctly.
+    """
+    rounded_twice = a * b + c
+    if not math.isfinite(rounded_twice):
+        return rounded_twice
+    (n_a, d_a), (n_b, d_b), (n_c, d_c) = a.as_integer_ratio(), b.as_integer_ratio(), c.as_integer_ratio()
+    numerator, denominator = n_a * n_b * d_c + n_c * d_a * d_b, d_a * d_b * d_c
+    return numerator / denominator if numerator else rounded_twice
+
+
 def floor(x: float) -> float:
     """Return the largest whole number not above ``x``, of less than 2^53 in size."""
     return float(math.floor(x))
@@ -84,9 +98,9 @@ def exp(x: float) -> float:
     t = maximum(x, _EXP_FLOOR) * _EXP_REDUCTION
     t2 = t * t
     t4 = t2 * t2
-    low = (_E0 + _E1 * t) + t2 * (_E2 + _E3 * t)
-    high = (_E4 + _E5 * t) + t2 * (_E6 + _E7 * t)
-    p = 1.0 + t * (low + t4 * (high + t4 * _E8))
+    low = fma(t2, fma(_E3, t, _E2), fma(_E1, t, _E0))
+    high = fma(t2, fma(_E7, t, _E6), fma(_E5, t, _E4))
+    p = fma(t, fma(t4, fma(t4, _E8, high), low), 1.0)
     p = p * p
     p = p * p
     p = p * p
@@ -113,9 +127,9 @@ def arctan_within_octant(t: float) -> float:
     z = t * t
     z2 = z * z
     z4 = z2 * z2
-    low = (_A0 + _A1 * z) + z2 * (_A2 + _A3 * z)
-    middle = (_A4 + _A5 * z) + z2 * (_A6 + _A7 * z)
-    return t + t * z * (low + z4 * (middle + z4 * (_A8 + _A9 * z)))
+    low = fma(z2, fma(_A3, z, _A2), fma(_A1, z, _A0))
+    middle = fma(z2, fma(_A7, z, _A6), fma(_A5, z, _A4))
+    return fma(t * z, fma(z4, fma(z4, fma(_A9, z, _A8), middle), low), t)
 
 
 def power_two_thirds(x: float) -> float:
@@ -125,8 +139,8 @@ def power_two_thirds(x: float) -> float:
     x^(2/3) = x y.
     """
     x2 = x * x
-    y = (_R0 + _R1 * x) + x2 * ((_R2 + _R3 * x) + x2 * _R4)
+    y = fma(x2, fma(x2, _R4, fma(_R3, x, _R2)), fma(_R1, x, _R0))
     for _ in range(2):
         cube = (x * y) * (y * y)
-        y = y * (14.0 - cube * (7.0 - 2.0 * cube)) * (1.0 / 9.0)
+        y = y * fma(-cube, fma(-2.0, cube, 7.0), 14.0) * (1.0 / 9.0)
     return x * y

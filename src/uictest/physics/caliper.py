@@ -10,7 +10,7 @@ the stroke y has closed the clearance y0, Coulomb friction Fc, friction alpha pr
 (seals, pins, lever) and a viscous part c. While friction can carry the difference it does not move.
 """
 
-from uictest.physics.arithmetic import clamp, maximum, minimum
+from uictest.physics.arithmetic import clamp, fma, maximum, minimum
 
 
 def stiffnesses(
@@ -65,16 +65,16 @@ def stroke_after(
         damping, squeezing_stiffness, releasing_stiffness, free_compliance, squeezing_compliance,
             releasing_compliance: :func:`stiffnesses`.
     """
-    load = pressure * piston_area - preload + damping * stroke
+    load = fma(pressure, piston_area, fma(damping, stroke, -preload))
     squeezing_load = load - coulomb_friction
     releasing_load = load + coulomb_friction
     squeezing = minimum(
         squeezing_load * free_compliance,
-        (squeezing_load + squeezing_stiffness * clearance) * squeezing_compliance,
+        fma(squeezing_stiffness, clearance, squeezing_load) * squeezing_compliance,
     )
     releasing = minimum(
         releasing_load * free_compliance,
-        (releasing_load + releasing_stiffness * clearance) * releasing_compliance,
+        fma(releasing_stiffness, clearance, releasing_load) * releasing_compliance,
     )
     return maximum(clamp(stroke, squeezing, releasing), 0.0)
 

@@ -7,12 +7,14 @@ Lee and Kang (2015), equation (8):
 in transposed direct form II: three memories, each the part of later outputs that is already known.
 """
 
+from uictest.physics.arithmetic import fma
+
 
 def output(pressure: float, memory_1: float, b0: float) -> float:
     """Cylinder pressure y[n] for tank pressure u[n], in the unit of the pressures."""
-    return b0 * pressure + memory_1
+    return fma(b0, pressure, memory_1)
 
 
 def memory(pressure: float, filtered: float, b: float, a: float, following: float) -> float:
     """Memory i after the step: b_i u[n] - a_i y[n] + memory i+1 before it."""
-    return b * pressure - a * filtered + following
+    return fma(b, pressure, fma(-a, filtered, following))

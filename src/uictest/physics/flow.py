@@ -1,6 +1,6 @@
 """Mass flow of air through an orifice or valve: ISO 6358-1."""
 
-from uictest.physics.arithmetic import maximum, minimum, select, sqrt
+from uictest.physics.arithmetic import fma, maximum, minimum, select, sqrt
 
 REFERENCE_DENSITY = 1.185
 """Density of air in the reference atmosphere (ANR) of ISO 8778, kg/m3: 293.15 K, 1 bar, 65 % humidity."""
@@ -55,7 +55,7 @@ def mass_flow(
     upstream = maximum(pressure_1, pressure_2)
     downstream = minimum(pressure_1, pressure_2)
     direction = select(pressure_2 > pressure_1, -1.0, 1.0)
-    subsonic = maximum(downstream - critical_ratio * upstream, 0.0) * subsonic_scale
-    curve = sqrt(maximum(upstream * upstream - subsonic * subsonic, 0.0))
+    subsonic = maximum(fma(-critical_ratio, upstream, downstream), 0.0) * subsonic_scale
+    curve = sqrt(maximum(fma(-subsonic, subsonic, upstream * upstream), 0.0))
     chord = (upstream - downstream) * laminar_slope
     return direction * (conductance * density) * minimum(curve, chord)

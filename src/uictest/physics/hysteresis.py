@@ -6,7 +6,7 @@ Between the squeezing and the releasing line the force stays where it is while t
 play operator bounded by two lines.
 """
 
-from uictest.physics.arithmetic import clamp, maximum
+from uictest.physics.arithmetic import clamp, fma, maximum
 
 
 def phase_share(share: float, wsp_acting: float, largest_change: float) -> float:
@@ -19,7 +19,7 @@ def phase_share(share: float, wsp_acting: float, largest_change: float) -> float
 
 def line(pressure: float, slope: float, intercept: float) -> float:
     """Clamping force on one line, N, never negative; gauge pressure in Pa, slope in N/Pa, intercept in N."""
-    return maximum(slope * pressure + intercept, 0.0)
+    return maximum(fma(slope, pressure, intercept), 0.0)
 
 
 def force_after(force: float, squeezing: float, releasing: float) -> float:

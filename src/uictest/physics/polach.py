@@ -12,7 +12,7 @@ grow with the cube root of the load, Hertz), shear modulus G and Kalker's coeffi
 creep only.
 """
 
-from uictest.physics.arithmetic import arctan_within_octant, exp, octant, power_two_thirds
+from uictest.physics.arithmetic import arctan_within_octant, exp, fma, octant, power_two_thirds
 
 _TWO_OVER_PI = 0.6366197723675814
 
@@ -27,14 +27,21 @@ def contact_stiffness(reference_stiffness: float, load_ratio: float) -> float:
     return reference_stiffness * power_two_thirds(load_ratio)
 
 
-def friction(slip_speed: float, initial_friction: float, ratio: float, decay: float) -> float:
-    """Friction coefficient mu at a slip speed >= 0 in m/s: mu0 [(1 - A) exp(-B w) + A]."""
-    return initial_friction * (fading_share(slip_speed, ratio, decay) + ratio)
+def friction_limit(
+    slip_speed: float, wheel_load: float, initial_friction: float, ratio: float, decay: float
+) -> tuple[float, float]:
+    """Friction limit Q mu of one wheel in N and its slope with respect to slip speed in N s/m.
 
-
-def fading_share(slip_speed: float, ratio: float, decay: float) -> float:
-    """Part of the friction that fades with the slip speed, over mu0: (1 - A) exp(-B w)."""
-    return (1.0 - ratio) * exp(-decay * slip_speed)
+    Args:
+        slip_speed: size of the slip speed w, m/s, >= 0.
+        wheel_load: load Q of one wheel, N.
+        initial_friction: mu0.
+        ratio: A, friction at infinite slip over mu0.
+        decay: B, s/m.
+    """
+    weight = wheel_load * initial_friction
+    fading = weight * ((1.0 - ratio) * exp(-decay * slip_speed))
+    return fma(weight, ratio, fading), -decay * fading
 
 
 def stress_gradient(
@@ -62,8 +69,8 @@ def stress_gradient(
     pull, hold = stiffness * slip_speed, speed * limit
     adhering, slipping = reduction_adhesion * pull, reduction_slip * pull
     hold_squared = hold * hold
-    adhesion_part = hold_squared + adhering * adhering
-    slip_part = hold_squared + slipping * slipping
+    adhesion_part = fma(adhering, adhering, hold_squared)
+    slip_part = fma(slipping, slipping, hold_squared)
     angle, opposite, adjacent = octant(slipping, hold)
     parts = adhesion_part * slip_part
     inverse = 1.0 / (parts * adjacent)
@@ -96,12 +103,12 @@ def force_and_slope(
     """
     pull, hold, per_adhesion, per_slip, angle, tangent = gradient
     adhering = reduction_adhesion * pull
-    shape = adhering * hold * per_adhesion + (angle + arctan_within_octant(tangent))
-    bend = (hold * hold - adhering * adhering) * per_adhesion * per_adhesion
-    shape_slope = reduction_adhesion * bend + reduction_slip * per_slip
-    pull_slope = stiffness * hold - pull * speed * limit_slope
+    shape = fma(adhering * hold, per_adhesion, angle + arctan_within_octant(tangent))
+    bend = fma(-adhering, adhering, hold * hold) * per_adhesion * per_adhesion
+    shape_slope = fma(reduction_adhesion, bend, reduction_slip * per_slip)
+    pull_slope = fma(stiffness, hold, -pull * speed * limit_slope)
     force = _TWO_OVER_PI * limit * shape
-    return force, _TWO_OVER_PI * (limit_slope * shape + limit * shape_slope * pull_slope)
+    return force, _TWO_OVER_PI * fma(limit_slope, shape, limit * shape_slope * pull_slope)
 
 
 def creep_force(
@@ -128,9 +135,7 @@ def creep_force(
         reduction_adhesion: kA, reduction in the area of adhesion.
         reduction_slip: kS, reduction in the area of slip.
     """
-    fading = fading_share(slip_speed, ratio, decay)
-    weight = wheel_load * initial_friction
-    limit = weight * (fading + ratio)
+    limit, limit_slope = friction_limit(slip_speed, wheel_load, initial_friction, ratio, decay)
     law = (stiffness, reduction_adhesion, reduction_slip)
     gradient = stress_gradient(slip_speed, speed, limit, *law)
-    return force_and_slope(gradient, speed, limit, -decay * weight * fading, *law)
+    return force_and_slope(gradient, speed, limit, limit_slope, *law)

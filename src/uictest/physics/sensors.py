@@ -1,6 +1,6 @@
 """Pressure sensors, loadcells and toothed-wheel speed sensors."""
 
-from uictest.physics.arithmetic import clamp, floor, maximum, select
+from uictest.physics.arithmetic import clamp, floor, fma, maximum, select
 
 _ROUNDING = 6755399441055744.0
 """1.5 x 2^52: adding and subtracting it rounds a number below 2^51 to the nearest whole one."""
@@ -26,7 +26,7 @@ def analogue_reading(
         resolution: step of the converter, in the unit of ``value``.
         steps_per_unit: its inverse.
     """
-    limited = clamp(value * (1.0 + gain_error) + offset + noise, 0.0, measuring_range)
+    limited = clamp(fma(value, 1.0 + gain_error, offset + noise), 0.0, measuring_range)
     return nearest(limited * steps_per_unit) * resolution
 
 

@@ -1,5 +1,7 @@
 """Air tank that stands in for a brake cylinder and its pipe."""
 
+from uictest.physics.arithmetic import fma
+
 
 def pressure_change(
     pressure: float,
@@ -23,4 +25,4 @@ def pressure_change(
         volume_change: growth of the volume, m3.
         air: specific gas constant times the temperature of the air that flows, R T, J/kg.
     """
-    return stiffness * (air * mass_change - pressure * volume_change)
+    return stiffness * fma(air, mass_change, -pressure * volume_change)

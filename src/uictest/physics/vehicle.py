@@ -6,20 +6,22 @@ z up, pitch positive nose up. The point at distance L ahead of and height h abov
 moves by (x - h pitch, z + L pitch).
 """
 
+from uictest.physics.arithmetic import fma
+
 
 def longitudinal(position: float, pitch: float, height: float) -> float:
     """Longitudinal displacement (or speed) of a point ``height`` m above the centre of gravity."""
-    return position - height * pitch
+    return fma(-height, pitch, position)
 
 
 def vertical(position: float, pitch: float, ahead: float) -> float:
     """Vertical displacement (or speed) of a point ``ahead`` m in front of the centre of gravity."""
-    return position + ahead * pitch
+    return fma(ahead, pitch, position)
 
 
 def suspension_force(stiffness: float, damping: float, deflection: float, rate: float) -> float:
     """Force of a spring and a damper side by side, N, in the direction of the deflection."""
-    return stiffness * deflection + damping * rate
+    return fma(stiffness, deflection, damping * rate)
 
 
 def spring_energy(stiffness: float, deflection: float) -> float:

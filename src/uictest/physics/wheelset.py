@@ -9,7 +9,7 @@ microseconds, so that the slip speed at the end of the step is the unknown: with
     w1 + g F(w1) = w0 + dt (P/m + r T/J)
 """
 
-from uictest.physics.arithmetic import clamp, maximum, minimum, select
+from uictest.physics.arithmetic import clamp, fma, maximum, minimum, select
 
 SLOWEST_CREEP = 0.01
 """Running speed in m/s below which the creepage is taken at this speed: s = w / v stays finite."""
@@ -27,7 +27,7 @@ def lowest_slip(free_slip: float, softness: float, wheel_load: float, initial_fr
         wheel_load: load of one wheel, N.
         initial_friction: mu0.
     """
-    return maximum(free_slip - softness * 2.0 * wheel_load * initial_friction, 0.0)
+    return maximum(fma(-softness * 2.0 * wheel_load, initial_friction, free_slip), 0.0)
 
 
 def refined_slip(
@@ -50,8 +50,8 @@ def refined_slip(
     Returns:
         The better estimate and the bracket around the root.
     """
-    residual = slip + softness * 2.0 * force - free_slip
-    rise = 1.0 + softness * 2.0 * slope
+    residual = fma(softness * 2.0, force, slip - free_slip)
+    rise = fma(softness * 2.0, slope, 1.0)
     high = select(residual > 0.0, minimum(slip, high), high)
     low = select(residual > 0.0, low, maximum(slip, low))
     newton = slip - residual / select(rise > 0.0, rise, 1.0)
@@ -71,7 +71,7 @@ def locked_force(speed: float, free_speed: float, sliding_force: float, softness
         softness: dt / m, s/kg.
     """
     running = maximum(abs(speed), SLOWEST_CREEP)
-    return sliding_force * free_speed / (running + softness * sliding_force)
+    return sliding_force * free_speed / fma(softness, sliding_force, running)
 
 
 def turning_direction(rotation: float, speed: float) -> float:

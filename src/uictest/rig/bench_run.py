@@ -12,7 +12,7 @@ from uictest.rig.assembly import assemble
 from uictest.rig.bench import SETTINGS, bench
 from uictest.rig.bench_inputs import BenchInput, Clock
 from uictest.rig.bench_trace import BENCH_CHANNELS, LOADCELL_SHARES, ROW
-from uictest.rig.compiled import OPTIONS, translate, use_cache
+from uictest.rig.compiled import OPTIONS, compiled_operations, translate, use_cache
 from uictest.rig.records import CAR, PARAMETERS, WHEELSET
 from uictest.scenario import Case
 
@@ -24,7 +24,7 @@ def compiled_bench() -> Any:
     import numba
 
     njit: Any = numba.njit(**OPTIONS)
-    entry = translate(bench, njit, {})
+    entry = translate(bench, njit, compiled_operations())
     return numba.njit(**OPTIONS, cache=True)(entry.py_func)
 
 

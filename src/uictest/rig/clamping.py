@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from uictest.physics.arithmetic import select
+from uictest.physics.arithmetic import fma, select
 from uictest.physics.caliper import clamping_force, stroke_after
 from uictest.physics.cylinder import memory, output
 from uictest.physics.hysteresis import force_after, line, phase_share
@@ -79,13 +79,13 @@ def _step_hysteresis(wheelset: Record, p: Record) -> None:
     share = phase_share(wheelset.wsp_share, wheelset.wsp_acting, p.phase_change_per_step)
     squeezing = line(
         pressure,
-        p.bc_squeezing_slope + share * (p.wsp_squeezing_slope - p.bc_squeezing_slope),
-        p.bc_squeezing_intercept + share * (p.wsp_squeezing_intercept - p.bc_squeezing_intercept),
+        fma(share, p.wsp_squeezing_slope - p.bc_squeezing_slope, p.bc_squeezing_slope),
+        fma(share, p.wsp_squeezing_intercept - p.bc_squeezing_intercept, p.bc_squeezing_intercept),
     )
     releasing = line(
         pressure,
-        p.bc_releasing_slope + share * (p.wsp_releasing_slope - p.bc_releasing_slope),
-        p.bc_releasing_intercept + share * (p.wsp_releasing_intercept - p.bc_releasing_intercept),
+        fma(share, p.wsp_releasing_slope - p.bc_releasing_slope, p.bc_releasing_slope),
+        fma(share, p.wsp_releasing_intercept - p.bc_releasing_intercept, p.bc_releasing_intercept),
     )
     wheelset.wsp_share = share
     hysteretic = force_after(wheelset.computed_force, squeezing, releasing)

@@ -2,7 +2,8 @@
 
 :func:`translate` copies a function and everything of this package that it calls, with each copy wrapped
 by a compiler. The originals stay plain Python, and one source serves several targets. Floating point is
-strict: no contraction, no reassociation, so that compiled and plain code give the same bits.
+strict: nothing is contracted but what the source writes as one operation, nothing reassociated, so that
+compiled and plain code give the same bits.
 """
 
 import dis
@@ -23,6 +24,14 @@ Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = ("physics", "controllers", "measures", "lanes", "rig")
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
+
+
+def compiled_operations() -> dict[Function, Any]:
+    """Return what takes the place of plain functions in code compiled for the processor."""
+    from uictest import lanes
+    from uictest.physics import arithmetic
+
+    return {arithmetic.fma: lanes.fma}
 
 
 def translate(function: Function, wrap: Wrap, done: dict[Function, Any]) -> Any:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.rig.compiled import translate
+from uictest.physics import arithmetic
+from uictest.rig.compiled import Function, translate
 from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.stop import stop
 
@@ -23,7 +24,17 @@ THREADS_PER_BLOCK = 128
 NO_TRACE = 0
 
 cuda: Any = numba.cuda
-device_stop = translate(stop, cuda.jit(device=True), {})
+
+
+@cuda.jit(device=True)  # type: ignore[untyped-decorator]
+def fused(a: float, b: float, c: float) -> Any:
+    """Return :func:`uictest.physics.arithmetic.fma` in one instruction."""
+    return cuda.fma(a, b, c)
+
+
+# The simulator's own rounds twice; there the plain function serves.
+OPERATIONS: dict[Function, Any] = {} if cuda.config.ENABLE_CUDASIM else {arithmetic.fma: fused}
+device_stop = translate(stop, cuda.jit(device=True), OPERATIONS)
 
 
 @cuda.jit  # type: ignore[untyped-decorator]
@@ -78,7 +89,7 @@ def run_batch(parameters: Any, rail: NDArray[np.float64]) -> tuple[Any, Any]:
 
 @contextmanager
 def without_contraction() -> Iterator[None]:
-    """Compile without fusing multiplications and additions, so that a GPU rounds as a processor does.
+    """Compile without fusing what is written apart, so that a GPU rounds as a processor does.
 
     numba-cuda hands its options to the compiler in one place and has no option of its own for this one.
     """

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from uictest.measures import MEASURES, WHEELSET_MEASURES
 from uictest.physics import arithmetic
-from uictest.rig.compiled import OPTIONS, Function, translate, use_cache
+from uictest.rig.compiled import OPTIONS, Function, compiled_operations, translate, use_cache
 from uictest.rig.records import BOGIE, CAR, PARAMETERS, WHEELSET
 
 _compiling = Lock()
@@ -88,6 +88,7 @@ def _compiled() -> Any:
 
     njit: Any = numba.njit(**OPTIONS)
     in_lanes: dict[Function, Any] = {
+        **compiled_operations(),
         arithmetic.select: lanes.select,
         arithmetic.minimum: lanes.minimum,
         arithmetic.maximum: lanes.maximum,
@@ -96,5 +97,5 @@ def _compiled() -> Any:
     }
     without_branches = (sense, command_valves, step, observe_cycle)
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}
-    entry = translate(run_queue, njit, wide)
+    entry = translate(run_queue, njit, {**compiled_operations(), **wide})
     return numba.njit(**OPTIONS, cache=True)(entry.py_func)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from uictest.measures import MEASURES, WHEELSET_MEASURES
 from uictest.recording import write_bytes_atomic
-from uictest.rig.compiled import OPTIONS, cache_folder, translate, use_cache
+from uictest.rig.compiled import OPTIONS, cache_folder, compiled_operations, translate, use_cache
 from uictest.rig.machine_code import load, object_file, processor
 from uictest.rig.records import BOGIE, CAR, PARAMETERS, WHEELSET
 from uictest.rig.stop import stop
@@ -93,7 +93,7 @@ def _callback() -> Any:
     use_cache()
     numba: Any = importlib.import_module("numba")  # its functions have no types
     carray, pointer = numba.carray, numba.types.CPointer
-    entry = translate(stop, numba.njit(**OPTIONS), {})
+    entry = translate(stop, numba.njit(**OPTIONS), compiled_operations())
 
     def on_addresses(
         car: Any,

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from uictest.physics.arithmetic import maximum, select
+from uictest.physics.arithmetic import fma, maximum, select
 from uictest.physics.brake_operating_unit import demand, relay_opening
 from uictest.physics.flow import mass_flow
 from uictest.physics.reservoir import compressor_running, isothermal_pressure
@@ -59,7 +59,7 @@ def step_tank(wheelset: Record, car: Record, p: Record) -> float:
     )
     swept = wheelset.has_caliper * p.piston_area
     fixed = select(wheelset.has_caliper > 0.0, p.caliper_tank_volume, p.tank_volume)
-    stiffness = p.polytropic_exponent / (fixed + swept * wheelset.stroke)
+    stiffness = p.polytropic_exponent / fma(swept, wheelset.stroke, fixed)
     growth = swept * wheelset.stroke_change
     wheelset.air_mass += drawn - vented
     wheelset.vented_air += vented

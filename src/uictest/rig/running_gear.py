@@ -7,9 +7,9 @@ damping of its own. Only the creep force is implicit, for it alone is stiff.
 
 from typing import Any
 
-from uictest.physics.arithmetic import maximum, minimum, select
+from uictest.physics.arithmetic import fma, maximum, minimum, select
 from uictest.physics.disc_brake import torque
-from uictest.physics.polach import contact_stiffness, fading_share, force_and_slope, stress_gradient
+from uictest.physics.polach import contact_stiffness, force_and_slope, friction_limit, stress_gradient
 from uictest.physics.resistance import gradient_force, running_resistance
 from uictest.physics.vehicle import longitudinal, suspension_force, vertical
 from uictest.physics.wheelset import (
@@ -84,12 +84,12 @@ def couple_wheelset(wheelset: Record, bogie: Record, car: Record, p: Record) -> 
     lift = suspension_force(p.primary_vertical_stiffness, p.primary_vertical_damping, rise, rise_rate)
     bogie.longitudinal_force += pull
     bogie.vertical_force -= lift
-    bogie.moment -= above * pull + wheelset.ahead * lift
-    car.damper_loss += p.step * (
-        p.primary_longitudinal_damping * rate * rate + p.primary_vertical_damping * rise_rate * rise_rate
+    bogie.moment -= fma(above, pull, wheelset.ahead * lift)
+    car.damper_loss += p.step * fma(
+        p.primary_longitudinal_damping * rate, rate, p.primary_vertical_damping * rise_rate * rise_rate
     )
     wheelset.thrust = -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
-    wheelset.wheel_load = maximum(p.static_wheel_load - 0.5 * lift, LOWEST_LOAD * p.reference_load)
+    wheelset.wheel_load = maximum(fma(-0.5, lift, p.static_wheel_load), LOWEST_LOAD * p.reference_load)
     wheelset.torque = torque(
         wheelset.clamping_force, p.calipers_per_wheelset, p.pads_per_caliper, p.pad_friction, p.disc_radius
     )
@@ -102,9 +102,10 @@ def begin_slip(wheelset: Record, p: Record) -> None:
     """
     load_ratio = minimum(wheelset.wheel_load * p.load_scale, HIGHEST_LOAD)
     wheelset.contact_stiffness = contact_stiffness(p.creep_stiffness, load_ratio)
-    slip = wheelset.speed - p.wheel_radius * wheelset.rotation
+    slip = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
     braking = turning_direction(wheelset.rotation, wheelset.speed) * wheelset.torque
-    free_slip = slip + p.mass_response * wheelset.thrust + p.inertia_response * p.wheel_radius * braking
+    pushed = fma(p.mass_response, wheelset.thrust, slip)
+    free_slip = fma(p.inertia_response * p.wheel_radius, braking, pushed)
     direction = select(free_slip < 0.0, -1.0, 1.0)
     wheelset.slip_direction = direction
     wheelset.free_slip = direction * free_slip
@@ -117,10 +118,9 @@ def begin_slip(wheelset: Record, p: Record) -> None:
 
 def find_limit(wheelset: Record, p: Record) -> None:
     """Find the friction limit at the estimated slip speed, and how it changes."""
-    fading = fading_share(wheelset.slip_estimate, p.friction_ratio, p.friction_decay)
-    weight = wheelset.wheel_load * wheelset.friction
-    wheelset.friction_limit = weight * (fading + p.friction_ratio)
-    wheelset.limit_slope = -p.friction_decay * weight * fading
+    wheelset.friction_limit, wheelset.limit_slope = friction_limit(
+        wheelset.slip_estimate, wheelset.wheel_load, wheelset.friction, p.friction_ratio, p.friction_decay
+    )
 
 
 def find_gradient(wheelset: Record, p: Record) -> None:
@@ -186,18 +186,19 @@ def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
     sense = turning_direction(rotation, speed)
     slip_change = wheelset.free_slip - wheelset.slip_estimate
     turning_creep = wheelset.slip_direction * slip_change * p.slip_stiffness
-    turned = rotation + p.inertia_response * (p.wheel_radius * turning_creep - sense * wheelset.torque)
+    moment = fma(p.wheel_radius, turning_creep, -sense * wheelset.torque)
+    turned = fma(p.inertia_response, moment, rotation)
     locked = turned * sense <= 0.0
-    free_speed = speed + p.mass_response * wheelset.thrust
+    free_speed = fma(p.mass_response, wheelset.thrust, speed)
     sliding_creep = locked_force(speed, free_speed, wheelset.sliding_force, p.mass_response)
-    holding = p.wheel_radius * sliding_creep + rotation * p.inertia_stiffness
+    holding = fma(p.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
     creep = select(locked, sliding_creep, turning_creep)
     braking = select(locked, holding, sense * wheelset.torque)
     wheelset.creep_force = creep
-    wheelset.speed = free_speed - p.mass_response * creep
+    wheelset.speed = fma(-p.mass_response, creep, free_speed)
     wheelset.rotation = select(locked, 0.0, turned)
     wheelset.position += p.step * wheelset.speed
-    wheelset.slip_speed = wheelset.speed - p.wheel_radius * wheelset.rotation
+    wheelset.slip_speed = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
     turning = 0.5 * (rotation + wheelset.rotation)
     wheelset.brake_heat += p.step * braking * (turning + bogie.pitch_rate)
     wheelset.contact_loss += p.step * creep * (0.5 * (speed + wheelset.speed) - p.wheel_radius * turning)
