@@ -22,6 +22,16 @@ def test_rows_beyond_the_most_are_not_written(streaming: bool) -> None:
     assert sheet.auto_filter.ref == "A1:B301"
 
 
+def test_header_and_first_column_stand_on_every_printed_page() -> None:
+    buffer = io.BytesIO()
+    with open_workbook(buffer) as workbook:
+        write_table(workbook.add_worksheet("Cases"), ["case"], [{"case": "dry"}], styles_of(workbook))
+    sheet = openpyxl.load_workbook(buffer)["Cases"]
+    assert (sheet.print_title_rows, sheet.print_title_cols) == ("$1:$1", "$A:$A")
+    assert sheet.page_setup.orientation == "landscape"
+    assert sheet.freeze_panes == "B2"
+
+
 @pytest.mark.parametrize("streaming", [True, False])
 def test_a_full_disk_is_an_error_of_the_system(streaming: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     def store(workbook: object) -> None:

@@ -91,11 +91,19 @@ def write_table(
     for count, row in enumerate(itertools.islice(itertools.chain(first, waiting), most), start=1):
         for column, name in enumerate(columns):
             write_cell(sheet, count, column, row.get(name))
-    sheet.freeze_panes(1, 1)
+    _keep_headings(sheet)
     if count:
         sheet.autofilter(0, 0, count, len(columns) - 1)
     _colour_verdicts(sheet, columns, count, styles)
     return count
+
+
+def _keep_headings(sheet: Worksheet) -> None:
+    """Let the header and the first column stay in sight, and stand on every page in print."""
+    sheet.freeze_panes(1, 1)
+    sheet.repeat_rows(0)
+    sheet.repeat_columns(0)
+    sheet.set_landscape()
 
 
 def write_cell(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None = None) -> None:
