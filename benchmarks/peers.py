@@ -76,7 +76,7 @@ def ours_in_lanes(stop: Stop) -> float:
 
 
 def plain_python(stop: Stop, steps: int) -> float:
-    """Step the rig as the interpreter reads it."""
+    """Step the rig in the interpreter."""
     on_floats = step_on_floats()
     rig, parameters = rolling(stop), opened(stop[0])
     for _ in range(steps):

@@ -5,6 +5,8 @@ thirteen states. Left out: suspensions, brake line and reservoir, piston, hyster
 LSODA, relative tolerance 1e-6.
 """
 
+from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -29,7 +31,7 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
     """Integrate the beginning of a stop; return the simulated time, s."""
     from scipy.integrate import solve_ivp
 
-    rates = translate(right_hand_side, lambda function: function, {arithmetic.fma: rounded_twice})
+    rates = _rates()
     p = opened(stop[0])
     friction = float(stop[1][1, 0])
     start = np.concatenate(
@@ -47,6 +49,15 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
         atol=1e-6,
     )
     return float(solution.t[-1])
+
+
+@cache
+def _rates() -> Callable[..., list[float]]:
+    """Return the right-hand side, its products and sums rounded twice."""
+    rates: Callable[..., list[float]] = translate(
+        right_hand_side, lambda function: function, {arithmetic.fma: rounded_twice}
+    )
+    return rates
 
 
 def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[float]:

@@ -23,7 +23,7 @@ typedef int mask;
 
 #ifdef LANES
 OURS real number(double x) { return x - (real){}; }
-#define fma(a, b, c) ((a) * (b) + (c)) /* contracted by the compiler */
+#define fma(a, b, c) ((a) * (b) + (c)) /* which the compiler may contract */
 OURS real sqrt_of(real x)
 {
     real y;

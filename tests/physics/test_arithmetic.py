@@ -22,6 +22,8 @@ from uictest.physics.arithmetic import (
 )
 
 finite = st.floats(-1e12, 1e12)
+signs = st.sampled_from([-1.0, 1.0])
+nearly_one = st.builds(lambda sign, places: 1.0 + sign * 2.0**-places, signs, st.integers(1, 60))
 
 
 def arctan(y: float, x: float = 1.0) -> float:
@@ -74,15 +76,26 @@ def test_rest_of_an_arctangent_is_at_most_an_eighth_of_a_half_turn(y: float, x: 
     assert arctan(y, x) == pytest.approx(math.atan2(y, x), rel=2e-15, abs=0.0)
 
 
-@given(finite, finite, finite, st.integers(-3, 3))
-def test_product_and_sum_are_rounded_once(a: float, b: float, c: float, nearly: int) -> None:
-    for term in (c, -(a * b) * (1.0 + nearly * 2.0**-52)):
-        assert fma(a, b, term) == float(Fraction(a) * Fraction(b) + Fraction(term))
+def rounded_once(a: float, b: float, c: float) -> float:
+    return float(Fraction(a) * Fraction(b) + Fraction(c))
+
+
+@given(*[st.floats(1e-100, 1e100)] * 3, signs, st.integers(-3, 3))
+def test_product_and_sum_are_rounded_once(a: float, b: float, c: float, sign: float, nearly: int) -> None:
+    for term in (sign * c, -(a * b) * (1.0 + nearly * 2.0**-52)):
+        assert fma(a, b, term) == rounded_once(a, b, term)
+
+
+@given(nearly_one, nearly_one, nearly_one, signs, st.integers(0, 110))
+def test_half_a_last_digit_is_rounded_by_what_is_left(
+    a: float, b: float, c: float, sign: float, places: int
+) -> None:
+    b *= sign * 2.0**-places
+    assert fma(a, b, c) == rounded_once(a, b, c)
 
 
 def test_a_fused_sum_keeps_what_rounding_the_product_would_lose() -> None:
     assert fma(1.0 + 2.0**-30, 1.0 - 2.0**-30, -1.0) == -(2.0**-60)
-    assert fma(5e-324, 0.5, 5e-324) == 1e-323
 
 
 @pytest.mark.parametrize(
@@ -90,7 +103,8 @@ def test_a_fused_sum_keeps_what_rounding_the_product_would_lose() -> None:
     [
         (-0.0, 1.0, -0.0, -0.0),
         (-0.0, 1.0, 0.0, 0.0),
-        (-5e-324, 0.25, 0.0, -0.0),
+        (1e-200, 1e-200, 1.0, 1.0),
+        (2.0, 3.0, math.inf, math.inf),
         (math.inf, -1.0, 0.0, -math.inf),
         (math.inf, 1.0, -math.inf, math.nan),
         (1e200, 1e200, 0.0, math.inf),

@@ -133,7 +133,8 @@ def test_translation_wraps_every_function_of_the_package_and_leaves_the_original
         return function
 
     copy = translate(mass_flow, note, {})
-    assert set(wrapped) == {"mass_flow", "fma", "maximum", "minimum", "select", "sqrt"}
+    of_fma = {"fma", "_exact_sum", "_lost", "_upper_half"}
+    assert set(wrapped) == {"mass_flow", "maximum", "minimum", "select", "sqrt"} | of_fma
     assert copy is not mass_flow
     assert copy(*THROUGH_AN_ORIFICE) == mass_flow(*THROUGH_AN_ORIFICE)
     assert mass_flow.__globals__["maximum"] is maximum

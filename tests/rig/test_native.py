@@ -28,10 +28,11 @@ print(float(simulate(load([Path(sys.argv[1])])[0]).measures.stopped))
 ON_AN_OLD_PROCESSOR = """
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 from llvmlite import binding
+class Features(dict):
+    flatten = str
 binding.get_host_cpu_name = lambda: "x86-64"
-binding.get_host_cpu_features = lambda: SimpleNamespace(flatten=str)
+binding.get_host_cpu_features = lambda: Features(fma=False)
 from uictest.rig import simulate
 from uictest.scenario import load
 print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from uictest.scenario.parts.rail import RailCondition
 
 Array = NDArray[np.float64]
+# numpy has no fused multiply-add, and a fit does not need its last bit.
 _FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maximum, select: np.where}
 
 

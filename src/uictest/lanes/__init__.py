@@ -12,7 +12,7 @@ The room rests on internals of numba and is the only one that does. It knows not
 import uictest.lanes.integers  # noqa: F401 - gives whole numbers their operators
 from uictest.lanes.block import block
 from uictest.lanes.functions import floor, fma, maximum, minimum, select, sqrt
-from uictest.lanes.host import register_width
+from uictest.lanes.host import fuses, register_width
 from uictest.lanes.records import lane, put, take, vectors
 from uictest.lanes.stack import align_stack
 
@@ -21,6 +21,7 @@ __all__ = [
     "block",
     "floor",
     "fma",
+    "fuses",
     "lane",
     "maximum",
     "minimum",

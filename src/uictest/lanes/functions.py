@@ -1,4 +1,4 @@
-"""Functions of vectors, for compiled code: the same choices as those of scalar code, lane by lane."""
+"""Functions of vectors, for compiled code: what scalar code computes, lane by lane."""
 
 from typing import Any
 
@@ -63,7 +63,10 @@ def maximum(typing: Any, a: Any, b: Any) -> Any:
 
 @in_compiled_code
 def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
-    """Product of ``a`` and ``b`` plus ``c``, rounded once: of numbers, or in each lane."""
+    """Product of ``a`` and ``b`` plus ``c``, rounded once: of numbers, or in each lane.
+
+    It takes long where the processor has no instruction for it, see :func:`uictest.lanes.host.fuses`.
+    """
     of_numbers = all(isinstance(kind, types.Float | types.Integer) for kind in (a, b, c))
     result = types.float64 if of_numbers else common_vector(a, b, c)
     if result is None:

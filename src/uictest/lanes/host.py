@@ -15,3 +15,12 @@ def register_width() -> int:
 
     features = binding.get_host_cpu_features()
     return next((width for name, width in _WIDTHS if features.get(name)), _SMALLEST)
+
+
+@cache
+def fuses() -> bool:
+    """Return whether this processor multiplies and adds in one instruction, as nearly all have since 2013."""
+    from llvmlite import binding
+
+    # Where every processor of a kind does so, it is not listed.
+    return bool(binding.get_host_cpu_features().get("fma", True))

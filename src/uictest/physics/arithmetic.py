@@ -41,6 +41,8 @@ _HALF_PI = 1.5707963267948966
 _QUARTER_PI = 0.7853981633974483
 # Weighted least-squares quartic for x^(-1/3) on [0.2, 2.5], where the iteration of power_two_thirds starts.
 _R0, _R1, _R2, _R3, _R4 = 2.13334891, -2.69745314, 2.39251789, -0.99271232, 0.15147739
+_TINY, _HUGE = 1e-290, 1e290
+_SPLITTER = 134217729.0
 _EXP_FLOOR = -36.0
 _EXP_REDUCTION = 1.0 / 128.0
 
@@ -66,17 +68,47 @@ def sqrt(x: float) -> float:
 
 
 def fma(a: float, b: float, c: float) -> float:
-    """Return a b + c rounded once (IEEE 754 fusedMultiplyAdd), unless it overflows.
+    """Return a b + c rounded once (IEEE 754 fusedMultiplyAdd).
 
-    One instruction of a processor. Where a compiler may choose what to fuse, machines round differently; so
-    we choose. Plain Python adds exactly, in whole numbers, and their quotient is rounded correctly.
+    Where a compiler may choose what to fuse, machines round differently; so we choose. Compiled code uses the
+    processor's instruction where it has one. This is what it computes, in operations that every machine has:
+    product and sum are found exactly, as sums of numbers, then rounded (S. Boldo and G. Melquiond, Emulation
+    of FMA and correctly rounded sums, IEEE Trans. Computers 57 (2008) 462-471). Where numbers exceed 1e290 or
+    the product is below 1e-290, the product is rounded before it is added.
     """
-    rounded_twice = a * b + c
-    if not math.isfinite(rounded_twice):
-        return rounded_twice
-    (n_a, d_a), (n_b, d_b), (n_c, d_c) = a.as_integer_ratio(), b.as_integer_ratio(), c.as_integer_ratio()
-    numerator, denominator = n_a * n_b * d_c + n_c * d_a * d_b, d_a * d_b * d_c
-    return numerator / denominator if numerator else rounded_twice
+    product = a * b
+    high, low = _exact_sum(c, _lost(a, b, product))
+    total, carried = _exact_sum(product, high)
+    rest, last = _exact_sum(low, carried)
+    rounded = total + rest
+    missing = rest - (rounded - total)
+    next_to = rounded + 2.0 * missing
+    between = (next_to - rounded <= 2.0 * missing) & (next_to - rounded >= 2.0 * missing)
+    # Halfway between two numbers, what is left decides.
+    onwards = ((missing > 0.0) & (last > 0.0)) | ((missing < 0.0) & (last < 0.0))
+    once = select(between & onwards, next_to, rounded)
+    largest = maximum(maximum(abs(a), abs(b)), maximum(abs(c), abs(product)))
+    return select((abs(product) > _TINY) & (largest < _HUGE), once, product + c)
+
+
+def _exact_sum(a: float, b: float) -> tuple[float, float]:
+    """Sum of two numbers and what its rounding lost (Knuth)."""
+    total = a + b
+    b_of_it = total - a
+    return total, (a - (total - b_of_it)) + (b - b_of_it)
+
+
+def _lost(a: float, b: float, product: float) -> float:
+    """What the rounding of a product lost (Dekker): both factors are split into halves."""
+    a_high, b_high = _upper_half(a), _upper_half(b)
+    a_low, b_low = a - a_high, b - b_high
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def _upper_half(x: float) -> float:
+    """Return the number of 26 bits nearest to ``x`` (Veltkamp)."""
+    scaled = _SPLITTER * x
+    return scaled - (scaled - x)
 
 
 def floor(x: float) -> float:

@@ -31,7 +31,7 @@ def compiled_operations() -> dict[Function, Any]:
     from uictest import lanes
     from uictest.physics import arithmetic
 
-    return {arithmetic.fma: lanes.fma}
+    return {arithmetic.fma: lanes.fma} if lanes.fuses() else {}
 
 
 def translate(function: Function, wrap: Wrap, done: dict[Function, Any]) -> Any:

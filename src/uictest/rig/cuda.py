@@ -32,9 +32,12 @@ def fused(a: float, b: float, c: float) -> Any:
     return cuda.fma(a, b, c)
 
 
-# The simulator's own rounds twice; there the plain function serves.
-OPERATIONS: dict[Function, Any] = {} if cuda.config.ENABLE_CUDASIM else {arithmetic.fma: fused}
-device_stop = translate(stop, cuda.jit(device=True), OPERATIONS)
+def _operations() -> dict[Function, Any]:
+    """Return what takes the place of plain functions; numba's simulator rounds its own ``fma`` twice."""
+    return {} if cuda.config.ENABLE_CUDASIM else {arithmetic.fma: fused}
+
+
+device_stop = translate(stop, cuda.jit(device=True), _operations())
 
 
 @cuda.jit  # type: ignore[untyped-decorator]

@@ -17,10 +17,7 @@ def processor() -> str:
 
 
 def object_file(callback: Any, name: str) -> bytes:
-    """Return a callback of numba as an object file that defines ``name``.
-
-    It needs nothing from outside, but the C library's ``fma`` on a processor that has no such instruction.
-    """
+    """Return a callback of numba as an object file that defines ``name`` and needs nothing from outside."""
     from llvmlite import binding
 
     module = binding.parse_assembly(callback.inspect_llvm())
