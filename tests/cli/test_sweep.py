@@ -204,6 +204,14 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     assert 'failures="3"' in Path("junit.xml").read_text()
 
 
+def test_cases_that_no_criterion_applies_to_are_told(call: Call, study: Path) -> None:
+    done = call("sweep", study, "--set", "criteria=[uic-541-05-appendix-b]", "-k", "friction=0.12")
+    assert done.code == 0
+    assert "32 cases (32 not judged): 32 met" in done.err
+    assert "32 of 32  100.0 % (32 not judged)" in done.out
+    assert "note: 32 cases not judged, since no criterion applies" in done.out
+
+
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
     Path(FILE).write_text(
         TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"

@@ -55,6 +55,16 @@ def test_counts_by_parameter(finished: Callable[..., tuple[Findings, Path]]) -> 
     assert [row[0] for row in findings.tally.missed] == ["study[friction=0.08,command=100]"]
 
 
+def test_rows_of_a_zip_that_share_a_value_are_counted_together(
+    finished: Callable[..., tuple[Findings, Path]],
+) -> None:
+    _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
+    rates = [row[1:3] for row in table(folder / "rates.csv") if row[0] == "brake.command"]
+    assert rates == [["80 %", "2"], ["100 %", "1"]]
+    assert [row[0] for row in table(folder / "map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
+    assert table(folder / "map-met.csv")[0][1:] == ["80 %", "100 %"]
+
+
 def test_trends_of_a_figure_along_each_parameter(finished: Callable[..., tuple[Findings, Path]]) -> None:
     _, folder = finished()
     cases = pq.read_table(folder / "summary.parquet").to_pylist()

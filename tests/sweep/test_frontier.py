@@ -59,8 +59,10 @@ def test_several_flips_are_all_found_and_noted(load: Load) -> None:
 
 def test_no_flip_is_said(load: Load) -> None:
     plan = load(TEXT)
-    assert {stretch.note for stretch in search(plan, lambda mu, command: True)} == {"met throughout"}
-    assert {stretch.note for stretch in search(plan, lambda mu, command: False)} == {"not met throughout"}
+    assert {stretch.note for stretch in search(plan, lambda mu, command: True)} == {"met at all 4 values"}
+    assert {stretch.note for stretch in search(plan, lambda mu, command: False)} == {
+        "met at none of the 4 values"
+    }
 
 
 def test_cases_that_were_not_run_are_no_flip(load: Load) -> None:

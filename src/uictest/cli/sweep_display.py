@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
+
+from uictest.report.sweep.wording import not_judged_words
 
 if TYPE_CHECKING:
     from uictest.sweep.findings import Findings
-    from uictest.sweep.frontier import Flip
+    from uictest.sweep.frontier import Flip, Stretch
     from uictest.sweep.sensitivity import Sensitivity
     from uictest.sweep.tally import Count, Tally
 
@@ -22,8 +24,7 @@ def finding_lines(findings: Findings) -> Iterator[str]:
     yield from _rates(findings.tally)
     yield from _sensitivities(findings)
     yield from _frontier(findings)
-    for name, outcome, reason in findings.tally.missed:
-        yield f"{outcome}  {name}  {reason}"
+    yield from _missed(findings.tally)
     for note in findings.notes:
         yield f"note: {note}"
 
@@ -43,7 +44,16 @@ def _rates(tally: Tally) -> Iterator[str]:
 def _share(count: Count) -> str:
     if not count.cases:
         return "-"
-    return f"{count.met} of {count.cases}  {100.0 * count.share_met:.1f} %"
+    words = not_judged_words(count.outcomes)
+    return f"{count.met} of {count.cases}  {100.0 * count.share_met:.1f} %{words}"
+
+
+def _missed(tally: Tally) -> Iterator[str]:
+    total = tally.total()
+    for name, outcome, reason in tally.missed:
+        yield f"{outcome}  {name}  {reason}"
+    if more := total.cases - total.met - len(tally.missed):
+        yield f"and {more} more, see summary.csv"
 
 
 def _sensitivities(findings: Findings) -> Iterator[str]:
@@ -71,11 +81,18 @@ def _parameter(each: Sensitivity) -> str:
     return f"{each.key} at {where}" if where else each.key
 
 
+def _shown(frontier: Sequence[Stretch]) -> Sequence[Stretch]:
+    """Return as many as fit, in their order; where that is not all, those that flip come first."""
+    if len(frontier) <= _MOST_ROWS:
+        return frontier
+    return sorted(frontier, key=lambda each: not each.flips)[:_MOST_ROWS]
+
+
 def _frontier(findings: Findings) -> Iterator[str]:
     if not findings.frontier_key:
         return
     yield f"frontier along {findings.frontier_key}"
-    for stretch in findings.frontier[:_MOST_ROWS]:
+    for stretch in _shown(findings.frontier):
         where = ", ".join(f"{key} = {text}" for key, text in stretch.circumstances.items()) or "all cases"
         flips = "; ".join(map(_flip, stretch.flips))
         yield f"  {where}: {'; '.join(text for text in (flips, stretch.note) if text)}"

@@ -216,9 +216,9 @@ def exit_code(findings: Findings) -> ExitCode:
 
 def sum_up(run: SweepRun, findings: Findings, started: float) -> None:
     """Say on stderr what the sweep came to and where its files are."""
+    from uictest.report.sweep.wording import sweep_tally
+
     total = findings.tally.total()
-    words = {"met": total.met, "missed": total.cases - total.met - total.outcomes["error"]}
-    words["in error"] = total.outcomes["error"]
-    shown = ", ".join(f"{count} {word}" for word, count in words.items() if count)
+    shown = sweep_tally({"cases": total.cases, "met": total.met, "outcomes": total.outcomes})
     seconds = perf_counter() - started
-    message(f"uictest: {counted(total.cases, 'case')}: {shown} in {seconds:.1f} s; results in {run.folder}")
+    message(f"uictest: {shown} in {seconds:.1f} s; results in {run.folder}")

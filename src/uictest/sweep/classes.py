@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -29,11 +30,13 @@ class Classes:
     """Which group of the plan the parameter is in, and where in it."""
     edges: tuple[float, ...] = ()
     """Where stretches of drawn numbers meet, in the unit of their distribution; none for listed values."""
+    of_rows: tuple[int, ...] = ()
+    """Class of each row of listed values: rows of a zip may share a value of one of their parameters."""
 
     def of(self, plan: Plan, indices: NDArray[np.int64], table: pa.Table) -> NDArray[np.int64]:
         """Return the class of each row; `indices` are those of the rows of the table."""
         if isinstance(plan.groups[self.place[0]], Listed):
-            return plan.rows(indices)[self.place[0]]
+            return np.array(self.of_rows, np.int64)[plan.rows(indices)[self.place[0]]]
         texts = table.column(text_column(self.key)).to_pylist()
         if not self.edges:
             numbered = {label: number for number, label in enumerate(self.labels)}
@@ -48,11 +51,15 @@ def classes_of(plan: Plan) -> dict[str, Classes]:
     for number, group in enumerate(plan.groups):
         for place, key in enumerate(group.keys):
             if isinstance(group, Listed):
-                labels = tuple(row[place].text for row in group.rows)
-                found[key] = Classes(key, labels, (number, place))
+                found[key] = _listed(key, [row[place].text for row in group.rows], (number, place))
             else:
                 found[key] = _drawn(key, group.draws[place], (number, place))
     return found
+
+
+def _listed(key: str, texts: Sequence[str], place: tuple[int, int]) -> Classes:
+    numbered = {text: number for number, text in enumerate(dict.fromkeys(texts))}
+    return Classes(key, tuple(numbered), place, of_rows=tuple(numbered[text] for text in texts))
 
 
 def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:

@@ -20,6 +20,7 @@ from uictest.report.csv_table import Cell, csv_text
 from uictest.report.escaping import csv_cell
 from uictest.report.subject import Subject
 from uictest.report.sweep.trends import TREND_COLUMNS, trend_rows
+from uictest.report.wording import counted
 from uictest.sweep.distributions import Distribution, figures_to_show
 from uictest.sweep.frontier import UNKNOWN, Stretch
 from uictest.sweep.junit import junit_xml
@@ -100,6 +101,7 @@ def gather(
                 values[indices] = table.column(name).to_numpy(zero_copy_only=False)
     findings = Findings(tally, maps, verdicts, worst.indices(), trends=trends)
     findings.distributions = _counted(distributions, selection, store)
+    findings.notes.extend(_not_judged(tally))
     _add_sensitivities(findings, figures | ({MET: verdicts.astype(float)} if whole else {}))
     return findings
 
@@ -113,6 +115,11 @@ def _counted(spanned: Sequence[Distribution], selection: Selection, store: Store
         for each in found:
             each.take(table)
     return found
+
+
+def _not_judged(tally: Tally) -> Iterator[str]:
+    if count := tally.total().outcomes["skipped"]:
+        yield f"{counted(count, 'case')} not judged, since no criterion applies: met where `pass` is expected"
 
 
 def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[MapOf]:

@@ -174,5 +174,5 @@ def _note(row: Verdicts, flips: int) -> str:
     if UNKNOWN in row:
         return "some cases were not run"
     if flips == 0:
-        return "met throughout" if row[0] else "not met throughout"
+        return f"met at all {row.size} values" if row[0] else f"met at none of the {row.size} values"
     return "" if flips == 1 else f"flips {flips} times"

@@ -14,9 +14,15 @@ STRETCH = " .. "
 
 def sweep_tally(document: Mapping[str, Any]) -> str:
     """Return the counts of a sweep, e.g. `75 cases: 70 met, 4 missed, 1 in error`."""
-    cases, met, failed = document["cases"], document["met"], document["outcomes"]["error"]
-    counts = {"met": met, "missed": cases - met - failed, "in error": failed}
-    return f"{counted(cases, 'case')}: " + ", ".join(f"{n} {word}" for word, n in counts.items() if n)
+    cases, met, outcomes = document["cases"], document["met"], document["outcomes"]
+    counts = {"met": met, "missed": cases - met - outcomes["error"], "in error": outcomes["error"]}
+    shown = ", ".join(f"{n} {word}" for word, n in counts.items() if n)
+    return f"{counted(cases, 'case')}{not_judged_words(outcomes)}: {shown}"
+
+
+def not_judged_words(outcomes: Mapping[str, int]) -> str:
+    """Return how many cases no criterion applies to, e.g. ` (2 not judged)`; nothing where there are none."""
+    return f" ({outcomes['skipped']} not judged)" if outcomes["skipped"] else ""
 
 
 def swept_words(labels: Sequence[str]) -> str:
