@@ -173,12 +173,16 @@ def test_killed_and_resumed_gives_the_same_bytes(call: Call, program: Path, stud
     assert contents("broken/study") == contents("whole/study")
 
 
-def test_ctrl_c_from_a_terminal_is_2_and_resumable(program: Path, call: Call, study: Path) -> None:
+@pytest.mark.skipif("sys.platform == 'win32'")
+@pytest.mark.parametrize("cancelled", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_a_cancelled_job_are_2_and_resumable(
+    program: Path, call: Call, study: Path, cancelled: signal.Signals
+) -> None:
     Path(FILE).write_text(TEXT.replace("size: 32", "size: 2048"))
     process = subprocess.Popen([program, "sweep", FILE], stderr=subprocess.PIPE, text=True)
     while not list(Path("reports").glob("study/parts/*-*")) and process.poll() is None:
         time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(cancelled)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 2
     assert "the same command goes on" in err

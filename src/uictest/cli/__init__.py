@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 from typing import NoReturn
 
@@ -13,6 +14,8 @@ __all__ = ["main"]
 def main() -> NoReturn:
     """Run the command line and leave the process with its exit code."""
     _start_lightly()
+    # A CI server or a batch system that cancels a job asks in this way first.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         from uictest.cli.entry import execute
 

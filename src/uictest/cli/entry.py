@@ -42,8 +42,10 @@ def execute(arguments: Sequence[str]) -> ExitCode:
 
 def _call(invocation: Invocation) -> ExitCode:
     code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
-    # Outside its standalone mode typer returns this code where the user pressed Ctrl-C.
-    return ExitCode.INTERRUPTED if code == _TYPER_INTERRUPTED else ExitCode(code or 0)
+    if code == _TYPER_INTERRUPTED:
+        # What typer makes of it outside its standalone mode, without a word.
+        raise KeyboardInterrupt
+    return ExitCode(code or 0)
 
 
 def _failed(reason: str, invocation: Invocation) -> ExitCode:
