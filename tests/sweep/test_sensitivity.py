@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.sweep.sensitivity import saltelli_sample, sensitivities
+from uictest.sweep.sensitivity import Index, Sensitivity, doubts, saltelli_sample, sensitivities
 
 from .conftest import Load
 
@@ -61,3 +61,11 @@ def test_why_there_are_none(load: Load) -> None:
     assert sensitivities(plan, "y", y) == ([], f"1 of {y.size} cases have no y")  # type: ignore[arg-type]
     assert sensitivities(plan, "y", np.ones(y.size)) == ([], "y is the same in all cases")  # type: ignore[arg-type]
     assert saltelli_sample(load()) is None
+
+
+@pytest.mark.parametrize(("width", "doubted"), [(0.15, False), (0.75, True)])
+def test_wide_intervals_are_told(width: float, doubted: bool) -> None:
+    narrow, index = Index(0.5, 0.45, 0.55), Index(0.5, 0.5 - width / 2, 0.5 + width / 2)
+    found = [Sensitivity("met", {}, "rail.friction", narrow, index)]
+    assert bool(doubts(found)) == doubted
+    assert ("up to 0.75 wide" in doubts(found)) == doubted

@@ -26,7 +26,7 @@ from uictest.sweep.frontier import UNKNOWN, Stretch
 from uictest.sweep.junit import junit_xml
 from uictest.sweep.maps import MET, MapOf
 from uictest.sweep.selection import Selection
-from uictest.sweep.sensitivity import Sensitivity, saltelli_sample, sensitivities
+from uictest.sweep.sensitivity import Sensitivity, doubts, saltelli_sample, sensitivities
 from uictest.sweep.store import Store
 from uictest.sweep.tally import OUTCOMES, Count, Tally
 from uictest.sweep.trends import MOST_VALUES, Trends
@@ -131,8 +131,8 @@ def _add_sensitivities(findings: Findings, figures: Mapping[str, NDArray[np.floa
     for name, values in figures.items():
         found, why_not = sensitivities(findings.tally.plan, name, values)
         findings.sensitivities.extend(found)
-        if why_not:
-            findings.notes.append(f"no sensitivity of {name}: {why_not}")
+        said = f"no sensitivity of {name}: {why_not}" if why_not else doubts(found)
+        findings.notes.extend([said] if said else [])
 
 
 def write_findings(folder: Path, findings: Findings) -> str:

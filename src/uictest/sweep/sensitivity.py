@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -12,6 +13,8 @@ from uictest.sweep.plan import Plan, Sampled
 
 _RESAMPLES: Final = 200
 _CONFIDENCE: Final = 0.95
+_WIDE: Final = 0.2
+"""Width of an interval from which an index says little: chosen."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,11 @@ class Index:
     value: float
     low: float
     high: float
+
+    @property
+    def uncertainty(self) -> float:
+        """How wide the interval is."""
+        return self.high - self.low
 
 
 @dataclass(frozen=True)
@@ -41,6 +49,17 @@ def saltelli_sample(plan: Plan) -> Sampled | None:
     """Return the sample of a plan that indices can be computed from, None where there is none."""
     last = plan.groups[-1]
     return last if isinstance(last, Sampled) and last.method == "saltelli" else None
+
+
+def doubts(found: Sequence[Sensitivity]) -> str:
+    """Return that the sample is too small for the indices of a figure; nothing where it is not."""
+    widest = max((index.uncertainty for each in found for index in (each.first, each.total)), default=0.0)
+    if widest <= _WIDE:
+        return ""
+    return (
+        f"sensitivity of {found[0].measure}: intervals are up to {widest:.2f} wide; a sample of "
+        "four times the size halves them"
+    )
 
 
 def sensitivities(plan: Plan, measure: str, values: NDArray[np.float64]) -> tuple[list[Sensitivity], str]:
