@@ -38,6 +38,7 @@ SHAPE: list[Row] = [
 HEADER: list[Row] = [
     ("no schema", "name: stop\n", 1, 1, "schema", "missing key 'schema'", "uictest/scenario/1"),
     ("another schema", HEAD.replace("/1", "/2"), 1, 9, "schema", "found 'uictest/scenario/2'", ""),
+    ("a sweep", HEAD.replace("scenario/1", "sweep/1"), 1, 9, "schema", "uictest/sweep/1", "`uictest sweep`"),
     ("schema of a part", HEAD.replace("scenario/1", "vehicle/1"), 1, 9, "schema", "uictest/vehicle/1", ""),
     ("no name", HEAD.replace("name: stop\n", ""), 1, 1, "name", "missing key 'name'", "lower-case"),
     ("name with blanks", NAME + "a b\n", 3, 7, "name", "'a b' is not allowed", "a-z"),

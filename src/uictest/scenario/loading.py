@@ -144,13 +144,21 @@ class _Loader:
         return identifier
 
 
+_COMMANDS = {
+    "uictest/sweep/1": "a sweep is run with `uictest sweep`",
+    "uictest/bench/1": "a bench test is run with `uictest bench`",
+}
+"""What runs files that are no scenarios."""
+
+
 def _refuse_other_schema(tree: Map) -> None:
     schema = tree.get("schema")
     if schema is None:
         raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
     if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
         found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        raise refusal(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema")
+        hint = _COMMANDS.get(schema.text, "") if isinstance(schema, Scalar) else ""
+        raise refusal(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema", hint)
 
 
 def _inputs(documents: Iterable[Document]) -> dict[str, str]:
