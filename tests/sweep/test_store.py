@@ -52,6 +52,13 @@ def test_changed_inputs_are_refused_by_name(store: Store) -> None:
     assert store.manifest() == changed
 
 
+def test_inputs_may_change_before_the_first_part(tmp_path: Path) -> None:
+    store = Store(tmp_path / "study")
+    store.begin(MANIFEST, restart=False)
+    store.begin({**MANIFEST, "device": "cuda"}, restart=False)
+    assert store.manifest() == {**MANIFEST, "device": "cuda"}
+
+
 def test_parts_without_a_manifest_are_not_trusted(store: Store) -> None:
     (store.folder / "manifest.json").write_text("{")
     store.begin(MANIFEST, restart=False)

@@ -114,14 +114,37 @@ def _work(run: SweepRun, missing: Sequence[int], keep: Callable[[int, bytes], No
 
 
 def prepared_worker(run: SweepRun) -> Worker:
-    """Return a worker whose rig is compiled, having said so where that takes time."""
+    """Return a worker whose rig is compiled, having said so where that takes time.
+
+    Raises InvalidInputError where there is no GPU and one is asked for.
+    """
     from uictest.sweep import worker
     from uictest.sweep.simulating import is_warm
 
-    if run.selection.device == "cpu":
-        announce_compilation(warm=is_warm(), quiet=run.quiet)
-    made = worker(run.selection.plan, run.selection.device)
+    if run.selection.device == "cuda":
+        return _worker_on_gpu(run)
+    announce_compilation(warm=is_warm(), quiet=run.quiet)
+    made = worker(run.selection.plan)
     made.prepare()
+    return made
+
+
+def _worker_on_gpu(run: SweepRun) -> Worker:
+    from uictest.sweep import worker
+    from uictest.sweep.simulating import NoDeviceError
+
+    try:
+        made = worker(run.selection.plan, "cuda")
+        made.prepare()
+    except NoDeviceError as error:
+        raise InvalidInputError(
+            f"uictest: no CUDA device found ({error}); leave --device out to use the processor"
+        ) from error
+    except ImportError as error:
+        # The compiler for GPUs is looked for at its first use, and belongs to the extra, too.
+        raise InvalidInputError(
+            "uictest: --device cuda needs the extra: pip install 'uictest[cuda]'"
+        ) from error
     return made
 
 

@@ -46,9 +46,9 @@ class Store:
         if restart:
             self._discard()
         kept = self.manifest()
-        if kept is not None and kept != manifest:
+        if kept is not None and kept != manifest and self._files():
             raise ChangedInputsError("; ".join(differences(kept, manifest)))
-        if kept is None:
+        if kept != manifest:
             self._discard()  # parts that nothing vouches for
             text = json.dumps(manifest, indent=2, ensure_ascii=False)
             write_text_atomic(self.folder / MANIFEST, f"{text}\n")
