@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import logging
 import os
 import signal
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -73,6 +78,65 @@ def test_a_scheduler_that_does_not_answer_is_said(load: Load, monkeypatch: pytes
     monkeypatch.setattr(module, "_PATIENCE", "1s")
     with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
         module.run_on_cluster(Selection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None)
+
+
+def test_who_waits_for_workers_is_told_so_once(load: Load) -> None:
+    from uictest.sweep.cluster import run_on_cluster
+
+    selection = Selection(load(TEXT, "initial_speed=15 km/h"))
+    found: list[int] = []
+    told: list[None] = []
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
+        address = empty.scheduler_address
+
+        def on_wait() -> None:
+            told.append(None)
+            empty.scale(1)
+
+        run_on_cluster(selection, [0, 1], address, lambda number, content: found.append(number), on_wait)
+    assert sorted(found) == [0, 1]
+    assert len(told) == 1
+
+
+def test_a_scheduler_that_dies_is_one_line(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+    from uictest.sweep import cluster as module
+
+    log = logging.getLogger("distributed.client")
+    log.setLevel(logging.WARNING)
+    monkeypatch.setattr(module, "_PATIENCE", "1s")
+    program = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+    said = Path("scheduler.json")
+    scheduler = subprocess.Popen(
+        [*program, "--no-dashboard", "--scheduler-file", said], stderr=subprocess.DEVNULL
+    )
+    while not said.exists() and scheduler.poll() is None:
+        time.sleep(0.05)
+    address = json.loads(said.read_text())["address"]
+    with pytest.raises(module.ClusterError) as raised:
+        module.run_on_cluster(
+            Selection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill
+        )
+    scheduler.wait()
+    assert str(raised.value).startswith(address)
+    assert "\n" not in str(raised.value)
+    assert not log.isEnabledFor(logging.ERROR)
+
+
+@pytest.mark.parametrize("address", ["foo", "foo:x", "tcp://127.0.0.1:", "127.0.0.1:99999", ":8786", ""])
+def test_what_is_no_address_is_refused(load: Load, capsys: pytest.CaptureFixture[str], address: str) -> None:
+    from uictest.cli.entry import execute
+
+    assert execute(["sweep", load(TEXT).file, "--dask", address]) == 4
+    said = capsys.readouterr().err
+    assert f"--dask: {address!r} is not an address such as tcp://127.0.0.1:8786" in said
+    assert not Path("reports").exists()
+
+
+@pytest.mark.parametrize("address", ["foo:1", "tcp://foo:1", "tls://127.0.0.1:8786", "[::1]:8786"])
+def test_addresses(address: str) -> None:
+    from uictest.sweep.cluster import check_address
+
+    check_address(address)
 
 
 def test_the_command_line_gives_the_summary_that_a_local_run_gives(load: Load, cluster: Any) -> None:

@@ -150,7 +150,7 @@ def sweep(
         jobs=1 if device is Device.CUDA else jobs,
         shard=_shard(shard),
         shares=tuple(shares or ()),
-        cluster=dask,
+        cluster=_cluster(dask),
         restart=restart,
         maxfail=1 if exit_first else maxfail,
         pair=_pair(selection.plan, pair),
@@ -250,6 +250,17 @@ def _shard(text: str | None) -> Shard:
         return Shard() if text is None else parse_shard(text)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--shard") from error
+
+
+def _cluster(address: str | None) -> str | None:
+    from uictest.sweep.cluster import check_address
+
+    try:
+        if address is not None:
+            check_address(address)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--dask") from error
+    return address
 
 
 def _search(plan: Plan, key: str | None, tolerance: str | None) -> Search | None:

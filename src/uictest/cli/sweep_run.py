@@ -98,19 +98,28 @@ def _begin(run: SweepRun, store: Store) -> None:
 
 def _work(run: SweepRun, missing: Sequence[int], keep: Callable[[int, bytes], None]) -> None:
     if run.cluster is not None:
-        from uictest.sweep.cluster import ClusterError, run_on_cluster
-
-        try:
-            run_on_cluster(run.selection, missing, run.cluster, keep)
-        except ImportError as error:
-            raise InvalidInputError("uictest: --dask needs the extra: pip install 'uictest[dask]'") from error
-        except ClusterError as error:
-            raise OSError(f"{error}; what is finished is kept, the same command goes on") from error
+        _work_on_cluster(run, run.cluster, missing, keep)
         return
     worker = prepared_worker(run)
     run_parts(
         missing, lambda number: worker.part(run.selection.part(number)), min(run.jobs, len(missing)), keep
     )
+
+
+def _work_on_cluster(
+    run: SweepRun, address: str, missing: Sequence[int], keep: Callable[[int, bytes], None]
+) -> None:
+    from uictest.sweep.cluster import ClusterError, run_on_cluster
+
+    def wait() -> None:
+        message(f"uictest: waiting for workers at {address}")
+
+    try:
+        run_on_cluster(run.selection, missing, address, keep, wait)
+    except ImportError as error:
+        raise InvalidInputError("uictest: --dask needs the extra: pip install 'uictest[dask]'") from error
+    except ClusterError as error:
+        raise OSError(str(error)) from error
 
 
 def prepared_worker(run: SweepRun) -> Worker:

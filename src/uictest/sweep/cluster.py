@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import secrets
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import Any, Final
+from urllib.parse import urlsplit
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +29,34 @@ class ClusterError(Exception):
     """The cluster cannot be reached, or gave a part up."""
 
 
-def run_on_cluster(selection: Selection, numbers: Iterable[int], address: str, on_part: OnPart) -> None:
+def check_address(address: str) -> None:
+    """Raise ValueError for what cannot be the address of a scheduler: no host, no port, or no such port."""
+    form = f"{address!r} is not an address such as tcp://127.0.0.1:8786"
+    try:
+        parts = urlsplit(address if "://" in address else f"tcp://{address}")
+        usable = parts.hostname is not None and parts.port is not None
+    except ValueError as error:
+        raise ValueError(form) from error
+    if not usable:
+        raise ValueError(form)
+
+
+def run_on_cluster(
+    selection: Selection,
+    numbers: Iterable[int],
+    address: str,
+    on_part: OnPart,
+    on_wait: Callable[[], None] = lambda: None,
+) -> None:
     """Work out parts on the cluster whose scheduler is at `address`; `on_part` gets each as it comes.
 
-    A part whose worker dies is given to another. Raises ClusterError; ImportError without the extra `dask`.
+    A part whose worker dies is given to another; where there is none at the start, `on_wait` is called once.
+    Raises ClusterError; ImportError without the extra `dask`.
     """
     with _connected(address) as client:
+        if not client.nthreads():
+            on_wait()
+            _wait_for_worker(client, address)
         for number, content in _translated(address, _results(client, selection, iter(numbers))):
             on_part(number, content)
 
@@ -42,17 +66,38 @@ def _translated(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[
     try:
         yield from results
     except _errors() as error:
-        raise ClusterError(f"{address}: {type(error).__name__}: {error}") from error
+        raise ClusterError(f"{address}: {_first_line(error)}") from error
+
+
+def _first_line(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}".partition("\n")[0]
+
+
+def _wait_for_worker(client: Any, address: str) -> None:
+    try:
+        client.wait_for_workers(1)
+    except _errors() as error:
+        raise ClusterError(f"{address}: {_first_line(error)}") from error
+
+
+def _silence() -> None:
+    """Keep what distributed logs off stderr: what matters of it arrives as an error."""
+    for name in list(logging.root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _connected(address: str) -> Any:
     import distributed
 
+    _silence()
     client: Any = distributed.Client
     try:
         return client(address, timeout=_PATIENCE, set_as_default=False)
     except OSError as error:
         raise ClusterError(f"no scheduler answers at {address}") from error
+    except ValueError as error:  # a scheme that distributed does not speak
+        raise ClusterError(f"{address}: {error}") from error
 
 
 def _errors() -> tuple[type[Exception], ...]:
