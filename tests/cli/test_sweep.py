@@ -218,6 +218,18 @@ def test_cases_that_no_criterion_applies_to_are_told(call: Call, study: Path) ->
     assert "note: 32 cases not judged, since no criterion applies" in done.out
 
 
+def test_quiet_shows_what_is_missed_and_nothing_else(call: Call, study: Path) -> None:
+    answer = call("sweep", study, "-q")
+    assert (answer.code, answer.out, answer.err) == (0, "", "")
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "expect: fail\n")
+    answer = call("sweep", study, "-q", "--restart")
+    first, *_, last = answer.out.splitlines()
+    assert (answer.code, answer.err) == (1, "")
+    assert first == "pass  study[friction=0.06,sample=0]  another outcome was expected"
+    assert last == "and 86 more, see summary.csv"
+
+
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
     Path(FILE).write_text(
         TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"

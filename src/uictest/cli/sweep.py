@@ -222,15 +222,18 @@ def show_ids(selection: Selection) -> None:
 
 
 def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -> None:
-    """Write the result document, or maps, rates and the frontier for a reader, to stdout."""
+    """Write the result document, or maps, rates and the frontier for a reader, to stdout.
+
+    Where it is to be `quiet`, what did not meet its expectation is all; annotations say that by themselves.
+    """
+    from uictest.cli.sweep_display import finding_lines, missed_lines
+
     if shown is Format.JSON:
         data(document.rstrip("\n"))
         return
-    if quiet:
+    if quiet and shown is Format.GITHUB:
         return
-    from uictest.cli.sweep_display import finding_lines
-
-    for line in finding_lines(findings):
+    for line in missed_lines(findings) if quiet else finding_lines(findings):
         text = printable(line) if line else line
         data(no_command(text) if shown is Format.GITHUB else text)
 

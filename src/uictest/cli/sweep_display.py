@@ -24,9 +24,18 @@ def finding_lines(findings: Findings) -> Iterator[str]:
     yield from _rates(findings.tally)
     yield from _sensitivities(findings)
     yield from _frontier(findings)
-    yield from _missed(findings.tally)
+    yield from missed_lines(findings)
     for note in findings.notes:
         yield f"note: {note}"
+
+
+def missed_lines(findings: Findings) -> Iterator[str]:
+    """Yield the first cases that are not met, and how many there are beyond them."""
+    tally, total = findings.tally, findings.tally.total()
+    for name, outcome, reason in tally.missed:
+        yield f"{outcome}  {name}  {reason or 'another outcome was expected'}"
+    if more := total.cases - total.met - len(tally.missed):
+        yield f"and {more} more, see summary.csv"
 
 
 def _rates(tally: Tally) -> Iterator[str]:
@@ -46,14 +55,6 @@ def _share(count: Count) -> str:
         return "-"
     words = not_judged_words(count.outcomes)
     return f"{count.met} of {count.cases}  {100.0 * count.share_met:.1f} %{words}"
-
-
-def _missed(tally: Tally) -> Iterator[str]:
-    total = tally.total()
-    for name, outcome, reason in tally.missed:
-        yield f"{outcome}  {name}  {reason}"
-    if more := total.cases - total.met - len(tally.missed):
-        yield f"and {more} more, see summary.csv"
 
 
 def _sensitivities(findings: Findings) -> Iterator[str]:
