@@ -204,7 +204,12 @@ def test_a_case_in_error_is_a_row_and_3(call: Call, study: Path) -> None:
 def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     scenario = Path("scenarios/stop.yaml")
     scenario.write_text(scenario.read_text() + "expect: fail\n")
-    assert call("sweep", study, "-x", "-n", "1").code == 1
+    answer = call("sweep", study, "-x", "-n", "1")
+    assert answer.code == 1
+    stopped, kept = answer.err.splitlines()[-2:]
+    first = "study[friction=0.06,sample=0]: pass, another outcome was expected"
+    assert stopped == f"uictest: stopped at --maxfail: 16 cases not met, the first: {first}"
+    assert kept == "uictest: finished parts are kept in reports/study, the same command without it goes on"
     assert len(list(Path("reports/study/parts").iterdir())) == 1
     assert call("sweep", study, "--junitxml", "junit.xml").code == 1
     assert 'failures="3"' in Path("junit.xml").read_text()

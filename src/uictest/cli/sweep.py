@@ -171,8 +171,9 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
     store = Store(run.folder)
     try:
         simulate_parts(run, store)
-    except MaxfailReached:
-        message(f"uictest: stopped at --maxfail; finished parts are kept in {run.folder}")
+    except MaxfailReached as reached:
+        message(f"uictest: stopped at --maxfail: {reached}")
+        message(f"uictest: finished parts are kept in {run.folder}, the same command without it goes on")
         return ExitCode.MISSED
     except KeyboardInterrupt:
         message(f"uictest: interrupted; finished parts are kept in {run.folder}, the same command goes on")

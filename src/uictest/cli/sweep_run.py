@@ -12,6 +12,7 @@ from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import message
+from uictest.cli.sweep_display import reason_missed
 from uictest.cli.sweep_progress import sweep_progress
 from uictest.report import counted
 from uictest.sweep import ChangedInputsError, Search, Selection, Shard, Store, Worker, run_parts
@@ -45,7 +46,7 @@ class SweepRun:
 
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
-    """As many cases as are tolerated did not meet their expectation."""
+    """As many cases as are tolerated did not meet their expectation; the message says how many and which."""
 
 
 def simulate_parts(run: SweepRun, store: Store) -> None:
@@ -65,16 +66,12 @@ def simulate_parts(run: SweepRun, store: Store) -> None:
     if left < cases and not run.quiet:
         message(f"uictest: {cases - left} of {counted(cases, 'case')} are finished already")
     with sweep_progress(cases, cases - left, quiet=run.quiet) as advance:
-        missed = 0
+        failures = _Failures(run.maxfail)
 
         def keep(number: int, content: bytes) -> None:
-            nonlocal missed
             store.write(number, content)
             advance(run.selection.part(number).size)
-            if run.maxfail is not None:
-                missed += _missed(content)
-                if missed >= run.maxfail:
-                    raise MaxfailReached
+            failures.take(content)
 
         if missing:
             _work(run, missing, keep)
@@ -157,13 +154,37 @@ def _worker_on_gpu(run: SweepRun) -> Worker:
     return made
 
 
-def _missed(content: bytes) -> int:
+class _Failures:
+    """Counts the cases that are not met, part by part, until there are as many as are tolerated."""
+
+    def __init__(self, tolerated: int | None) -> None:
+        self._tolerated = tolerated
+        self._count = 0
+        self._first = ""
+
+    def take(self, content: bytes) -> None:
+        """Count those of a finished part. Raises MaxfailReached."""
+        if self._tolerated is None:
+            return
+        missed = _missed(content)
+        if missed and not self._first:
+            outcome, name, reason = missed[0]
+            self._first = f"{name}: {outcome}, {reason_missed(reason)}"
+        self._count += len(missed)
+        if self._count >= self._tolerated:
+            raise MaxfailReached(f"{counted(self._count, 'case')} not met, the first: {self._first}")
+
+
+def _missed(content: bytes) -> list[tuple[str, str, str]]:
+    """Return outcome, id and reason of the cases in a part that are not met."""
     import io
 
     import pyarrow.parquet as pq
 
-    met: list[bool] = pq.read_table(io.BytesIO(content), columns=["met"]).column("met").to_pylist()
-    return met.count(False)
+    names = ["met", "outcome", "id", "reason"]
+    columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
+    rows = zip(*(columns[name] for name in names), strict=True)
+    return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
 
 
 def publish(run: SweepRun, store: Store) -> tuple[Findings, str, SweepContent]:
