@@ -260,6 +260,19 @@ def test_list_and_dry_run_show_ids_and_run_nothing(call: Call, study: Path) -> N
     assert call("list", study, "-k", "nothing").code == 5
 
 
+@pytest.mark.parametrize("command", [["sweep", "--dry-run"], ["list", FILE]])
+def test_a_list_ends_when_its_reader_leaves(program: Path, study: Path, command: list[str]) -> None:
+    study.write_text(TEXT.replace("size: 32", "size: 16777216"))
+    process = subprocess.Popen([program, *command, study], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"study[friction=0.06,sample=0]\n"
+    process.stdout.close()
+    assert process.wait(timeout=20) == 0
+    assert process.stderr is not None
+    assert process.stderr.read() == b""
+    process.stderr.close()
+
+
 def test_stdout_is_the_document_alone(call: Call, study: Path) -> None:
     answer = call("sweep", study, "-k", "friction=0.09", "--format", "json")
     assert json.loads(answer.out)["cases"] == 32

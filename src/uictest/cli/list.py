@@ -37,7 +37,8 @@ def _list_sweeps(paths: Sequence[Path], expression: str | None, overrides: Seque
 
     selections = [selected_cases(load_plan(path, overrides, None), expression) for path in paths]
     for selection in selections:
-        show_ids(selection)
+        if not show_ids(selection):
+            break
     if any(selection.size for selection in selections):
         return ExitCode.MET
     message("uictest: nothing selected")

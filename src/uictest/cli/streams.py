@@ -6,20 +6,27 @@ import contextlib
 import io
 import os
 import sys
-from collections.abc import Iterator
 from typing import TextIO
 
 from uictest.report import printable
 
 
-def data(text: str) -> None:
+def data(text: str) -> bool:
     """Write data to stdout at once, a line feed at its end. A reader that has gone (`| head`) is no error.
 
-    Raises OSError where stdout takes no more.
+    Returns whether it was read: who has much more to write need not go on where it was not. Raises OSError
+    where stdout takes no more.
     """
-    with _reader_may_leave():
+    try:
         sys.stdout.write(f"{text}\n")
         sys.stdout.flush()
+    except BrokenPipeError:
+        # What is still in the buffer must not raise again at the next flush.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return False
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, "stdout") from error
+    return True
 
 
 def message(text: str) -> None:
@@ -42,14 +49,3 @@ def coloured(choice: str, stream: TextIO) -> bool:
         return choice == "always"
     plain = os.environ.get("NO_COLOR", "") != "" or os.environ.get("TERM") == "dumb"
     return stream.isatty() and not plain
-
-
-@contextlib.contextmanager
-def _reader_may_leave() -> Iterator[None]:
-    try:
-        yield
-    except BrokenPipeError:
-        # Nobody reads on; what is still in the buffer must not raise again at the next flush.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, "stdout") from error

@@ -215,11 +215,13 @@ def selected_cases(plan: Plan, expression: str | None, device: Device = Device.C
         raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
 
 
-def show_ids(selection: Selection) -> None:
-    """Write the ids of the selected cases to stdout, one per line."""
+def show_ids(selection: Selection) -> bool:
+    """Write the ids of the selected cases to stdout, one per line; return whether somebody read them all."""
     for first in range(0, selection.size, _IDS_AT_ONCE):
         indices = selection.stretch(first, min(first + _IDS_AT_ONCE, selection.size))
-        data("\n".join(map(printable, selection.plan.ids(indices))))
+        if not data("\n".join(map(printable, selection.plan.ids(indices)))):
+            return False
+    return True
 
 
 def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -> None:
