@@ -150,6 +150,28 @@ def test_github_annotates_what_is_not_met(call: Call, scenario: Write) -> None:
     assert lines[2].startswith("::error file=scenarios/b.yaml,title=MISSED b::")
 
 
+@pytest.mark.parametrize(
+    ("file", "said"), [("no/junit.xml", "no/junit.xml: there is no folder no"), (".", ". is a folder")]
+)
+def test_junit_with_no_place_is_refused_before_the_first_case(
+    call: Call, scenario: Write, made_up: list[str], file: str, said: str
+) -> None:
+    scenario()
+    answer = call("run", "--junitxml", file)
+    assert answer.code == 4
+    assert f"--junitxml: {said}" in answer.err
+    assert not made_up
+
+
+@pytest.mark.parametrize("file", ["out/junit.xml", "out/latest/other.xml"])
+def test_junit_may_go_into_the_folder_of_the_run(
+    call: Call, scenario: Write, made_up: list[str], file: str
+) -> None:
+    scenario()
+    assert call("run", "-o", "out", "--junitxml", file).code == 0
+    assert Path(file).exists()
+
+
 def test_junit_is_written_where_it_is_wanted_and_in_the_reports(call: Call, scenario: Write) -> None:
     scenario("a", "tags: [fail]\n")
     call("run", "--junitxml", "junit.xml", "-o", "out")

@@ -235,6 +235,24 @@ def test_quiet_shows_what_is_missed_and_nothing_else(call: Call, study: Path) ->
     assert last == "and 86 more, see summary.csv"
 
 
+def test_junit_with_no_place_is_refused_before_the_first_case(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    for file, said in (("no/junit.xml", "there is no folder no"), ("scenarios", "scenarios is a folder")):
+        answer = call("sweep", study, "--junitxml", file)
+        assert answer.code == 4
+        assert said in answer.err
+    assert not counted
+    assert call("sweep", study, "-k", "friction=0.09", "--junitxml", "reports/junit.xml").code == 0
+
+
+def test_nothing_is_said_to_be_kept_where_nothing_is(call: Call, study: Path) -> None:
+    Path("reports").write_text("")
+    answer = call("sweep", study)
+    assert answer.code == 3
+    assert answer.err == "uictest: reports/study/parts: Not a directory (-v shows where)\n"
+
+
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
     Path(FILE).write_text(
         TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"

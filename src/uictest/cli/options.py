@@ -155,6 +155,22 @@ def tolerances_of(texts: list[str] | None) -> Tolerances:
         raise typer.BadParameter(str(error), param_hint="--tolerance") from error
 
 
+def junit_file(path: Path | None, made: Path) -> Path | None:
+    """Return where `--junitxml` writes. Raises typer.BadParameter for what is no place for a file.
+
+    A folder in or above `made` may still be missing: the command makes that one itself.
+    """
+    if path is None:
+        return None
+    folder, own = path.absolute().parent, made.absolute()
+    expected = own.is_relative_to(folder) or folder.is_relative_to(own)
+    if path.is_dir():
+        raise typer.BadParameter(f"{path} is a folder", param_hint="--junitxml")
+    if not folder.is_dir() and not (expected and not folder.exists()):
+        raise typer.BadParameter(f"{path}: there is no folder {path.parent}", param_hint="--junitxml")
+    return path
+
+
 def report_formats(text: str, option: str) -> list[ReportFormat]:
     """Return the formats in a comma list, each once. Raises typer.BadParameter for one there is not."""
     from uictest.report import ReportFormat

@@ -29,6 +29,7 @@ from uictest.cli.options import (
     Tag,
     ToleranceTexts,
     Verbosity,
+    junit_file,
     report_formats,
     tolerances_of,
 )
@@ -108,7 +109,7 @@ def run(
         jobs=min(jobs, len(selected)),
         maxfail=1 if exit_first else maxfail,
         output=output,
-        junit=junit,
+        junit=junit_file(junit, output),
         formats=wanted,
         quiet=quiet,
         verbose=verbosity > 0,

@@ -20,6 +20,7 @@ from uictest.cli.options import (
     Reports,
     Seed,
     Verbosity,
+    junit_file,
     report_formats,
 )
 from uictest.cli.problems import InvalidInputError
@@ -143,10 +144,11 @@ def sweep(
     from uictest.cli.sweep_run import SweepRun
     from uictest.sweep import sweep_manifest
 
+    folder = output / selection.plan.name
     run = SweepRun(
         selection=selection,
         manifest=sweep_manifest(selection, expression=expression, overrides=overrides or (), seed=seed),
-        folder=output / selection.plan.name,
+        folder=folder,
         jobs=1 if device is Device.CUDA else jobs,
         shard=_shard(shard),
         shares=tuple(shares or ()),
@@ -156,7 +158,7 @@ def sweep(
         pair=_pair(selection.plan, pair),
         measures=_measures(measures),
         search=_search(selection.plan, frontier, tolerance),
-        junit=junit,
+        junit=junit_file(junit, folder),
         formats=wanted,
         quiet=quiet,
     )
@@ -179,7 +181,8 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
         message(f"uictest: interrupted; finished parts are kept in {run.folder}, the same command goes on")
         return ExitCode.INTERRUPTED
     except OSError:
-        message(f"uictest: finished parts are kept in {run.folder}, the same command goes on")
+        if store.holds_parts():
+            message(f"uictest: finished parts are kept in {run.folder}, the same command goes on")
         raise
     if run.shard.count > 1:
         message(f"uictest: share {run.shard.number} of {run.shard.count} is finished in {run.folder}")

@@ -73,6 +73,13 @@ class Store:
                 path.unlink()
         return whole, damaged
 
+    def holds_parts(self) -> bool:
+        """Return whether there is a finished part, False where the folder cannot be read."""
+        try:
+            return bool(self._files())
+        except OSError:
+            return False
+
     def write(self, number: int, content: bytes) -> None:
         """Keep a part. Raises OSError."""
         write_bytes_atomic(self.folder / PARTS / f"{number:06d}-{_digest(content)}.parquet", content)
