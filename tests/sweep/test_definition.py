@@ -120,6 +120,24 @@ def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: 
     assert str(caught.value).startswith("study.sweep.yaml:")
 
 
+@pytest.mark.parametrize(
+    ("normal", "expected"),
+    [
+        (
+            "{mean: 0.1, deviation: 1e-7, lower: 0.2, upper: 0.3}",
+            "lower: 0.2 lies more than 100000 deviations",
+        ),
+        (
+            "{mean: 0.3, deviation: 1e-7, lower: 0.1, upper: 0.2}",
+            "upper: 0.2 lies more than 100000 deviations",
+        ),
+    ],
+)
+def test_a_normal_without_spread_between_its_ends_is_refused(load: Load, normal: str, expected: str) -> None:
+    with pytest.raises(ScenarioErrors, match=rf"rail\.friction\.normal\.{expected}"):
+        load(f"sample: {{size: 3, parameters: {{rail.friction: {{normal: {normal}}}}}}}\n")
+
+
 def test_all_errors_are_told_at_once(load: Load) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")

@@ -57,10 +57,39 @@ def _triangular(low: float, mode: float, high: float) -> Quantile:
 
 
 def _cut_off_normal(normal: Normal) -> Quantile:
-    from scipy.special import ndtr, ndtri
-
     mean, deviation, low, high = (
         float(amount.number) for amount in (normal.mean, normal.deviation, normal.lower, normal.upper)
     )
-    first, last = (ndtr((end - mean) / deviation) for end in (low, high))
-    return lambda shares: np.clip(mean + deviation * ndtri(first + shares * (last - first)), low, high)
+    standard = _cut_off_standard_normal((low - mean) / deviation, (high - mean) / deviation)
+    return lambda shares: np.clip(mean + deviation * standard(shares), low, high)
+
+
+def _cut_off_standard_normal(low: float, high: float) -> Quantile:
+    from scipy.special import ndtr, ndtri
+
+    if low >= 0.0:
+        return _upper_tail(low, high)
+    if high <= 0.0:
+        mirrored = _upper_tail(-high, -low)
+        return lambda shares: -mirrored(1.0 - shares)
+    first, last = ndtr(low), ndtr(high)
+    return lambda shares: ndtri(first + shares * (last - first))
+
+
+def _upper_tail(low: float, high: float) -> Quantile:
+    """The standard normal above its mean, by the logarithm of the probability to lie beyond a value.
+
+    The cumulative distribution itself rounds to one from 8.3 deviations on, and its complement to zero from
+    38; the logarithm, ln Q(x) = ln(Q(low) + s (Q(high) - Q(low))) at the share s, does neither.
+    """
+    from scipy.special import log_ndtr, ndtri_exp
+
+    beyond_low, beyond_high = log_ndtr(-low), log_ndtr(-high)
+
+    def at(shares: Shares) -> NDArray[np.float64]:
+        with np.errstate(divide="ignore"):  # nothing may lie beyond the last share: its value is cut off
+            beyond = beyond_low + np.log1p(shares * np.expm1(beyond_high - beyond_low))
+        value: NDArray[np.float64] = -ndtri_exp(beyond)
+        return value
+
+    return at

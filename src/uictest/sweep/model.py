@@ -14,6 +14,11 @@ from uictest.sweep.amount import WrittenAmount, common_unit
 SWEEP_SCHEMA: Final = "uictest/sweep/1"
 MOST_CASES: Final = 100_000_000
 MOST_POINTS: Final = 2**24
+FARTHEST_END: Final = 100_000
+"""Deviations from the mean to the nearer end of a normal distribution, at most.
+
+Farther off, the values keep to that end within 1e-10 of its distance, which ten digits do not tell apart.
+"""
 Method = Literal["random", "sobol", "latin-hypercube", "saltelli"]
 _ONE_UNIT = "write all numbers of it with the same unit"
 
@@ -64,6 +69,20 @@ class Normal(Model):
             yield Contradiction(("deviation",), f"{self.deviation} is not above zero")
         elif self.lower.number >= self.upper.number:
             yield Contradiction(("upper",), f"{self.upper} does not lie above {self.lower}")
+        else:
+            yield from self._ends_too_far_off()
+
+    def _ends_too_far_off(self) -> Iterator[Contradiction]:
+        farthest = FARTHEST_END * self.deviation.number
+        above, below = self.lower.number - self.mean.number, self.mean.number - self.upper.number
+        hint = "nothing but this value would be drawn; move it or the mean, or widen the deviation"
+        for key, end, side, distance in (
+            ("lower", self.lower, "above", above),
+            ("upper", self.upper, "below", below),
+        ):
+            if distance > farthest:
+                message = f"{end} lies more than {FARTHEST_END} deviations {side} the mean"
+                yield Contradiction((key,), message, hint)
 
 
 class Distribution(Model):
