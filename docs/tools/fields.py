@@ -27,6 +27,7 @@ from uictest.scenario.physical import Physical
 from uictest.scenario.quantities import Quantity
 from uictest.scenario.reference_schema import PartReference
 from uictest.scenario.units import KINDS
+from uictest.sweep.model import Distribution, Sample
 
 HEADINGS = ("key", "written as", "default", "range", "meaning")
 PARTS: dict[str, type[BaseModel]] = {
@@ -79,6 +80,45 @@ def measures_table() -> str:
         for name, measure in MEASURES.items()
     ]
     return table(("measure", "unit", "of", "meaning", "definitions it needs"), rows)
+
+
+def sample_table() -> str:
+    """Return the fields of a sample, its parameters left out."""
+    return table(HEADINGS, list(_rows(Sample, "", frozenset({"parameters"}))))
+
+
+def distributions_table() -> str:
+    """Return every distribution that a parameter of a sample can have, with its entries and an example."""
+    rows = [
+        row
+        for name, field in Distribution.model_fields.items()
+        for row in _spread_by(field.alias or name, field)
+    ]
+    return table(("distribution", "written as", "example", "meaning"), rows)
+
+
+def _spread_by(name: str, field: FieldInfo) -> Iterator[tuple[str, ...]]:
+    example = f"`{{{name}: {_flow((field.examples or [''])[0])}}}`"
+    inner = _model_in(field.annotation)
+    yield f"`{name}`", "mapping" if inner else _numbers(field.annotation), example, field.description or ""
+    for key, entry in inner.model_fields.items() if inner else ():
+        yield f"`{name}.{key}`", "number with its unit", "", entry.description or ""
+
+
+def _numbers(annotation: Any) -> str:
+    entries = _spread(annotation)
+    return (
+        "list of values"
+        if get_origin(entries[0]) is tuple
+        else f"list of {len(entries)} numbers with their unit"
+    )
+
+
+def _flow(value: Any) -> str:
+    """A value as a scenario has it in one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {_flow(each)}" for key, each in value.items()) + "}"
+    return "[" + ", ".join(map(_flow, value)) + "]" if isinstance(value, list) else str(value)
 
 
 def _rows(model: type[BaseModel], above: str, left_out: frozenset[str]) -> Iterator[tuple[str, ...]]:

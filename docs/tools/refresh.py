@@ -23,6 +23,8 @@ _TABLES: dict[str, Callable[..., str]] = {
     "part": fields.part_table,
     "units": fields.units_table,
     "measures": fields.measures_table,
+    "sample": fields.sample_table,
+    "distributions": fields.distributions_table,
 }
 
 

@@ -32,6 +32,13 @@ def test_quantiles(given: dict[str, Any], expected: Callable[[Any], Any]) -> Non
     assert found == pytest.approx(expected(SHARES), rel=1e-9, abs=1e-12)
 
 
+@pytest.mark.parametrize("name", Distribution.model_fields)
+def test_every_distribution_shows_an_example_that_it_accepts(name: str) -> None:
+    field = Distribution.model_fields[name]
+    (example,) = field.examples or ()
+    assert Distribution.model_validate({field.alias or name: example}).form == name
+
+
 def test_a_choice_gives_places() -> None:
     places = quantile(Distribution(choice=("a", "b", "c")))(np.array([0.0, 0.34, 0.99, 1.0]))
     assert places.tolist() == [0.0, 1.0, 2.0, 2.0]

@@ -89,17 +89,32 @@ class Distribution(Model):
     """How the values of one parameter are spread: one of five ways."""
 
     uniform: tuple[WrittenAmount, WrittenAmount] | None = Field(
-        default=None, description="Smallest and largest value, everything between equally likely."
+        default=None,
+        description="Smallest and largest value; everything between is equally likely.",
+        examples=[[0.08, 0.16]],
     )
     log_uniform: tuple[WrittenAmount, WrittenAmount] | None = Field(
-        default=None, alias="log-uniform", description="Smallest and largest value; its logarithm is uniform."
+        default=None,
+        alias="log-uniform",
+        description="Smallest and largest value, above zero; the logarithm is uniform.",
+        examples=[["0.8e-8 m3/(s Pa)", "1.6e-8 m3/(s Pa)"]],
     )
     triangular: tuple[WrittenAmount, WrittenAmount, WrittenAmount] | None = Field(
-        default=None, description="Smallest, likeliest and largest value."
+        default=None,
+        description="Smallest, likeliest and largest value; the density is a triangle.",
+        examples=[["80 %", "100 %", "100 %"]],
     )
-    normal: Normal | None = Field(default=None, description="Normal, cut off at both ends.")
+    normal: Normal | None = Field(
+        default=None,
+        description="Normal, cut off at both ends; what lies beyond them is not drawn.",
+        examples=[{"mean": "32 t", "deviation": "0.5 t", "lower": "30 t", "upper": "34 t"}],
+    )
     choice: tuple[Any, ...] | None = Field(
-        default=None, min_length=1, max_length=10_000, description="Values, each as likely as the others."
+        default=None,
+        min_length=1,
+        max_length=10_000,
+        description="Values that the key accepts, each as likely as the others.",
+        examples=[["one-caliper", "four-caliper"]],
     )
 
     @property
