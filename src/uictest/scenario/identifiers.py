@@ -36,7 +36,7 @@ def _shortest_tail(key: str, others: list[str]) -> str:
 
 
 def value_label(setting: Setting) -> str:
-    """The value as written, less blanks, per cent signs and whatever a file name should not hold."""
+    """The value as written, less blanks, slashes, per cent signs and what else a file name may not hold."""
     text = _name(setting)
     return _UNSAFE.sub("", text) or f"value{setting.number}"
 
