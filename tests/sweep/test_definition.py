@@ -7,6 +7,7 @@ import pytest
 
 from uictest.scenario import ScenarioErrors
 from uictest.sweep import Plan, load_sweep
+from uictest.sweep.base import Base
 
 from .conftest import GRID, HEAD, Load
 
@@ -141,7 +142,65 @@ def test_a_normal_without_spread_between_its_ends_is_refused(load: Load, normal:
 def test_all_errors_are_told_at_once(load: Load) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
-    assert [error.line for error in caught.value.diagnostics] == [5, 5, 6]
+    assert [error.line for error in caught.value.diagnostics] == [5, 6]
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "expected"),
+    [
+        ("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 29, "5 is out of range"),
+        ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 25, "1.1 is out of range"),
+        ("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}", 25, "'0.001' does not suit"),
+        ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 10, "unknown key 'frictoin'"),
+        ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 45, "0 is out of range"),
+        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 17, "'2' with '0.002' does not suit"),
+        (
+            "sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}",
+            58,
+            "'0.001' does not suit",
+        ),
+        ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 60, "no vehicle 'a'"),
+    ],
+)
+def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, expected: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(text + "\n")
+    (error,) = caught.value.diagnostics
+    assert (error.file, error.line, error.column) == ("study.sweep.yaml", 4, column)
+    assert expected in error.message
+
+
+def test_the_error_of_an_axis_counts_the_values_that_are_refused_too(load: Load) -> None:
+    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are refused"):
+        load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
+    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are refused"):
+        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
+    with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
+        load("grid: {rail.frictoin: [1, 2, 3]}\n")
+
+
+def test_only_the_first_refused_value_is_read_as_a_scenario(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[object] = []
+    original = Base.scenario_with
+    monkeypatch.setattr(Base, "scenario_with", lambda *given: read.append(given) or original(*given))
+    with pytest.raises(ScenarioErrors):
+        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
+    assert len(read) == 1
+
+
+def test_what_a_value_makes_of_an_option_is_told_at_the_value(load: Load) -> None:
+    with pytest.raises(ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' does not suit initial_speed"):
+        load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
+
+
+def test_errors_inside_a_part_are_told_in_its_file(load: Load) -> None:
+    load()
+    Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
+    with pytest.raises(ScenarioErrors) as caught:
+        load("grid: {rail.condition: [rail.yaml, wet]}\n")
+    assert {error.file for error in caught.value.diagnostics} == {"rail.yaml"}
 
 
 def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load: Load) -> None:

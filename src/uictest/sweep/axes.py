@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Annotated, Any, get_args
+from dataclasses import replace
+from typing import Annotated, Any, Final, get_args
 
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose, refusal
 from uictest.scenario.expansion import Setting
@@ -14,12 +15,17 @@ from uictest.scenario.scalars import resolve as plain_scalar
 from uictest.scenario.tree import Document, Entry, Map, Node, Scalar, as_written, entry_at, plain
 from uictest.scenario.tree import Sequence as List
 from uictest.scenario.validation import validated
-from uictest.scenario.wording import quoted
+from uictest.scenario.wording import quoted, visible
 from uictest.sweep.amount import Amount, common_unit, evenly, stepwise, written
 from uictest.sweep.base import Base
 from uictest.sweep.model import Distribution, Range, Sample
 from uictest.sweep.plan import Draw, Listed, Sampled, Value
 from uictest.sweep.variation import refusals, value_at, varied
+
+_OPTIONS: Final = ("--set", "--seed")
+"""What the texts of options are called where files have their names."""
+_Column = tuple[str, Entry, Sequence[Node]]
+"""A key, where its values stand, and the values."""
 
 
 class Axes:
@@ -35,13 +41,7 @@ class Axes:
         columns = [(key, entry, _items(entry.node)) for key, entry in entries.items()]
         if not self._equally_long(columns):
             return None
-        rows: list[tuple[Value, ...]] = []
-        for number, nodes in enumerate(zip(*(items for _, _, items in columns), strict=True), start=1):
-            row = {key: Entry(entry.key, node) for (key, entry, _), node in zip(columns, nodes, strict=True)}
-            try:
-                rows.append(self._row(row, number))
-            except ScenarioErrors as errors:
-                self.found.extend(errors.diagnostics)
+        rows = self._rows(columns)
         self._refuse_repeated(rows, columns)
         return Listed(tuple(entries), tuple(rows)) if len(rows) == len(columns[0][2]) else None
 
@@ -59,7 +59,7 @@ class Axes:
         keys = tuple(sample.parameters)
         return Sampled(keys, tuple(draws), sample.method, sample.cases, sample.size, sample.seed)
 
-    def _equally_long(self, columns: Sequence[tuple[str, Entry, Sequence[Node]]]) -> bool:
+    def _equally_long(self, columns: Sequence[_Column]) -> bool:
         first, _, items = columns[0]
         unequal = [column for column in columns if len(column[2]) != len(items)]
         for key, entry, others in unequal:
@@ -68,19 +68,59 @@ class Axes:
             self.found.append(diagnose(entry.key, message, f"zip.{key}", hint))
         return not unequal
 
-    def _row(self, row: Mapping[str, Entry], number: int) -> tuple[Value, ...]:
-        contents = self._plain_quantities(row) or self._resolved(row)
+    def _rows(self, columns: Sequence[_Column]) -> list[tuple[Value, ...]]:
+        """Return the rows that the scenario accepts, and tell the first that it does not, for all of them."""
+        rows: list[tuple[Value, ...]] = []
+        told: tuple[Diagnostic, ...] = ()
+        more = 0
+        for number, nodes in enumerate(zip(*(items for _, _, items in columns), strict=True), start=1):
+            row = {key: Entry(entry.key, node) for (key, entry, _), node in zip(columns, nodes, strict=True)}
+            try:
+                rows.append(self._row(row, number, explained=not told))
+            except ScenarioErrors as errors:
+                if errors.diagnostics == told:
+                    break  # what is said of one value as of another is wrong with the key
+                more += bool(told)
+                told = told or errors.diagnostics
+        self._tell(told, more, len(columns[0][2]))
+        return rows
+
+    def _tell(self, diagnostics: Sequence[Diagnostic], more: int, total: int) -> None:
+        verb = "is" if more == 1 else "are"
+        counted = f"; {more} more of the {total} values {verb} refused" if more else ""
+        self.found.extend(replace(each, message=each.message + counted) for each in diagnostics[:1])
+        self.found.extend(diagnostics[1:])
+
+    def _row(self, row: Mapping[str, Entry], number: int, *, explained: bool = True) -> tuple[Value, ...]:
+        """Return the values of a row. Raises ScenarioErrors, empty ones where they need not be explained."""
+        contents = self._plain_quantities(row, explained) or self._resolved(row)
         return tuple(
             Value(as_written(entry.node), contents[key], value_label(Setting(key, entry, number)))
             for key, entry in row.items()
         )
 
     def _resolved(self, row: Mapping[str, Entry]) -> dict[str, Any]:
-        scenario, documents = self._base.scenario_with(row)
+        try:
+            scenario, documents = self._base.scenario_with(row)
+        except ScenarioErrors as errors:
+            raise self._told_at_values(errors, row) from None
         self.documents.extend(documents)
         return {key: value_at(scenario, key) for key in row}
 
-    def _plain_quantities(self, row: Mapping[str, Entry]) -> dict[str, Any] | None:
+    def _told_at_values(self, errors: ScenarioErrors, row: Mapping[str, Entry]) -> ScenarioErrors:
+        """Return errors in which one, at the new values, stands for those in files that the base has."""
+        key, entry = next(iter(row.items()))
+        sound = {*self._base.case.inputs, *_OPTIONS} - {entry.node.place.document.display}
+        files = frozenset(map(visible, sound))
+        others = [each for each in errors.diagnostics if each.file not in files]
+        caused = next((each for each in errors.diagnostics if each.file in files), None)
+        if caused is None:
+            return errors
+        values = " with ".join(quoted(as_written(each.node)) for each in row.values())
+        message = f"{values} does not suit {caused.key or 'the scenario'}: {caused.message}"
+        return ScenarioErrors([*others, diagnose(entry.node.place, message, key, caused.hint)])
+
+    def _plain_quantities(self, row: Mapping[str, Entry], explained: bool) -> dict[str, Any] | None:
         """Return the values of quantities without reading the scenario again; None where that is needed."""
         scenario = self._base.case.scenario
         contents: dict[str, Any] = {}
@@ -89,13 +129,13 @@ class Axes:
             if field is None or not isinstance(entry.node, Scalar) or entry.node.value is None:
                 return None
             contents[key] = validated(field, plain(entry.node), entry.node, tuple(key.split(".")))
-        if next(refusals(varied(scenario, contents), row), None) is not None:
-            return None  # the scenario itself says best what is wrong, and where
-        return contents
+        if next(refusals(varied(scenario, contents), row), None) is None:
+            return contents
+        if explained:
+            return None  # the scenario itself says best what is wrong
+        raise ScenarioErrors(())
 
-    def _refuse_repeated(
-        self, rows: Iterable[tuple[Value, ...]], columns: Sequence[tuple[str, Entry, Sequence[Node]]]
-    ) -> None:
+    def _refuse_repeated(self, rows: Iterable[tuple[Value, ...]], columns: Sequence[_Column]) -> None:
         seen: set[tuple[str, ...]] = set()
         for row in rows:
             labels = tuple(value.label for value in row)
