@@ -122,6 +122,49 @@ def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: 
 
 
 @pytest.mark.parametrize(
+    ("distribution", "expected"),
+    [
+        ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is refused"),
+        (
+            "{choice: [0.1, 5, 7]}",
+            "5 is out of range: it must be at most 1; 1 more of the 3 values is refused",
+        ),
+        ("{uniform: [0.2]}", "expected two bounds, [lowest, highest], found 1"),
+        ("{log-uniform: [0.1, 0.2, 0.3]}", "expected two bounds, [lowest, highest], found 3"),
+        ("{uniform: 0.2}", "expected two bounds, [lowest, highest], found no list"),
+        ("{triangular: [0.1, 0.2]}", "expected three values, [lowest, likeliest, highest], found 2"),
+        (
+            "0.1",
+            "accepted: uniform, log-uniform, triangular, normal, choice; such as {uniform: [0.08, 0.16]}",
+        ),
+    ],
+)
+def test_what_a_distribution_expects(load: Load, distribution: str, expected: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(f"sample: {{size: 3, parameters: {{rail.friction: {distribution}}}}}\n")
+    (error,) = caught.value.diagnostics
+    assert (error.file, error.line) == ("study.sweep.yaml", 4)
+    assert expected in str(error)
+
+
+def test_choices_of_one_label_are_two_where_they_are_written_differently(load: Load) -> None:
+    load()
+    for folder in (Path("here"), Path("there")):
+        folder.mkdir()
+        (folder / "rail.yaml").write_text("schema: uictest/rail/1\nextends: wet\n")
+    parameters = "{rail.condition: {choice: [here/rail.yaml, there/rail.yaml]}}"
+    assert load(f"sample: {{size: 4, parameters: {parameters}}}\n").size == 4
+
+
+@pytest.mark.parametrize("text", ["", "[1, 2]\n", "schema: uictest/sweep/2\nname: a\n", "name: a\n"])
+def test_what_is_no_sweep_is_told_how_a_sweep_starts(load: Load, text: str) -> None:
+    load()
+    Path("other.sweep.yaml").write_text(text)
+    with pytest.raises(ScenarioErrors, match="a sweep starts with `schema: uictest/sweep/1`"):
+        load_sweep(Path("other.sweep.yaml"))
+
+
+@pytest.mark.parametrize(
     ("normal", "expected"),
     [
         (

@@ -25,23 +25,32 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000
 _BYTE_ORDER_MARK = "\ufeff"
 
 
-def parse(document: Document, line: int = 1, column: int = 1, text: str | None = None) -> Node:
+def parse(
+    document: Document,
+    line: int = 1,
+    column: int = 1,
+    text: str | None = None,
+    beginning: str = "a scenario starts with its schema",
+) -> Node:
     """The tree of a document, or of a piece of it that starts at ``line`` and ``column``.
+
+    ``beginning`` is what to say of an empty document.
 
     Raises ScenarioErrors with every structural error found and, where the text could be read all the same,
     the tree that it was taken for.
     """
-    return _Parser(document, document.text if text is None else text, line, column).parse()
+    return _Parser(document, document.text if text is None else text, line, column, beginning).parse()
 
 
 class _Parser:
     """Recursive descent over parser events."""
 
-    def __init__(self, document: Document, text: str, line: int, column: int) -> None:
+    def __init__(self, document: Document, text: str, line: int, column: int, beginning: str) -> None:
         self.document = document
         self.text = text
         self.line = line
         self.column = column
+        self.beginning = beginning
         self.found: list[Diagnostic] = []
         self.nodes = 0
         self.events: Iterator[Any] = iter(())
@@ -72,12 +81,12 @@ class _Parser:
         self.events = iter(yaml.parse(self.text, Loader=_LOADER))
         next(self.events)  # start of the stream
         if isinstance(next(self.events), yaml.StreamEndEvent):
-            raise refusal(Place(self.document), "the file is empty", hint="a scenario starts with its schema")
+            raise refusal(Place(self.document), "the file is empty", hint=self.beginning)
         root = self._node(next(self.events), depth=0)
         next(self.events)  # end of the document
         after = next(self.events)
         if not isinstance(after, yaml.StreamEndEvent):
-            self._report(after, "a second YAML document", "one file holds one scenario")
+            self._report(after, "a second YAML document", "one file holds one of them")
         return root
 
     def _node(self, event: Any, depth: int) -> Node:

@@ -12,16 +12,17 @@ from uictest.scenario.tree import Document, Map, Place
 
 LARGEST: Final = 256 * 1024
 """Largest file that is read, bytes."""
+_BEGINNING: Final = "start with `schema: uictest/scenario/1`"
 
 
-def read_file(path: Path) -> Map:
-    """The tree of a YAML file. Raises ScenarioErrors."""
+def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
+    """The tree of a YAML file; ``beginning`` tells how one of its sort begins. Raises ScenarioErrors."""
     display = display_name(path)
     if not _is_unicode(display):
         raise refusal(
             nowhere(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
         )
-    return _tree(display, path.parent, _content(path))
+    return _tree(display, path.parent, _content(path), beginning)
 
 
 def read_library(folder: str, name: str) -> Map:
@@ -72,17 +73,13 @@ def _content(path: Path) -> bytes:
     return content
 
 
-def _tree(display: str, folder: Path, content: bytes) -> Map:
+def _tree(display: str, folder: Path, content: bytes, beginning: str = _BEGINNING) -> Map:
     document = Document(
         display, folder, _decoded(display, folder, content), hashlib.sha256(content).hexdigest()
     )
-    root = parse(document)
+    root = parse(document, beginning=beginning)
     if not isinstance(root, Map):
-        raise refusal(
-            root.place,
-            "the file must hold a mapping of keys to values",
-            hint="start with `schema: uictest/scenario/1`",
-        )
+        raise refusal(root.place, "the file must hold a mapping of keys to values", hint=beginning)
     return root
 
 

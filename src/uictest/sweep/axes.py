@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose, refusal
@@ -26,6 +27,9 @@ _OPTIONS: Final = ("--set", "--seed")
 """What the texts of options are called where files have their names."""
 _Column = tuple[str, Entry, Sequence[Node]]
 """A key, where its values stand, and the values."""
+_Row = tuple[Value, ...]
+_LABEL: Final[Callable[[Value], str]] = attrgetter("label")
+_TEXT: Final[Callable[[Value], str]] = attrgetter("text")
 
 
 class Axes:
@@ -42,7 +46,7 @@ class Axes:
         if not self._equally_long(columns):
             return None
         rows = self._rows(columns)
-        self._refuse_repeated(rows, columns)
+        self._refuse_repeated(rows, columns[0], _LABEL, "case ids would be the same")
         return Listed(tuple(entries), tuple(rows)) if len(rows) == len(columns[0][2]) else None
 
     def sampled(self, sample: Sample, tree: Map) -> Sampled | None:
@@ -68,9 +72,9 @@ class Axes:
             self.found.append(diagnose(entry.key, message, f"zip.{key}", hint))
         return not unequal
 
-    def _rows(self, columns: Sequence[_Column]) -> list[tuple[Value, ...]]:
+    def _rows(self, columns: Sequence[_Column]) -> list[_Row]:
         """Return the rows that the scenario accepts, and tell the first that it does not, for all of them."""
-        rows: list[tuple[Value, ...]] = []
+        rows: list[_Row] = []
         told: tuple[Diagnostic, ...] = ()
         more = 0
         for number, nodes in enumerate(zip(*(items for _, _, items in columns), strict=True), start=1):
@@ -135,15 +139,14 @@ class Axes:
             return None  # the scenario itself says best what is wrong
         raise ScenarioErrors(())
 
-    def _refuse_repeated(self, rows: Iterable[tuple[Value, ...]], columns: Sequence[_Column]) -> None:
-        seen: set[tuple[str, ...]] = set()
-        for row in rows:
-            labels = tuple(value.label for value in row)
-            if labels in seen:
-                key, entry, _ = columns[0]
-                message = f"{quoted(', '.join(value.text for value in row))} is there twice"
-                self.found.append(diagnose(entry.key, message, key, "case ids would be the same"))
-            seen.add(labels)
+    def _refuse_repeated(
+        self, rows: Sequence[_Row], column: _Column, told_apart_by: Callable[[Value], str], hint: str
+    ) -> None:
+        key, entry, _ = column
+        repeated = list(_repeated(rows, told_apart_by))
+        if repeated:
+            message = f"{quoted(', '.join(value.text for value in repeated[0]))} is there twice"
+            self._tell([diagnose(entry.key, message, key, hint)], len(repeated) - 1, len(rows))
 
     def _draw(self, key: str, entry: Entry, distribution: Distribution) -> Draw:
         """Check the ends of a distribution: a field accepts an interval, so what lies between is as good."""
@@ -158,10 +161,12 @@ class Axes:
         return Draw(distribution, unit, kind)
 
     def _choices(self, key: str, entry: Entry) -> tuple[Value, ...]:
-        return tuple(
-            self._row({key: Entry(entry.key, node)}, number)[0]
-            for number, node in enumerate(_items(entry.node), start=1)
-        )
+        column = key, entry, _items(entry.node)
+        rows = self._rows([column])
+        self._refuse_repeated(rows, column, _TEXT, "each value of a choice is as likely as the others")
+        if len(rows) < len(column[2]):
+            raise ScenarioErrors(())  # why is told already
+        return tuple(value for (value,) in rows)
 
     def _kind(self, key: str, entry: Entry) -> str:
         field = quantity_field(self._base.case.scenario, key)
@@ -220,6 +225,15 @@ def _physical(annotation: Any) -> Physical | None:
         if found is not None:
             return found
     return None
+
+
+def _repeated(rows: Iterable[_Row], told_apart_by: Callable[[Value], str]) -> Iterator[_Row]:
+    seen: set[tuple[str, ...]] = set()
+    for row in rows:
+        names = tuple(map(told_apart_by, row))
+        if names in seen:
+            yield row
+        seen.add(names)
 
 
 def _items(node: Node) -> Sequence[Node]:

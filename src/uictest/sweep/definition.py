@@ -22,6 +22,7 @@ from uictest.sweep.base import Base, read_base
 from uictest.sweep.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
 from uictest.sweep.plan import Group, Listed, Plan
 
+_BEGINNING: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
 _SECTIONS: Final = ("grid", "ranges", "zip")
 SAMPLE_NAME: Final = "sample"
 """What case ids call the number of a drawn point."""
@@ -40,7 +41,7 @@ def load_sweep(path: Path, overrides: Sequence[str] = (), seed: int | None = Non
         ScenarioErrors: with all errors of the file, or of the scenario that it names.
     """
     parsed = parse_overrides(overrides, seed)
-    tree = read_file(path)
+    tree = read_file(path, _BEGINNING)
     _refuse_other_schema(tree)
     _refuse_ranges_in_grid(tree)
     file: SweepFile = validated(SweepFile, plain(tree), tree)
@@ -161,10 +162,11 @@ def _longest_label(group: Group) -> int:
 def _refuse_other_schema(tree: Map) -> None:
     schema = tree.get("schema")
     if schema is None:
-        raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {SWEEP_SCHEMA}`")
+        raise refusal(tree.place, "missing key 'schema'", "schema", _BEGINNING)
     if not isinstance(schema, Scalar) or schema.value != SWEEP_SCHEMA:
         found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        hint = "a scenario is run with `uictest run`"
+        scenario = isinstance(schema, Scalar) and schema.text.startswith("uictest/scenario/")
+        hint = "a scenario is run with `uictest run`" if scenario else _BEGINNING
         raise refusal(schema.place, f"expected {SWEEP_SCHEMA}, found {found}", "schema", hint)
 
 

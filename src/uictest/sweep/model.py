@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from uictest.scenario.model import Slug
 from uictest.scenario.parts.model import Contradiction, Model
@@ -85,21 +86,38 @@ class Normal(Model):
                 yield Contradiction((key,), message, hint)
 
 
+def _numbers(words: str, *names: str) -> BeforeValidator:
+    """Return a check that a list has an entry for each of the names, which have no keys to be told by."""
+
+    def check(given: object) -> object:
+        if isinstance(given, list | tuple) and len(given) == len(names):
+            return given
+        found = f"{len(given)}" if isinstance(given, list | tuple) else "no list"
+        message = f"expected {words}, [{', '.join(names)}], found {found}"
+        raise PydanticCustomError("numbers", "{message}", {"message": message})
+
+    return BeforeValidator(check)
+
+
+_TWO_BOUNDS: Final = _numbers("two bounds", "lowest", "highest")
+_THREE_VALUES: Final = _numbers("three values", "lowest", "likeliest", "highest")
+
+
 class Distribution(Model):
     """How the values of one parameter are spread: one of five ways."""
 
-    uniform: tuple[WrittenAmount, WrittenAmount] | None = Field(
+    uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
         default=None,
         description="Smallest and largest value; everything between is equally likely.",
         examples=[[0.08, 0.16]],
     )
-    log_uniform: tuple[WrittenAmount, WrittenAmount] | None = Field(
+    log_uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
         default=None,
         alias="log-uniform",
         description="Smallest and largest value, above zero; the logarithm is uniform.",
         examples=[["0.8e-8 m3/(s Pa)", "1.6e-8 m3/(s Pa)"]],
     )
-    triangular: tuple[WrittenAmount, WrittenAmount, WrittenAmount] | None = Field(
+    triangular: Annotated[tuple[WrittenAmount, WrittenAmount, WrittenAmount], _THREE_VALUES] | None = Field(
         default=None,
         description="Smallest, likeliest and largest value; the density is a triangle.",
         examples=[["80 %", "100 %", "100 %"]],
@@ -117,6 +135,19 @@ class Distribution(Model):
         examples=[["one-caliper", "four-caliper"]],
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, given: Any) -> Any:
+        if isinstance(given, dict | cls):
+            return given
+        hint = f"accepted: {', '.join(cls._forms())}; such as {{uniform: [0.08, 0.16]}}"
+        context = {"message": "expected a distribution by its name", "hint": hint}
+        raise PydanticCustomError("distribution", "{message}", context)
+
+    @classmethod
+    def _forms(cls) -> list[str]:
+        return [field.alias or name for name, field in cls.model_fields.items()]
+
     @property
     def form(self) -> str:
         """Which of the five it is."""
@@ -124,9 +155,8 @@ class Distribution(Model):
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield no way or several ways at once, mixed units, ends in the wrong order."""
-        forms = [field.alias or name for name, field in type(self).model_fields.items()]
         if sum(given is not None for _, given in self) != 1:
-            yield Contradiction((), "give exactly one distribution", f"accepted: {', '.join(forms)}")
+            yield Contradiction((), "give exactly one distribution", f"accepted: {', '.join(self._forms())}")
             return
         amounts = self.uniform or self.log_uniform or self.triangular
         if amounts is None:
