@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import html
+import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -99,6 +102,20 @@ def test_the_page_draws_the_worst_cases_and_can_be_made_again(call: Call, pads: 
     page.unlink()
     assert call("report", FOLDER, "--format", "html").code == 0
     assert page.read_bytes() == first
+
+
+def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call: Call, pads: Path) -> None:
+    call("sweep", pads, "--seed", "7", "--set", "brake.command=80 %,90 %", "--report", "html,csv")
+    written = re.search(r"<code>([^<]* -k [^<]*)</code>", (FOLDER / "index.html").read_text("utf-8"))
+    assert written is not None
+    for command in ("80", "90"):
+        case = f"pads[command={command},pad_friction=0.30]"
+        words = shlex.split(html.unescape(written[1]).replace("CASE", case))
+        assert words[0] == "uictest"
+        assert call(*words[1:]).code == 1
+        (row,) = (Path("alone", case, "pads/summary.csv").read_text().splitlines())[1:]
+        of_sweep = (FOLDER / "summary.csv").read_text().splitlines()
+        assert row in of_sweep
 
 
 def test_a_case_that_cannot_be_simulated_is_named_and_not_drawn(call: Call, pads: Path) -> None:

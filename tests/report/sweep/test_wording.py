@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+import shlex
+
 import pytest
 
 from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
+    command_alone,
     flip_words,
     share_words,
     sweep_tally,
@@ -58,3 +61,12 @@ def test_a_flip_is_said_in_the_direction_it_has() -> None:
 def test_circumstances_are_listed() -> None:
     assert circumstances_words({"a": "1", "b": "2 m"}) == "a = 1, b = 2 m"
     assert circumstances_words({}) == "all cases"
+
+
+def test_one_case_alone_is_worked_out_as_in_the_sweep_in_a_folder_of_its_own() -> None:
+    manifest = {"file": "my study.sweep.yaml", "set": ["brake.command=80 %"], "seed": 3}
+    words = shlex.split(command_alone(manifest))
+    assert words[:3] == ["uictest", "sweep", "my study.sweep.yaml"]
+    given = dict(zip(words[3::2], words[4::2], strict=True))
+    assert given == {"--set": "brake.command=80 %", "--seed": "3", "-k": "CASE", "-o": "alone/CASE"}
+    assert command_alone({}) == "uictest sweep FILE -k 'CASE' -o 'alone/CASE'"

@@ -14,6 +14,7 @@ from uictest.report.page.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.wording import (
     circumstances_words,
+    command_alone,
     figure_words,
     share_words,
     sweep_tally,
@@ -49,6 +50,7 @@ def sweep_page_html(content: SweepContent) -> str:
         opened=next((view.key for view in drawn if not view.result.met), ""),
         plots=plots_json(),
         with_plots=bool(drawn),
+        alone=command_alone(content.manifest),
         circumstances_words=circumstances_words,
         counted=counted,
         explanation=explanation,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -23,6 +24,16 @@ def sweep_tally(document: Mapping[str, Any]) -> str:
 def not_judged_words(outcomes: Mapping[str, int]) -> str:
     """Return how many cases no criterion applies to, e.g. ` (2 not judged)`; nothing where there are none."""
     return f" ({outcomes['skipped']} not judged)" if outcomes["skipped"] else ""
+
+
+def command_alone(manifest: Mapping[str, Any]) -> str:
+    """Return the command that works out one `CASE` of a sweep alone, as the sweep did."""
+    words = ["uictest", "sweep", str(manifest.get("file", "FILE"))]
+    words += [word for text in manifest.get("set") or () for word in ("--set", str(text))]
+    if (seed := manifest.get("seed")) is not None:
+        words += ["--seed", str(seed)]
+    # A folder holds the parts of one selection: neither the sweep's own nor that of another case will do.
+    return f"{shlex.join(words)} -k 'CASE' -o 'alone/CASE'"
 
 
 def swept_words(labels: Sequence[str]) -> str:
