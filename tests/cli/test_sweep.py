@@ -98,6 +98,36 @@ def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: lis
     assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
 
 
+def test_what_no_share_brings_is_told_before_it_is_worked_out(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    for number in (1, 2):
+        call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
+    damaged = min(Path("share2/study/parts").iterdir())
+    damaged.write_bytes(b"")
+    counted.clear()
+    shares = ("--merge", "share1/study", "--merge", "share2/study")
+    answer = call("sweep", study, "-q", *shares)
+    assert (answer.code, counted) == (0, [16, 16, 16])
+    assert f"{damaged} is damaged and left behind" in answer.err
+    assert "48 of 96 cases are in no share: they are worked out here" in answer.err
+    assert "in no share" not in call("sweep", study, *shares).err
+
+
+def test_a_share_made_from_another_working_folder_is_taken(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("below").mkdir()
+    with monkeypatch.context() as patch:
+        patch.chdir("below")
+        assert call("sweep", f"../{study}", "--shard", "1/2", "-o", "share1").code == 0
+    call("sweep", study, "--shard", "2/2", "-o", "share2")
+    shares = ("--merge", "below/share1/study", "--merge", "share2/study")
+    assert call("sweep", study, "-o", "merged", *shares).code == 0
+    call("sweep", study, "-o", "whole")
+    assert contents("merged/study") == contents("whole/study")
+
+
 def test_changed_inputs_are_refused_until_told_otherwise(call: Call, study: Path, counted: list[int]) -> None:
     call("sweep", study)
     scenario = Path("scenarios/stop.yaml")

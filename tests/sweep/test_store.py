@@ -73,13 +73,22 @@ def test_a_missing_part_is_told(store: Store) -> None:
 def test_shares_are_put_together_and_damaged_parts_left_behind(store: Store, tmp_path: Path) -> None:
     whole = Store(tmp_path / "whole")
     whole.begin(MANIFEST, restart=False)
-    part(store, 0).write_bytes(b"")
-    assert whole.take(store) == 1
+    damaged = part(store, 0)
+    damaged.write_bytes(b"")
+    assert whole.take(store) == (1, [damaged])
     assert whole.finished() == ({2}, [])
     other = Store(tmp_path / "other")
     other.begin({**MANIFEST, "cases": 4}, restart=False)
-    with pytest.raises(ChangedInputsError, match="cases: 3 before, 4 now"):
+    with pytest.raises(ChangedInputsError, match="cases: 3 in this sweep, 4 in the share"):
         whole.take(other)
+
+
+def test_the_name_of_the_sweep_file_is_no_difference(store: Store, tmp_path: Path) -> None:
+    elsewhere = Store(tmp_path / "elsewhere")
+    elsewhere.begin({**MANIFEST, "file": "../study.sweep.yaml"}, restart=False)
+    assert elsewhere.take(store) == (2, [])
+    store.begin({**MANIFEST, "file": "study.sweep.yaml"}, restart=False)
+    assert store.finished()[0] == {0, 2}
 
 
 def test_what_interrupted_writers_left_is_tidied_away(store: Store) -> None:

@@ -63,8 +63,7 @@ def simulate_parts(run: SweepRun, store: Store) -> None:
     missing = [number for number in mine if number not in finished]
     cases = sum(run.selection.part(number).size for number in mine)
     left = sum(run.selection.part(number).size for number in missing)
-    if left < cases and not run.quiet:
-        message(f"uictest: {cases - left} of {counted(cases, 'case')} are finished already")
+    _announce(run, cases, left)
     with sweep_progress(cases, cases - left, quiet=run.quiet) as advance:
         failures = _Failures(run.maxfail)
 
@@ -77,6 +76,15 @@ def simulate_parts(run: SweepRun, store: Store) -> None:
             _work(run, missing, keep)
 
 
+def _announce(run: SweepRun, cases: int, left: int) -> None:
+    """Say what there is already; or what no share brought: it may be hours of work that nobody expects."""
+    if run.shares and left:
+        verb = "is in no share: it is" if left == 1 else "are in no share: they are"
+        message(f"uictest: {left} of {counted(cases, 'case')} {verb} worked out here")
+    elif left < cases and not run.quiet:
+        message(f"uictest: {cases - left} of {counted(cases, 'case')} are finished already")
+
+
 def _begin(run: SweepRun, store: Store) -> None:
     try:
         store.begin(run.manifest, restart=run.restart)
@@ -87,9 +95,11 @@ def _begin(run: SweepRun, store: Store) -> None:
         ) from error
     for folder in run.shares:
         try:
-            taken = store.take(Store(folder))
+            taken, damaged = store.take(Store(folder))
         except ChangedInputsError as error:
             raise InvalidInputError(f"uictest: not a share of this sweep: {error}") from error
+        for path in damaged:
+            message(f"uictest: {path} is damaged and left behind")
         message(f"uictest: {counted(taken, 'part')} from {folder}")
 
 

@@ -46,9 +46,10 @@ class Store:
         if restart:
             self._discard()
         kept = self.manifest()
-        if kept is not None and kept != manifest and self._files():
-            raise ChangedInputsError("; ".join(differences(kept, manifest)))
-        if kept != manifest:
+        changed = [] if kept is None else list(differences(kept, manifest))
+        if changed and self._files():
+            raise ChangedInputsError("; ".join(changed))
+        if kept is None or changed:
             self._discard()  # parts that nothing vouches for
             text = json.dumps(manifest, indent=2, ensure_ascii=False)
             write_text_atomic(self.folder / MANIFEST, f"{text}\n")
@@ -97,22 +98,22 @@ class Store:
             with paths[number].open("rb") as file, pq.ParquetFile(file) as parquet:
                 yield parquet.read(columns=None if columns is None else list(columns), use_threads=False)
 
-    def take(self, other: Store) -> int:
-        """Copy the whole parts of another store of the same sweep; return how many there were.
+    def take(self, other: Store) -> tuple[int, list[Path]]:
+        """Copy the whole parts of another store of the same sweep; return their number and the damaged files.
 
         Raises ChangedInputsError where it is of another sweep, OSError.
         """
         found = other.manifest()
         if found is None:
             raise ChangedInputsError(f"{other.folder} holds no sweep")
-        own = self.manifest() or {}
-        if found != own:
-            raise ChangedInputsError(f"{other.folder}: {'; '.join(differences(own, found))}")
-        whole = [path for _, path in other._files() if _is_whole(path)]
+        if changed := list(differences(self.manifest() or {}, found, ("in this sweep", "in the share"))):
+            raise ChangedInputsError(f"{other.folder}: {'; '.join(changed)}")
+        paths = [path for _, path in other._files()]
+        whole = [path for path in paths if _is_whole(path)]
         for path in whole:
             if not (self.folder / PARTS / path.name).exists():
                 write_bytes_atomic(self.folder / PARTS / path.name, path.read_bytes())
-        return len(whole)
+        return len(whole), [path for path in paths if path not in whole]
 
     def tidy(self) -> None:
         """Remove what interrupted writers left behind."""
