@@ -98,6 +98,16 @@ def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: lis
     assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
 
 
+def test_a_share_without_a_part_says_so_and_can_be_merged(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    answer = call("sweep", study, "--shard", "77/100", "-o", "share77")
+    assert (answer.code, counted) == (0, [])
+    assert "share 77 of 100 has no cases: they are dealt in 6 parts" in answer.err
+    assert "is finished" not in answer.err
+    assert "0 parts from share77/study" in call("sweep", study, "--merge", "share77/study").err
+
+
 def test_what_no_share_brings_is_told_before_it_is_worked_out(
     call: Call, study: Path, counted: list[int]
 ) -> None:

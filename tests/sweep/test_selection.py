@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from uictest.campaign import ExpressionError
 from uictest.sweep import Selection, select
+from uictest.sweep.simulating import Device
 
 from .conftest import Load
 
@@ -35,6 +36,21 @@ def test_parts_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
     assert edges == [0, size - 1]
     assert selection.part(0).size <= selection.part_size <= 256
     assert sum(selection.part(number).size for number in (0, selection.parts - 1)[: selection.parts]) <= size
+
+
+@pytest.mark.parametrize(
+    ("size", "device", "part"),
+    [
+        (10, "cpu", 16),
+        (448, "cpu", 16),
+        (3000, "cpu", 93),
+        (10**6, "cpu", 256),
+        (3000, "cuda", 375),
+        (10**6, "cuda", 65_536),
+    ],
+)
+def test_a_part_is_a_share_of_the_cases_between_bounds(size: int, device: Device, part: int) -> None:
+    assert Selection(Sized(size), device=device).part_size == part  # type: ignore[arg-type]
 
 
 def test_parts_of_a_selection(load: Load) -> None:

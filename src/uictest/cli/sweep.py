@@ -185,7 +185,7 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
             message(f"uictest: finished parts are kept in {run.folder}, the same command goes on")
         raise
     if run.shard.count > 1:
-        message(f"uictest: share {run.shard.number} of {run.shard.count} is finished in {run.folder}")
+        message(f"uictest: {_share_words(run)}")
         return ExitCode.MET
     findings, document, content = publish(run, store)
     show_findings(findings, document, shown, quiet=run.quiet)
@@ -194,6 +194,13 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
     if not run.quiet:
         sum_up(run, findings, started)
     return exit_code(findings)
+
+
+def _share_words(run: SweepRun) -> str:
+    share, parts = f"share {run.shard.number} of {run.shard.count}", run.selection.parts
+    if run.shard.of(parts):
+        return f"{share} is finished in {run.folder}"
+    return f"{share} has no cases: they are dealt in {counted(parts, 'part')}"
 
 
 def load_plan(file: Path, overrides: Sequence[str] | None, seed: int | None) -> Plan:
