@@ -69,6 +69,23 @@ def test_what_cannot_be_compared_exits_4(call: Call, arguments: list[str]) -> No
     assert "Traceback" not in answer.err
 
 
+def test_what_is_no_run_is_named_for_what_it_is(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    call("run", "-o", "one")
+    Path("study").mkdir()
+    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
+    takes = "; compare takes the folders of two runs, or two recordings\n"
+    for arguments, said in (
+        (("study", "study"), "study holds a sweep"),
+        (("one/latest", "study"), "study holds a sweep"),
+        (("scenarios", "one/latest"), "scenarios holds no run: it has no results.json"),
+        (("one/latest", "nowhere"), "there is no nowhere"),
+        (("one/latest", "scenarios/a.yaml"), "scenarios/a.yaml is a file"),
+    ):
+        answer = call("compare", *arguments)
+        assert (answer.code, answer.err) == (4, f"uictest: {said}{takes}")
+
+
 @pytest.fixture
 def baseline(call: Call, scenario: Write, made_up: list[str]) -> str:
     scenario("a")

@@ -47,6 +47,25 @@ def test_what_is_no_run_or_no_format_is_refused(call: Call, run: Path, arguments
     assert "Traceback" not in answer.err
 
 
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        (
+            "scenarios",
+            "scenarios holds no run: it has no results.json; report takes the folder of a finished",
+        ),
+        ("missing", "there is no missing; report takes the folder of a finished run or sweep"),
+        ("study", "study holds a sweep that is not finished: give its command again"),
+    ],
+)
+def test_a_folder_is_named_for_what_it_is(call: Call, run: Path, place: str, said: str) -> None:
+    Path("study").mkdir()
+    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
+    answer = call("report", place)
+    assert answer.code == 4
+    assert said in answer.err
+
+
 def test_a_run_that_names_the_newest_in_a_file_is_found(call: Call, run: Path) -> None:
     target = run.resolve()
     run.unlink()

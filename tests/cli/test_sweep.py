@@ -98,6 +98,11 @@ def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: lis
     assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
 
 
+def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:
+    call("sweep", study, "--shard", "1/2")
+    assert "holds a sweep that is not finished" in call("report", "reports/study").err
+
+
 def test_a_share_without_a_part_says_so_and_can_be_merged(
     call: Call, study: Path, counted: list[int]
 ) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from uictest.cli.exit_codes import ExitCode
+from uictest.cli.folders import why_no_run
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.report import run_folder
@@ -59,6 +60,10 @@ def _runs(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
     """Compare two runs, and draw the stops that both have recorded and that differ."""
     from uictest.comparison import compare_run_folders
 
+    if reason := why_no_run(first) or why_no_run(second):
+        raise InvalidInputError(
+            f"uictest: {reason}; compare takes the folders of two runs, or two recordings"
+        )
     try:
         return compare_run_folders(first, second, tolerances)
     except (OSError, ValueError) as error:

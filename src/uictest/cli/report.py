@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from uictest.cli.exit_codes import ExitCode
+from uictest.cli.folders import holds_sweep, why_no_run
 from uictest.cli.options import Verbosity, report_formats
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import data
@@ -48,6 +49,13 @@ def report(
 def _write_run(folder: Path, place: Path, wanted: Sequence[ReportFormat]) -> list[Path]:
     from uictest.report import ReportFormat, read_run, write_formats
 
+    if holds_sweep(folder):
+        raise InvalidInputError(
+            f"uictest: {folder} holds a sweep that is not finished: give its command again, "
+            "or put its shares together with --merge"
+        )
+    if reason := why_no_run(folder):
+        raise InvalidInputError(f"uictest: {reason}; report takes the folder of a finished run or sweep")
     with _read_as("run", folder, OSError, ValueError):
         content = read_run(folder, traces=ReportFormat.HTML in wanted)
     place.mkdir(parents=True, exist_ok=True)
