@@ -336,3 +336,39 @@ def test_no_part_of_a_sweeps_page_is_wider_than_the_window(
     _wait(browser, _PLOTTED)
     assert _run(browser, "return document.documentElement.scrollWidth") <= width
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+_ENDS = """
+return [...document.querySelectorAll(arguments[0])].map(each => each.getBoundingClientRect().right)
+"""
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+def test_figures_and_frontier_of_a_sweep_are_in_sight_without_scrolling(
+    browser: Any, tmp_path: Path, make_sweep: Callable[..., SweepContent], width: int
+) -> None:
+    flips = [{"low": "0.10", "high": "0.12", "met_at_low": False}]
+    stretches = [
+        {"circumstances": {"speed": f"{speed} km/h"}, "flips": flips, "note": ""} for speed in (60, 90)
+    ]
+    index = {"value": 0.512, "low": 0.412, "high": 0.612}
+    sensitivity = {
+        "measure": "braking_distance_m",
+        "circumstances": {},
+        "key": "brake.system.wsp_valve.vent_conductance",
+    }
+    content = make_sweep(
+        text="x",
+        frontier={"parameter": "rail.friction", "stretches": stretches},
+        sensitivities=[{**sensitivity, "first": index, "total": index}],
+    )
+    path = tmp_path / "index.html"
+    path.write_text(sweep_page_html(content), encoding="utf-8")
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    browser.get(path.as_uri())
+    for shown in (".indices td.number", ".worst td.number", "svg.frontier"):
+        ends = _run(browser, _ENDS, shown)
+        assert ends
+        assert max(ends) <= width
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
