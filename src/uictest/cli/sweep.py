@@ -269,11 +269,12 @@ def _shard(text: str | None) -> Shard:
 
 
 def _cluster(address: str | None) -> str | None:
+    if address is None:
+        return None
     from uictest.sweep.cluster import check_address
 
     try:
-        if address is not None:
-            check_address(address)
+        check_address(address)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--dask") from error
     return address
