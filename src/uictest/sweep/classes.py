@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -30,13 +30,14 @@ class Classes:
     """Which group of the plan the parameter is in, and where in it."""
     edges: tuple[float, ...] = ()
     """Where stretches of drawn numbers meet, in the unit of their distribution; none for listed values."""
-    of_rows: tuple[int, ...] = ()
+    of_rows: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64), compare=False)
     """Class of each row of listed values: rows of a zip may share a value of one of their parameters."""
 
     def of(self, plan: Plan, indices: NDArray[np.int64], table: pa.Table) -> NDArray[np.int64]:
         """Return the class of each row; `indices` are those of the rows of the table."""
         if isinstance(plan.groups[self.place[0]], Listed):
-            return np.array(self.of_rows, np.int64)[plan.rows(indices)[self.place[0]]]
+            found: NDArray[np.int64] = self.of_rows[plan.rows(indices)[self.place[0]]]
+            return found
         texts = table.column(text_column(self.key)).to_pylist()
         if not self.edges:
             numbered = {label: number for number, label in enumerate(self.labels)}
@@ -59,7 +60,7 @@ def classes_of(plan: Plan) -> dict[str, Classes]:
 
 def _listed(key: str, texts: Sequence[str], place: tuple[int, int]) -> Classes:
     numbered = {text: number for number, text in enumerate(dict.fromkeys(texts))}
-    return Classes(key, tuple(numbered), place, of_rows=tuple(numbered[text] for text in texts))
+    return Classes(key, tuple(numbered), place, of_rows=np.array([numbered[text] for text in texts]))
 
 
 def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:
