@@ -132,10 +132,20 @@ def test_a_value_of_several_cases_has_a_band_and_says_how_many_missed() -> None:
     assert plot is not None
     assert plot.band.endswith("Z")
     assert plot.points[0].missed
-    assert plot.points[0].label == "0.08 .. 0.09: 2 (1 .. 2), 4 cases, 1 not met"
+    assert plot.points[0].label == "0.08 .. 0.09: 2 (1 .. 2), 4 cases; 1 not met"
     # A stretch lies at its middle, so that two of them are one step apart.
     (low, _), (high, _) = plot.x_ticks[0], plot.x_ticks[-1]
     assert low < high
+
+
+def test_a_point_says_how_many_cases_its_mean_is_of() -> None:
+    """Two of four stops are not met; the figure is known of three of them."""
+    own = {"parameter": "speed", "measure": "distance", "unit": "m", "cases": [3, 1]}
+    ends = {"minimum": [1.0, 4.0], "mean": [2.0, 4.0], "maximum": [3.0, 4.0]}
+    counts = [{"cases": 4, "met": 2}, {"cases": 4, "met": 4}]
+    plot = trend_plot({**own, "values": ["60", "80"], **ends}, counts)
+    assert plot is not None
+    assert [point.label for point in plot.points] == ["60: 2 (1 .. 3), 3 cases; 2 not met", "80: 4, 1 case"]
 
 
 def test_a_value_without_the_figure_is_passed_over() -> None:

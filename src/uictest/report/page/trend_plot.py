@@ -45,12 +45,12 @@ class TrendPlot:
 
 @dataclass(frozen=True, slots=True)
 class _Value:
-    """What a figure came to at one value of the parameter."""
+    """What a figure came to at one value of the parameter; `missed` counts those without the figure, too."""
 
     at: float
     label: str
     cases: int
-    met: int
+    missed: int
     minimum: float
     mean: float
     maximum: float
@@ -58,7 +58,7 @@ class _Value:
     @property
     def words(self) -> str:
         reach = f" ({self.minimum:.4g} .. {self.maximum:.4g})" if self.cases > 1 else ""
-        missed = f", {self.cases - self.met} not met" if self.met < self.cases else ""
+        missed = f"; {self.missed} not met" if self.missed else ""
         return f"{self.label}: {self.mean:.4g}{reach}, {counted(self.cases, 'case')}{missed}"
 
 
@@ -81,7 +81,7 @@ def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) ->
         with_unit(found["parameter"], units.pop()),
         _line((x.at(value.at), y.at(value.mean)) for value in values),
         _band(values, x, y) if any(value.cases > 1 for value in values) else "",
-        [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.met < v.cases) for v in values],
+        [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.missed > 0) for v in values],
         x.tick_marks(6),
         y.tick_marks(5),
     )
@@ -89,11 +89,11 @@ def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) ->
 
 def _values(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) -> Iterator[_Value]:
     """Yield the values of the parameter that are numbers and have cases with the figure."""
-    lists = (found[name] for name in ("values", "minimum", "mean", "maximum"))
-    for count, label, *reached in zip(counts, *lists, strict=True):
+    lists = (found[name] for name in ("values", "cases", "minimum", "mean", "maximum"))
+    for count, label, cases, *reached in zip(counts, *lists, strict=True):
         at = number_in(label)
         if at is not None and None not in reached:
-            yield _Value(at, label, count["cases"], count["met"], *reached)
+            yield _Value(at, label, cases, count["cases"] - count["met"], *reached)
 
 
 def _band(values: Sequence[_Value], x: Axis, y: Axis) -> str:
