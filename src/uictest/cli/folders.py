@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-
-_SWEEP = "uictest/sweep-manifest/"
-_MANIFEST = "manifest.json"
 
 
 def holds_sweep(folder: Path) -> bool:
     """Return whether a folder is that of a sweep, finished or not."""
+    from uictest.sweep import Store
+    from uictest.sweep.manifest import SCHEMA
+
     try:
-        manifest = json.loads((folder / _MANIFEST).read_bytes())
-    except (OSError, ValueError):
+        manifest = Store(folder).manifest()
+    except OSError:
         return False
-    return isinstance(manifest, dict) and str(manifest.get("schema")).startswith(_SWEEP)
+    return manifest is not None and manifest.get("schema") == SCHEMA
 
 
 def why_no_run(folder: Path) -> str:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from uictest.report.sweep.wording import not_judged_words
+from uictest.report.sweep.wording import circumstances_words, flip_words, not_judged_words
 
 if TYPE_CHECKING:
     from uictest.sweep.findings import Findings
-    from uictest.sweep.frontier import Flip, Stretch
+    from uictest.sweep.frontier import Stretch
     from uictest.sweep.sensitivity import Sensitivity
     from uictest.sweep.tally import Count, Tally
 
@@ -77,11 +78,6 @@ def _sensitivities(findings: Findings) -> Iterator[str]:
         yield ""
 
 
-def _flip(flip: Flip) -> str:
-    before, after = ("met", "not met") if flip.met_at_low else ("not met", "met")
-    return f"{before} up to {flip.low}, {after} from {flip.high}"
-
-
 def _parameter(each: Sensitivity) -> str:
     where = ", ".join(f"{key} = {text}" for key, text in each.circumstances.items())
     return f"{each.key} at {where}" if where else each.key
@@ -99,9 +95,9 @@ def _frontier(findings: Findings) -> Iterator[str]:
         return
     yield f"frontier along {findings.frontier_key}"
     for stretch in _shown(findings.frontier):
-        where = ", ".join(f"{key} = {text}" for key, text in stretch.circumstances.items()) or "all cases"
-        flips = "; ".join(map(_flip, stretch.flips))
-        yield f"  {where}: {'; '.join(text for text in (flips, stretch.note) if text)}"
+        flips = "; ".join(flip_words(asdict(flip)) for flip in stretch.flips)
+        found = "; ".join(text for text in (flips, stretch.note) if text)
+        yield f"  {circumstances_words(stretch.circumstances)}: {found}"
     if len(findings.frontier) > _MOST_ROWS:
         yield f"  {len(findings.frontier) - _MOST_ROWS} more in frontier.csv"
     yield ""

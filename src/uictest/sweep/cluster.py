@@ -54,10 +54,8 @@ def run_on_cluster(
     Raises ClusterError; ImportError without the extra `dask`.
     """
     with _connected(address) as client:
-        if not client.nthreads():
-            on_wait()
-            _wait_for_worker(client, address)
-        for number, content in _translated(address, _results(client, selection, iter(numbers))):
+        results = _results(client, selection, iter(numbers), on_wait)
+        for number, content in _translated(address, results):
             on_part(number, content)
 
 
@@ -71,13 +69,6 @@ def _translated(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[
 
 def _first_line(error: Exception) -> str:
     return f"{type(error).__name__}: {error}".partition("\n")[0]
-
-
-def _wait_for_worker(client: Any, address: str) -> None:
-    try:
-        client.wait_for_workers(1)
-    except _errors() as error:
-        raise ClusterError(f"{address}: {_first_line(error)}") from error
 
 
 def _silence() -> None:
@@ -109,9 +100,14 @@ def _errors() -> tuple[type[Exception], ...]:
     return KilledWorker, CancelledError, OSError, RuntimeError
 
 
-def _results(client: Any, selection: Selection, waiting: Iterator[int]) -> Iterator[tuple[int, bytes]]:
+def _results(
+    client: Any, selection: Selection, waiting: Iterator[int], on_wait: Callable[[], None]
+) -> Iterator[tuple[int, bytes]]:
     import distributed
 
+    if not client.nthreads():
+        on_wait()
+        client.wait_for_workers(1)
     token, program = secrets.token_hex(8), program_digest()
     flying: dict[str, int] = {}
 
