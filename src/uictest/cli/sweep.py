@@ -30,7 +30,7 @@ from uictest.report import counted, no_command, printable
 if TYPE_CHECKING:
     from uictest.cli.sweep_run import SweepRun
     from uictest.report import SweepContent
-    from uictest.sweep import Plan, Search, Selection, Shard
+    from uictest.sweep import Plan, Search, Selection, Shard, Store
 
 _IDS_AT_ONCE = 4096
 
@@ -178,11 +178,11 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
         message(f"uictest: finished parts are kept in {run.folder}, the same command without it goes on")
         return ExitCode.MISSED
     except KeyboardInterrupt:
-        message(f"uictest: interrupted; finished parts are kept in {run.folder}, the same command goes on")
+        message("uictest: interrupted")
+        _say_what_is_kept(store)
         return ExitCode.INTERRUPTED
     except OSError:
-        if store.holds_parts():
-            message(f"uictest: finished parts are kept in {run.folder}, the same command goes on")
+        _say_what_is_kept(store)
         raise
     if run.shard.count > 1:
         message(f"uictest: {_share_words(run)}")
@@ -194,6 +194,11 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
     if not run.quiet:
         sum_up(run, findings, started)
     return exit_code(findings)
+
+
+def _say_what_is_kept(store: Store) -> None:
+    if store.holds_parts():
+        message(f"uictest: finished parts are kept in {store.folder}, the same command goes on")
 
 
 def _share_words(run: SweepRun) -> str:
