@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sysconfig
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,8 @@ from uictest.campaign import Examined, RecordingWish, execution
 from uictest.cli.entry import execute
 from uictest.evaluation import CaseResult, Figures, error_result
 
+HANGING = 600.0
+"""Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
 FIGURES = Figures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
 
@@ -30,6 +34,7 @@ class Answer:
 
 
 Call = Callable[..., Answer]
+Start = Callable[..., "subprocess.Popen[str]"]
 Write = Callable[..., Path]
 
 
@@ -74,11 +79,29 @@ def program() -> Path:
 
 
 @pytest.fixture
+def start() -> Iterator[Start]:
+    """Start the installed program in a process that answers Ctrl-C; it is killed at the end of the test."""
+    started: list[subprocess.Popen[str]] = []
+
+    def run(*arguments: str | Path, **options: Any) -> subprocess.Popen[str]:
+        # A shell that starts the tests in the background lets every process below it ignore SIGINT.
+        answers = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+        command = [PROGRAM, *map(str, arguments)]
+        started.append(subprocess.Popen(command, text=True, preexec_fn=answers, **options))
+        return started[-1]
+
+    yield run
+    for process in started:
+        with process:
+            process.kill()
+
+
+@pytest.fixture
 def process() -> Call:
     """Call the installed program in a process of its own."""
 
     def run(*arguments: str | Path, **options: Any) -> Answer:
-        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": 120, **options}
+        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": HANGING, **options}
         done = subprocess.run([PROGRAM, *map(str, arguments)], text=True, check=False, **options)
         return Answer(done.returncode, done.stdout or "", done.stderr or "")
 

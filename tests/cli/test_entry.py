@@ -16,6 +16,8 @@ import pytest
 
 from uictest.rig.native import compiled_stop
 
+from .conftest import HANGING, Start
+
 Call = Callable[..., Any]
 Write = Callable[..., Path]
 
@@ -39,7 +41,7 @@ def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[
         sys.exit(code)
     """
     command = [sys.executable, "-c", program, " ".join(_FORBIDDEN[arguments]), *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=HANGING)
     assert done.returncode == 0, done.stderr
     assert done.stderr.splitlines()[-1] == "[]"
 
@@ -137,15 +139,15 @@ def test_a_reader_that_leaves_is_no_error(process: Call, scenario: Write) -> Non
         assert "Traceback" not in answer.err
 
 
-def test_ctrl_c_reports_what_is_finished_and_exits_2(program: Path, scenario: Write) -> None:
+def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Write) -> None:
     scenario("stop", "rail: {condition: wet}\n")
-    sweep = ["--set", "rail.friction=range(0.1,0.3,0.0001)"]
-    command = [program, "run", "-n1", *sweep]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
-        assert running.stdout is not None
-        assert running.stdout.readline().startswith("met stop[friction=0.1000]")
-        running.send_signal(signal.SIGINT)
-        out, err = running.communicate(timeout=60)
+    # More lines than a pipe holds: the run cannot end before somebody reads on.
+    values = ["--set", "rail.friction=range(0.1,0.3,0.00005)"]
+    running = start("run", "-n1", *values, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert running.stdout is not None
+    assert running.stdout.readline().startswith("met stop[friction=0.10000]")
+    running.send_signal(signal.SIGINT)
+    out, err = running.communicate(timeout=HANGING)
     assert running.returncode == 2, err
     assert "interrupted" in err
     document = json.loads(Path("reports/latest/results.json").read_text())

@@ -17,7 +17,10 @@ from typing import Any
 import pytest
 
 from uictest import sweep as room
+from uictest.sweep import findings
 from uictest.sweep.part import Worker
+
+from .conftest import HANGING, Start
 
 Call = Callable[..., Any]
 TEXT = """\
@@ -202,24 +205,46 @@ def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
     assert contents() == contents("whole/study")
 
 
-def killed_at_random(program: Path, times: int) -> int:
-    """Start the sweep and kill it at a random moment, several times; how often it was still at work."""
+def test_ctrl_c_while_the_findings_are_written_keeps_the_parts(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*arguments: Any) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(findings, "write_findings", interrupted)
+        answer = call("sweep", study)
+    assert answer.code == 2
+    assert "uictest: interrupted\nuictest: finished parts are kept in reports/study, the same" in answer.err
+    assert "96 of 96 cases are finished already" in call("sweep", study).err
+
+
+def part_files(folder: str) -> list[Path]:
+    """The parts that are complete: one that is being written has a dot before its name."""
+    return list(Path(folder, "study", "parts").glob("[0-9]*"))
+
+
+def killed_at_random(start: Start, times: int) -> int:
+    """Start the sweep and kill it a random while after its next part, several times; how often it ran yet."""
     moments = random.Random(4)
-    hit = 0
+    killed = 0
     for _ in range(times):
-        command = [program, "sweep", FILE, "-n", "2", "-q", "-o", "broken"]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(moments.uniform(0.3, 1.6))
+        before = len(part_files("broken"))
+        process = start("sweep", FILE, "-n", "2", "-q", "-o", "broken")
+        while len(part_files("broken")) == before and process.poll() is None:
+            time.sleep(0.001)
+        time.sleep(moments.uniform(0.0, 0.05))
         process.send_signal(signal.SIGKILL)
-        hit += process.wait() == -signal.SIGKILL
-    return hit
+        killed += process.wait() == -signal.SIGKILL
+    return killed
 
 
 @pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
-def test_killed_and_resumed_gives_the_same_bytes(call: Call, program: Path, study: Path, times: int) -> None:
+def test_killed_and_resumed_gives_the_same_bytes(call: Call, start: Start, study: Path, times: int) -> None:
     Path(FILE).write_text(TEXT.replace("size: 32", f"size: {32 * times}"))
     assert call("sweep", study, "-o", "whole").code == 0
-    assert killed_at_random(program, times) > 0
+    # After the first of many parts the sweep cannot be over within the while that it is given.
+    assert killed_at_random(start, times) > 0
     assert call("sweep", study, "-o", "broken").code == 0
     assert contents("broken/study") == contents("whole/study")
 
@@ -227,15 +252,15 @@ def test_killed_and_resumed_gives_the_same_bytes(call: Call, program: Path, stud
 @pytest.mark.skipif("sys.platform == 'win32'")
 @pytest.mark.parametrize("cancelled", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_and_a_cancelled_job_are_2_and_resumable(
-    program: Path, call: Call, study: Path, cancelled: signal.Signals
+    start: Start, study: Path, cancelled: signal.Signals
 ) -> None:
-    Path(FILE).write_text(TEXT.replace("size: 32", "size: 2048"))
-    process = subprocess.Popen([program, "sweep", FILE], stderr=subprocess.PIPE, text=True)
-    # A file that is being written has a dot before its name.
-    while not list(Path("reports").glob("study/parts/[0-9]*")) and process.poll() is None:
+    # Minutes of work: it cannot be over before the signal, however late that is sent.
+    Path(FILE).write_text(TEXT.replace("size: 32", "size: 65536"))
+    process = start("sweep", FILE, stderr=subprocess.PIPE)
+    while not part_files("reports") and process.poll() is None:
         time.sleep(0.02)
     process.send_signal(cancelled)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=HANGING)
     assert process.returncode == 2
     assert "the same command goes on" in err
 
@@ -335,7 +360,7 @@ def test_a_list_ends_when_its_reader_leaves(program: Path, study: Path, command:
     assert process.stdout is not None
     assert process.stdout.readline() == b"study[friction=0.06,sample=0]\n"
     process.stdout.close()
-    assert process.wait(timeout=20) == 0
+    assert process.wait(timeout=HANGING) == 0
     assert process.stderr is not None
     assert process.stderr.read() == b""
     process.stderr.close()

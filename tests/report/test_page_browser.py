@@ -119,8 +119,8 @@ def _run(browser: Any, script: str, *arguments: Any) -> Any:
 
 
 def _wait(browser: Any, script: str) -> Any:
-    """Return what a script returns as soon as that is anything, at the latest after ten seconds."""
-    for _ in range(200):
+    """Return what a script returns as soon as that is anything, at the latest after some minutes."""
+    for _ in range(4000):
         found = _run(browser, script)
         if found:
             return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
 import os
@@ -98,20 +99,26 @@ def test_who_waits_for_workers_is_told_so_once(load: Load) -> None:
     assert len(told) == 1
 
 
-def test_a_scheduler_that_dies_is_one_line(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+def announced_address(file: Path, scheduler: subprocess.Popen[bytes]) -> str:
+    """Wait for the file in which a scheduler tells its address; while it is being written it is no JSON."""
+    while scheduler.poll() is None:
+        with contextlib.suppress(FileNotFoundError, json.JSONDecodeError):
+            return str(json.loads(file.read_text())["address"])
+        time.sleep(0.05)
+    raise AssertionError("the scheduler did not start")
+
+
+def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
     from uictest.sweep import cluster as module
 
     log = logging.getLogger("distributed.client")
     log.setLevel(logging.WARNING)
-    monkeypatch.setattr(module, "_PATIENCE", "1s")
     program = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
     said = Path("scheduler.json")
     scheduler = subprocess.Popen(
         [*program, "--no-dashboard", "--scheduler-file", said], stderr=subprocess.DEVNULL
     )
-    while not said.exists() and scheduler.poll() is None:
-        time.sleep(0.05)
-    address = json.loads(said.read_text())["address"]
+    address = announced_address(said, scheduler)
     with pytest.raises(module.ClusterError) as raised:
         module.run_on_cluster(
             Selection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill

@@ -166,13 +166,12 @@ def sweep(
 
 
 def _swept(run: SweepRun, shown: Format) -> ExitCode:
-    from uictest.cli.sweep_run import MaxfailReached, exit_code, publish, simulate_parts, sum_up
+    from uictest.cli.sweep_run import MaxfailReached
     from uictest.sweep import Store
 
-    started = perf_counter()
     store = Store(run.folder)
     try:
-        simulate_parts(run, store)
+        return _simulated_and_shown(run, store, shown)
     except MaxfailReached as reached:
         message(f"uictest: stopped at --maxfail: {reached}")
         message(f"uictest: finished parts are kept in {run.folder}, the same command without it goes on")
@@ -184,6 +183,13 @@ def _swept(run: SweepRun, shown: Format) -> ExitCode:
     except OSError:
         _say_what_is_kept(store)
         raise
+
+
+def _simulated_and_shown(run: SweepRun, store: Store, shown: Format) -> ExitCode:
+    from uictest.cli.sweep_run import exit_code, publish, simulate_parts, sum_up
+
+    started = perf_counter()
+    simulate_parts(run, store)
     if run.shard.count > 1:
         message(f"uictest: {_share_words(run)}")
         return ExitCode.MET
