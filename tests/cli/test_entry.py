@@ -152,7 +152,10 @@ def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Wri
     assert "interrupted" in err
     document = json.loads(Path("reports/latest/results.json").read_text())
     assert document["complete"] is False
-    assert len(document["cases"]) == 1 + len(out.splitlines())
+    # The signal may come between keeping a result and showing it: nothing that was shown is missing.
+    shown = ["stop[friction=0.10000]", *(line.split()[1] for line in out.splitlines())]
+    assert shown == [case["id"] for case in document["cases"]][: len(shown)]
+    assert len(document["cases"]) < len(shown) + 2
     assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []
 
 
