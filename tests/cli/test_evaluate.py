@@ -75,6 +75,30 @@ def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace:
     assert Path("reports/latest/recordings/locked.parquet").exists()
 
 
+@pytest.mark.parametrize("end", [8.0, 2.0, 0.02])
+def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
+    call: Call, workplace: Path, end: float
+) -> None:
+    writer_of("csv")(_recording(end), workplace / "cut.csv")
+    answer = call("evaluate", "cut.csv", *STATED)
+    assert answer.code == 1
+    assert answer.out.startswith("MISSED cut outcome=inconclusive expect=pass")
+    assert "standstill (requirement) inconclusive: no standstill; the record ends after" in answer.out
+    assert "locked-wheels (requirement) inconclusive" in answer.out
+    assert answer.err.splitlines()[-1].startswith("uictest: 1 case: 1 missed (1 inconclusive); reports in")
+
+
+def test_a_record_without_wheel_speeds_is_inconclusive_and_exits_1(call: Call, workplace: Path) -> None:
+    whole = _recording()
+    speed_only = {name: whole[name] for name in ("time", "speed")}
+    recording = Recording(speed_only, {"time": "s", "speed": "m/s"}, whole.metadata)
+    writer_of("csv")(recording, workplace / "speed.csv")
+    answer = call("evaluate", "speed.csv", *STATED)
+    assert answer.code == 1
+    assert "outcome=inconclusive" in answer.out
+    assert "locked-wheels (requirement) inconclusive: not recorded: wheel_speed_1" in answer.out
+
+
 def test_an_unusable_record_is_an_error_that_names_the_defect(call: Call, workplace: Path) -> None:
     lines = ["time [s],speed [m/s]", "0,10", "1,9", "1,8", "0.5,7"]
     (workplace / "bad.csv").write_text("\n".join(lines) + "\n")
@@ -147,7 +171,7 @@ def test_a_channel_map_with_a_dialect(call: Call, workplace: Path) -> None:
         'csv: {delimiter: ";", decimal: ",", header_line: 1, unit_line: 2}\npreparation: {trigger: start}\n'
     )
     answer = call("evaluate", "zug.csv", "--map", "map.yaml", *STATED)
-    assert answer.code == 0
+    assert answer.code == 1  # without wheel speeds there is no verdict on locked wheels
     assert "braking_time_s=10" in answer.out
     assert "the record begins with it; raster: 100 ms" in answer.err
 

@@ -98,6 +98,7 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
         rail=SimpleNamespace(condition=SimpleNamespace(name=condition), gradient=settings["gradient"]),
         rig=SimpleNamespace(wsp=settings["wsp"], topology="one-caliper"),
         brake=SimpleNamespace(position=settings["position"], command=settings["command"]),
+        simulation=SimpleNamespace(maximum_duration=SimpleNamespace(text="60 s")),
         criteria=profiles,
         measures=MeasureDefinitions.model_validate(_written("standard", "measures")),
         expect=settings["expect"],

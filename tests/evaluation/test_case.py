@@ -58,7 +58,12 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
         ({}, (0.1, 0.1, 0.1, 0.1), "pass", ""),
         ({"energy_residual": -0.002}, (0.1,), "invalid", "energy-balance"),
         ({"air_residual": np.nan}, (0.1,), "invalid", "air-balance: nan never keeps < 1e-09"),
-        ({"stopped": 0.0, "end_speed": 3.0}, (0.1,), "fail", "standstill: the train still ran at 10.8 km/h"),
+        (
+            {"stopped": 0.0, "end_speed": 3.0},
+            (0.1,),
+            "inconclusive",
+            "standstill: no standstill; the simulation ended at `maximum_duration` (60 s) at 10.8 km/h",
+        ),
     ],
 )
 def test_our_own_profile_judges_any_stop(
@@ -92,6 +97,9 @@ def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test) -> None:
         ("invalid", "fail", False),
         ("skipped", "pass", True),
         ("skipped", "fail", False),
+        ("inconclusive", "pass", False),
+        ("inconclusive", "fail", False),
+        ("inconclusive", "invalid", False),
         ("error", "fail", False),
     ],
 )

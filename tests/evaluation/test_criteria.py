@@ -19,7 +19,7 @@ def test_appendix_b_is_its_three_limits_and_nothing_else(shipped) -> None:
     }
     assert limits == {
         "initial-adhesion": ("initial_adhesion", None, "0.08 g", "validity"),
-        "minimum-slide": ("maximum_slide", "35 %", None, "validity"),
+        "minimum-slide": ("maximum_slide_above_cutoff", "35 %", None, "validity"),
         "braking-distance": ("braking_distance", "440 m", "490 m", "validity"),
     }
 
@@ -57,7 +57,7 @@ def cutoff(value: str = "30 km/h", first: str = "10 km/h", last: str = "60 km/h"
     return {"low_speed_cutoff": {"value": value, "range": [first, last]}}
 
 
-SLIDE = {"measure": "maximum_slide", "lower": "35 %", "wheelsets": "all"}
+SLIDE = {"measure": "maximum_slide_above_cutoff", "lower": "35 %", "wheelsets": "all"}
 
 
 @pytest.mark.parametrize(

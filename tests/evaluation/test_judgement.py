@@ -9,6 +9,7 @@ from uictest.evaluation import judge
 
 G = 9.80665
 KMH = 1 / 3.6
+ENDED = "the simulation ended at `maximum_duration` (60 s) at 43.2 km/h; raise `maximum_duration`"
 positive = st.floats(0.0, 1e4)
 
 
@@ -128,9 +129,10 @@ def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(
     running = {"stopped": 0.0, "braking_distance": np.nan, "end_speed": 12.0, "end_time": 60.0}
     far = verdict_of(bounded, stop(**running, end_distance=900.0))
     assert (far.verdict, far.value, far.margin) == ("fail", 900.0, -410.0)
-    assert far.reason == "900 m so far, the train still ran at 43.2 km/h when the record ended after 60 s"
+    assert far.reason == f"900 m so far; {ENDED}"
     near = verdict_of(bounded, stop(**running, end_distance=460.0))
-    assert (near.verdict, near.value) == ("not_applicable", None)
+    assert (near.verdict, near.value, near.margin) == ("inconclusive", None, None)
+    assert near.reason == f"460 m so far; {ENDED}"
 
 
 @pytest.mark.parametrize(
@@ -148,7 +150,7 @@ def test_the_wheelset_that_decides_gives_the_value(
     criterion, verdict_of, stop, wheelsets, wheelsets_keep, slides, verdict, value
 ) -> None:
     cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["30 km/h", "30 km/h"]}}
-    slide = criterion("maximum_slide", lower="35 %", wheelsets=wheelsets_keep, definition=cutoff)
+    slide = criterion("maximum_slide_above_cutoff", lower="35 %", wheelsets=wheelsets_keep, definition=cutoff)
     found = verdict_of(slide, stop(), wheelsets(*slides))
     assert (found.verdict, found.value) == (verdict, value)
 
@@ -158,7 +160,7 @@ def test_a_record_of_fewer_wheelsets_than_needed_supports_no_verdict(
 ) -> None:
     locked = criterion("locked_time", upper="1 s", wheelsets={"at_least": 3})
     found = verdict_of(locked, stop(), wheelsets(0.1, 0.1))
-    assert (found.verdict, found.reason) == ("not_applicable", "the record holds 2 wheelsets")
+    assert (found.verdict, found.reason) == ("inconclusive", "the record holds 2 wheelsets")
 
 
 def test_the_verdict_carries_what_it_was_taken_to_mean(appendix_b, scenario, sliding_stop, wheelsets) -> None:

@@ -4,7 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from uictest.evaluation import judge
-from uictest.evaluation.decision import Decision, decide
+from uictest.evaluation.coverage import ObservedStop
+from uictest.evaluation.decision import Decision, bounds_of, decide
 from uictest.evaluation.sensitivity import sensitivity
 
 G = 9.80665
@@ -25,7 +26,11 @@ def adhesion(criterion):
 def slide(criterion):
     cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["10 km/h", "60 km/h"]}}
     return criterion(
-        "maximum_slide", lower="35 %", strict=True, wheelsets={"at_least": "half"}, definition=cutoff
+        "maximum_slide_above_cutoff",
+        lower="35 %",
+        strict=True,
+        wheelsets={"at_least": "half"},
+        definition=cutoff,
     )
 
 
@@ -92,7 +97,12 @@ def test_the_stretches_agree_with_deciding_at_any_duration(
 ) -> None:
     measures = sliding_stop(speed_after_sliding=speed)
     found = moved(adhesion, measures, wheelsets(0.5))
-    direct = decide(adhesion, {"first_phase_duration": duration}, measures, wheelsets(0.5)).verdict
+    direct = decide(
+        adhesion,
+        bounds_of(adhesion),
+        {"first_phase_duration": duration},
+        ObservedStop(measures, wheelsets(0.5)),
+    ).verdict
     nearby = {s.verdict for s in found.stretches if s.first - TOLERANCE <= duration <= s.last + TOLERANCE}
     assert direct in nearby
 
@@ -104,7 +114,9 @@ def test_the_stretches_agree_with_deciding_at_any_cutoff(
     records = wheelsets(0.0, 0.0, 0.0, 0.0)
     records.maximum_slide_above = np.reshape(slides, (4, 21))
     found = moved(slide, stop(), records)
-    direct = decide(slide, {"low_speed_cutoff": 10 * k * KMH}, stop(), records).verdict
+    direct = decide(
+        slide, bounds_of(slide), {"low_speed_cutoff": 10 * k * KMH}, ObservedStop(stop(), records)
+    ).verdict
     assert [s.verdict for s in found.stretches if s.first <= 10 * k <= s.last] == [direct]
 
 

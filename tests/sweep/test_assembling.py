@@ -142,6 +142,8 @@ def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
     measures, wheelsets = formula(np.array([record]), rail[None])
     read: set[str] = set()
     watched: Any = Watched(case.scenario, "", read)
-    evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)
+    for stopped in (1.0, 0.0):
+        measures["stopped"] = stopped
+        evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)
     for key in read:
         assert any(key == judged or key.startswith(f"{judged}.") for judged in JUDGED_KEYS), key

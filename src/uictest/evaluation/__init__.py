@@ -1,6 +1,7 @@
 """Judging a stop: figures in the engineer's units, criteria, verdicts, outcome, the result document."""
 
 from uictest.evaluation.case import JUDGED_KEYS, error_result, evaluate
+from uictest.evaluation.coverage import Coverage, MissingData
 from uictest.evaluation.document import SCHEMA, result_document, results_of, to_json
 from uictest.evaluation.judgement import judge
 from uictest.evaluation.margin import narrowest_margin, relative_margin
@@ -18,10 +19,12 @@ __all__ = [
     "JUDGED_KEYS",
     "SCHEMA",
     "CaseResult",
+    "Coverage",
     "Expectation",
     "Figures",
     "Judgement",
     "Layer",
+    "MissingData",
     "Outcome",
     "Sensitivity",
     "Stretch",

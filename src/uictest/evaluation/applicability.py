@@ -12,14 +12,19 @@ if TYPE_CHECKING:
     from uictest.scenario.parts.applicability import Applicability, Nominal
 
 
-def why_not_applicable(applies: Applicability, stop: Circumstances, initial_speed: float) -> str:
-    """Return why a criterion does not apply to a stop from `initial_speed` (m/s); empty where it does."""
+def why_not_applicable(applies: Applicability, stop: Circumstances, initial_speed: float | None) -> str:
+    """Return why a criterion does not apply to a stop from `initial_speed` (m/s); empty where it does.
+
+    An initial speed that is not known (None) is no reason.
+    """
     reasons = [
         _other_than("rail", stop.rail_condition, applies.rail_condition),
         _other_than("WSP", stop.wsp, applies.wsp),
         _other_than("brake position", stop.position, applies.brake_position),
         _other_than("topology", stop.topology, applies.topology),
-        _outside("initial speed", initial_speed, applies.initial_speed, "km/h"),
+        ""
+        if initial_speed is None
+        else _outside("initial speed", initial_speed, applies.initial_speed, "km/h"),
         _outside("brake command", stop.command, applies.command, "%"),
         _outside("gradient", stop.gradient, applies.gradient, "permille"),
     ]

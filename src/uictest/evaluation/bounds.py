@@ -26,11 +26,23 @@ class Bounds:
         margin = self.margin(value)
         return math.isfinite(value) and (margin > 0.0 if self.strict else margin >= 0.0)
 
+    def hold_throughout(self, low: float, high: float) -> bool | None:
+        """Return whether a value that lies somewhere from `low` to `high` keeps the bounds; None: open."""
+        if self._above(low) and self._below(high):
+            return True
+        return None if self._above(high) and self._below(low) else False
+
     def side(self, value: float) -> int:
         """Return -1 below the lower bound, 1 above the upper one, 0 between."""
         below = self.lower is not None and value < self.lower
         above = self.upper is not None and value > self.upper
         return int(above) - int(below)
+
+    def _above(self, value: float) -> bool:
+        return self.lower is None or (value > self.lower if self.strict else value >= self.lower)
+
+    def _below(self, value: float) -> bool:
+        return self.upper is None or (value < self.upper if self.strict else value <= self.upper)
 
     def __str__(self) -> str:
         """Return the bounds for a reader: ">= 35", "< 0.08", "440 .. 490"."""

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from uictest.evaluation.adhesion import DEFAULT_FIRST_PHASE
-from uictest.evaluation.figures import figures_of, wheelset_figures_of
+from uictest.evaluation.coverage import Coverage
+from uictest.evaluation.figures import (
+    figures_of,
+    known_figures,
+    known_wheelset_figures,
+    wheelset_figures_of,
+)
 from uictest.evaluation.judgement import judge
 from uictest.evaluation.outcome import outcome_of
 from uictest.evaluation.records import StopMeasures, Wheelsets
@@ -23,6 +28,7 @@ JUDGED_KEYS = (
     "rail.gradient",
     "rig.topology",
     "rig.wsp",
+    "simulation.maximum_duration",
     "criteria",
     "measures",
     "expect",
@@ -37,7 +43,7 @@ def evaluate(
     duration: float = 0.0,
     *,
     explain: bool = True,
-    missing: Mapping[str, str] | None = None,
+    coverage: Coverage | None = None,
 ) -> CaseResult:
     """Return the judged result of a case whose stop was simulated or measured.
 
@@ -47,11 +53,16 @@ def evaluate(
         wheelset_measures: one record per wheelset from the leading end, SI.
         duration: wall clock the simulation took, s.
         explain: as for :func:`judge`.
-        missing: as for :func:`judge`.
+        coverage: as for :func:`judge`.
 
     """
-    verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, missing=missing)
+    verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
     outcome, reason = outcome_of(verdicts)
+    figures = figures_of(measures, _first_phase_duration(case.scenario))
+    wheelsets = [wheelset_figures_of(wheelset) for wheelset in wheelset_measures]
+    if coverage is not None:
+        figures = known_figures(figures, coverage)
+        wheelsets = [known_wheelset_figures(each, coverage) for each in wheelsets]
     return CaseResult(
         id=case.id,
         scenario=case.path.as_posix(),
@@ -59,8 +70,8 @@ def evaluate(
         expect=case.scenario.expect,
         outcome=outcome,
         criteria=tuple(verdicts),
-        measures=figures_of(measures, _first_phase_duration(case.scenario)),
-        wheelsets=tuple(wheelset_figures_of(wheelset) for wheelset in wheelset_measures),
+        measures=figures,
+        wheelsets=tuple(wheelsets),
         reason=reason,
         duration=duration,
     )

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from uictest.evaluation.bounds import Bounds, deciding
+from uictest.evaluation.coverage import MissingData, ObservedStop
 from uictest.evaluation.measured import read
-from uictest.evaluation.reading import Reading
-from uictest.evaluation.records import StopMeasures, Wheelsets
 from uictest.evaluation.units import in_unit, text, tidy, with_unit
 from uictest.evaluation.verdict import Judgement
 
 if TYPE_CHECKING:
     from uictest.scenario.parts.criteria import Criterion
+    from uictest.scenario.parts.measure_catalogue import Course
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,22 +32,30 @@ class Decision:
 
 
 def decide(
-    criterion: Criterion, definition: Mapping[str, float], measures: StopMeasures, wheelsets: Wheelsets
+    criterion: Criterion, bounds: Bounds, definition: Mapping[str, float], stop: ObservedStop
 ) -> Decision:
-    """Decide a criterion that applies, with its definitions set to `definition` (SI)."""
-    bounds, unit = bounds_of(criterion), criterion.unit
-    reading = read(criterion.measure, measures, wheelsets, definition)
+    """Decide a criterion that applies and has these `bounds`, with its definitions set to `definition` (SI).
+
+    Where data are missing, each value is known to lie in an interval: from the value so far upwards for a
+    measure that can only grow, downwards for one that can only fall, anywhere without data that bound it. The
+    criterion passes or fails only if it does so wherever in their intervals the values lie.
+    """
+    unit, course = criterion.unit, criterion.course
+    reading = read(criterion.measure, stop.measures, stop.wheelsets, definition)
     values = [in_unit(number, unit) for number in reading.values]
+    settled = course == "settles" and not reading.missing
+    missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
     if reading.missing:
-        return _without_full_value(reading, values, bounds, unit)
+        return _without_value(reading.missing, missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
-        return Decision("not_applicable", None, f"the record holds {len(values)} wheelsets")
+        return Decision("inconclusive", None, f"the record holds {len(values)} wheelsets")
+    if missing:
+        return _of_intervals(values, missing, course, bounds, needed, unit)
     value = deciding(values, bounds, needed)
-    reason = reading.remark or _why(values, value, bounds, needed, unit)
-    if math.isnan(value):
-        return Decision("fail", None, reason)
-    return Decision("pass" if bounds.hold(value) else "fail", value, reason, bounds.side(value))
+    return _decided(
+        "pass" if bounds.hold(value) else "fail", value, bounds, _why(values, value, bounds, needed, unit)
+    )
 
 
 def bounds_of(criterion: Criterion) -> Bounds:
@@ -59,11 +67,67 @@ def bounds_of(criterion: Criterion) -> Bounds:
     return Bounds(lower, upper, criterion.strict)
 
 
-def _without_full_value(reading: Reading, values: list[float], bounds: Bounds, unit: str) -> Decision:
-    # What is still growing and already beyond the upper bound has failed, whatever it would have become.
-    if reading.at_least and bounds.side(values[0]) > 0:
-        return Decision("fail", values[0], f"{text(values[0], unit)} so far, {reading.missing}", 1)
-    return Decision("not_applicable", None, reading.missing)
+def _decided(verdict: Judgement, value: float, bounds: Bounds, reason: str) -> Decision:
+    if math.isnan(value):
+        return Decision(verdict, None, reason)
+    return Decision(verdict, value, reason, bounds.side(value))
+
+
+def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
+    lacking = [gap for gap in missing if gap]
+    if not lacking:
+        return Decision("not_applicable", None, why)
+    bounded = all(gap.bounded for gap in lacking)
+    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed(lacking)]))
+
+
+def _of_intervals(
+    values: Sequence[float],
+    missing: Sequence[MissingData | None],
+    course: Course,
+    bounds: Bounds,
+    needed: int,
+    unit: str,
+) -> Decision:
+    holds = [_holds(value, gap, course, bounds) for value, gap in zip(values, missing, strict=True)]
+    keeping = [value for value, held in zip(values, holds, strict=True) if held]
+    breaking = [value for value, held in zip(values, holds, strict=True) if held is False]
+    possible = len(values) - len(breaking)
+    wheelsets, demand = f"of {len(values)} wheelsets", with_unit(str(bounds), unit)
+    verdict: Judgement = "inconclusive"
+    value, count = math.nan, f"{needed} {wheelsets} must keep {demand}"
+    if len(keeping) >= needed:
+        verdict, value = "pass", deciding(keeping, bounds, needed)
+        count = f"{len(keeping)} {wheelsets} keep {demand}, {needed} needed"
+    elif possible < needed:
+        verdict, value = "fail", deciding(breaking, bounds, needed - possible)
+        count = f"{len(breaking)} {wheelsets} miss {demand}, {needed} must keep it"
+    shown = [
+        text(value, "1") if _known(value, gap) else "-" for value, gap in zip(values, missing, strict=True)
+    ]
+    reasons = _listed([gap for gap in missing if gap])
+    if set(shown) == {"-"}:
+        return _decided(verdict, value, bounds, reasons)
+    so_far = f"{with_unit(', '.join(shown), unit)} so far; {reasons}"
+    return _decided(verdict, value, bounds, so_far if len(values) == 1 else f"{count}: {so_far}")
+
+
+def _known(value: float, gap: MissingData | None) -> bool:
+    return gap is None or (gap.bounded and not math.isnan(value))
+
+
+def _holds(value: float, gap: MissingData | None, course: Course, bounds: Bounds) -> bool | None:
+    """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
+    if gap is None:
+        return bounds.hold(value)
+    known = _known(value, gap)
+    lowest = value if known and course == "grows" else -math.inf
+    highest = value if known and course == "falls" else math.inf
+    return bounds.hold_throughout(lowest, highest)
+
+
+def _listed(missing: Sequence[MissingData]) -> str:
+    return "; ".join(dict.fromkeys(gap.reason for gap in missing))
 
 
 def _why(values: list[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
 from uictest.evaluation.adhesion import initial_adhesion
+from uictest.evaluation.coverage import Coverage
 from uictest.evaluation.reading import Reading
 from uictest.evaluation.records import StopMeasures, WheelsetMeasures
 from uictest.evaluation.result import Figures, WheelsetFigures, whole
@@ -17,7 +21,7 @@ def figures_of(measures: StopMeasures, first_phase_duration: float) -> Figures:
     return Figures(
         braking_distance_m=float(measures.braking_distance),
         braking_time_s=float(measures.braking_time),
-        mean_deceleration_mps2=_value(mean_deceleration(measures)),
+        mean_deceleration_mps2=_value(mean_deceleration(measures)) if measures.stopped else math.nan,
         initial_adhesion_g=in_unit(_value(initial_adhesion(measures, first_phase_duration)), "g"),
         minimum_deceleration_mps2=float(measures.minimum_deceleration),
         maximum_deceleration_mps2=float(measures.maximum_deceleration),
@@ -37,6 +41,40 @@ def wheelset_figures_of(wheelset: WheelsetMeasures) -> WheelsetFigures:
         maximum_clamping_force_n=float(wheelset.maximum_clamping_force),
         air_vented_nl=in_unit(normal_volume(float(wheelset.air_vented)), "NL"),
     )
+
+
+# Measure -> the figure that needs the same data.
+_FIGURE_OF = {
+    "braking_distance": "braking_distance_m",
+    "braking_time": "braking_time_s",
+    "mean_deceleration": "mean_deceleration_mps2",
+    "initial_adhesion": "initial_adhesion_g",
+    "minimum_deceleration": "minimum_deceleration_mps2",
+    "maximum_deceleration": "maximum_deceleration_mps2",
+    "reservoir_minimum_pressure": "reservoir_minimum_bar",
+    "air_consumed": "air_consumed_nl",
+}
+_WHEELSET_FIGURE_OF = {
+    "maximum_slide_above_cutoff": "maximum_slide",
+    "locked_time": "locked_time_s",
+    "valve_actuations": "valve_actuations",
+    "maximum_clamping_force": "maximum_clamping_force_n",
+    "air_vented": "air_vented_nl",
+}
+
+
+def known_figures(figures: Figures, coverage: Coverage) -> Figures:
+    """Return the figures of a recorded stop, NaN where the record lacks data of one."""
+    return replace(figures, **_unknown(_FIGURE_OF, coverage))
+
+
+def known_wheelset_figures(figures: WheelsetFigures, coverage: Coverage) -> WheelsetFigures:
+    """Return the figures of a wheelset, NaN where the record lacks data of one of any wheelset."""
+    return replace(figures, **_unknown(_WHEELSET_FIGURE_OF, coverage))
+
+
+def _unknown(figure_of: Mapping[str, str], coverage: Coverage) -> dict[str, Any]:
+    return {figure: math.nan for measure, figure in figure_of.items() if measure in coverage.missing}
 
 
 def _value(reading: Reading) -> float:

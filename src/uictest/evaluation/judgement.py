@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from uictest.evaluation.applicability import why_not_applicable
 from uictest.evaluation.bounds import Bounds
 from uictest.evaluation.circumstances import Circumstances, circumstances_of
+from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, bounds_of, decide
 from uictest.evaluation.meaning import meaning_of
 from uictest.evaluation.records import StopMeasures, Wheelsets
@@ -25,7 +26,7 @@ def judge(
     wheelset_measures: Wheelsets,
     *,
     explain: bool = True,
-    missing: Mapping[str, str] | None = None,
+    coverage: Coverage | None = None,
 ) -> list[Verdict]:
     """Judge one stop by every criterion of its scenario, in the order written.
 
@@ -35,67 +36,78 @@ def judge(
         wheelset_measures: one record per wheelset from the leading end (`records.WheelsetMeasures`, SI).
         explain: whether the verdicts also say what they were taken to mean and how firmly they stand, which
             takes most of the time.
-        missing: measures that a measured record does not support, each with the reason.
+        coverage: what the record of a real stop lacks; None for a simulation.
 
     Returns:
-        One verdict per criterion. A criterion that does not apply, or that the record cannot support, is
-        `not_applicable` with its reason. NaN never passes.
+        One verdict per criterion: `not_applicable` where the criterion says nothing about such a stop,
+        `inconclusive` where data to judge it are missing, both with the reason. NaN never passes.
 
     """
-    stop = circumstances_of(scenario)
-    criteria = (
-        (criterion, meaning_of(criterion, profile, scenario.measures) if explain else {})
-        for profile in scenario.criteria
-        for criterion in profile.criteria
-    )
-    reasons = missing or {}
+    circumstances = circumstances_of(scenario)
+    cut_off = why_cut_off(scenario, measures, coverage)
+    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
     return [
         _judge(
             criterion,
-            meant,
+            meaning_of(criterion, profile, scenario.measures) if explain else {},
+            circumstances,
             stop,
-            measures,
-            wheelset_measures,
             explain=explain,
-            missing=reasons.get(criterion.measure, ""),
         )
-        for criterion, meant in criteria
+        for profile in scenario.criteria
+        for criterion in profile.criteria
     ]
 
 
 def _judge(
     criterion: Criterion,
     meant: dict[str, str],
-    stop: Circumstances,
-    measures: StopMeasures,
-    wheelsets: Wheelsets,
+    circumstances: Circumstances,
+    stop: ObservedStop,
     *,
     explain: bool,
-    missing: str,
 ) -> Verdict:
-    why_not = why_not_applicable(criterion.applies, stop, float(measures.initial_speed)) or missing
-    if why_not:
-        return _verdict(criterion, Decision("not_applicable", None, why_not), meant)
+    bounds = bounds_of(criterion)
+    undecided = _before_judging(criterion, circumstances, stop)
+    if undecided is not None:
+        return _verdict(criterion, bounds, undecided, meant)
     stated = criterion.definition.stated()
-    decision = decide(criterion, stated, measures, wheelsets)
-    moves = _sensitivities(criterion, stated, measures, wheelsets) if explain else ()
-    return _verdict(criterion, decision, meant, *moves)
+    decision = decide(criterion, bounds, stated, stop)
+    if not explain or decision.verdict == "inconclusive":
+        return _verdict(criterion, bounds, decision, meant)
+    return _verdict(criterion, bounds, decision, meant, *_sensitivities(criterion, bounds, stated, stop))
+
+
+def _before_judging(
+    criterion: Criterion, circumstances: Circumstances, stop: ObservedStop
+) -> Decision | None:
+    """Return the decision on a criterion that does not apply, or of which that is not known; else None."""
+    unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed
+    initial_speed = None if unknown else float(stop.measures.initial_speed)
+    if why_not := why_not_applicable(criterion.applies, circumstances, initial_speed):
+        return Decision("not_applicable", None, why_not)
+    if criterion.of_simulation and stop.coverage is not None:
+        return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
+    if unknown and criterion.applies.initial_speed is not None:
+        return Decision("inconclusive", None, unknown)
+    return None
 
 
 def _sensitivities(
-    criterion: Criterion, stated: dict[str, float], measures: StopMeasures, wheelsets: Wheelsets
+    criterion: Criterion, bounds: Bounds, stated: dict[str, float], stop: ObservedStop
 ) -> Iterator[Sensitivity]:
     for name, parameter in criterion.definition.parameters().items():
 
         def at(value: float, name: str = name) -> Decision:
-            return decide(criterion, {**stated, name: value}, measures, wheelsets)
+            return decide(criterion, bounds, {**stated, name: value}, stop)
 
         lower, upper = parameter.range
         yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
 
 
-def _verdict(criterion: Criterion, decision: Decision, meant: dict[str, str], *moves: Sensitivity) -> Verdict:
-    bounds = bounds_of(criterion)
+def _verdict(
+    criterion: Criterion, bounds: Bounds, decision: Decision, meant: dict[str, str], *moves: Sensitivity
+) -> Verdict:
     return Verdict(
         id=criterion.id,
         layer=criterion.layer,

@@ -62,7 +62,7 @@ MEASURES: dict[str, Measure] = {
     "air_consumed": lambda measures, wheelsets, definition: value(normal_volume(measures.air_consumed)),
     "energy_residual": _magnitude_of_stop("energy_residual"),
     "air_residual": _magnitude_of_stop("air_residual"),
-    "maximum_slide": lambda measures, wheelsets, definition: slide.maximum_slide(
+    "maximum_slide_above_cutoff": lambda measures, wheelsets, definition: slide.maximum_slide_above_cutoff(
         measures, wheelsets, definition["low_speed_cutoff"]
     ),
     "locked_time": _of_wheelsets("locked_time"),

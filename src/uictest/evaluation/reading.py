@@ -7,17 +7,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """SI values of a measure, one for the stop or one per wheelset.
+    """SI values of a measure, one for the stop or one per wheelset, as far as the stop was observed.
 
-    `missing` says why the record cannot support the measure; empty where it can. `at_least` marks the value
-    of a stop that was still going on: the full value would be larger. `remark` says more about a value than
-    its number does.
+    `missing` says why there is no value; empty where there is one.
     """
 
     values: tuple[float, ...] = ()
     missing: str = ""
-    at_least: bool = False
-    remark: str = ""
 
 
 def value(number: float) -> Reading:

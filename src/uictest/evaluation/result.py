@@ -10,7 +10,7 @@ from typing import Any, Literal
 from uictest.evaluation.json_form import json_form, or_nan
 from uictest.evaluation.verdict import Verdict
 
-Outcome = Literal["pass", "fail", "invalid", "error", "skipped"]
+Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
 Expectation = Literal["pass", "fail", "invalid"]
 _UNITS = {"m": "m", "s": "s", "mps2": "m/s2", "g": "g", "bar": "bar", "nl": "NL", "n": "N"}
 """How the name of a figure ends -> its unit."""

@@ -8,7 +8,9 @@ from uictest.evaluation.reading import Reading, unsupported
 from uictest.evaluation.records import SLIDE_CLASS, StopMeasures, Wheelsets
 
 
-def maximum_slide(measures: StopMeasures, wheelsets: Wheelsets, low_speed_cutoff: float) -> Reading:
+def maximum_slide_above_cutoff(
+    measures: StopMeasures, wheelsets: Wheelsets, low_speed_cutoff: float
+) -> Reading:
     """Return the largest slide (share; 1 = locked) of each wheelset above the cut-off.
 
     Slides count while the train runs faster than `low_speed_cutoff` (m/s), a multiple of 10 km/h, as the

@@ -8,8 +8,11 @@ from typing import Any, Literal
 
 from uictest.evaluation.json_form import json_form
 
-Judgement = Literal["pass", "fail", "not_applicable"]
-"""What a criterion says of a stop."""
+Judgement = Literal["pass", "fail", "not_applicable", "inconclusive"]
+"""What a criterion says of a stop.
+
+not_applicable: the criterion says nothing about such a stop. inconclusive: data to judge it are missing.
+"""
 
 Layer = Literal["validity", "requirement"]
 """validity: the stop counts as a test. requirement: the vehicle or its WSP is good enough."""

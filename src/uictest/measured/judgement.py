@@ -17,20 +17,14 @@ if TYPE_CHECKING:
 def judge_stop(case: Case, stop: MeasuredStop) -> CaseResult:
     """Return the result of a recorded stop under the circumstances and criteria of a case.
 
-    How the record was prepared, and what was found wrong with it, stand in the definition of every verdict. A
-    record so damaged that no criterion applies is an error: nothing about it was tested.
+    How the record was prepared, and what was found wrong with it, stand in the definition of every verdict.
     """
     observed = observe(stop, case.scenario.measures)
-    result = evaluate(case, observed.measures, observed.wheelset_measures, missing=observed.missing)
+    result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
     told = {**stop.choices, **_defects(stop.defects)}
-    result = replace(
+    return replace(
         result, criteria=tuple(replace(v, definition={**v.definition, **told}) for v in result.criteria)
     )
-    if result.outcome == "skipped" and stop.defects:
-        return replace(
-            result, outcome="error", reason=f"{'; '.join(map(str, stop.defects))}; {result.reason}"
-        )
-    return result
 
 
 def unusable_result(case: Case, defects: tuple[Defect, ...]) -> CaseResult:

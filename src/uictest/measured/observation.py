@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from uictest.measured.channels import WHEELSETS
 from uictest.measured.prepare import MeasuredStop
-from uictest.measured.support import unsupported
+from uictest.measured.support import coverage_of
 from uictest.measures import (
     DEFINITION,
     MEASURES,
@@ -31,31 +32,20 @@ from uictest.measures import (
 from uictest.recording import TIME, Recording
 
 if TYPE_CHECKING:
+    from uictest.evaluation import Coverage
     from uictest.scenario.parts.measures import MeasureDefinitions
 
 _VENT = 2.0
 """State of the valve command that vents."""
-_OF_STOP = frozenset(
-    {
-        "minimum_deceleration",
-        "maximum_deceleration",
-        "reservoir_minimum_pressure",
-        "braking_distance",
-        "braking_time",
-    }
-)
-_OF_WHEELSETS = frozenset(
-    {"maximum_slide", "locked_time", "longest_lock", "sliding_duration", "maximum_clamping_force"}
-)
 
 
 @dataclass(frozen=True, slots=True)
 class Observed:
-    """Measures of a stop and of its wheelsets, SI, and why those are missing that are."""
+    """Measures of a stop and of its wheelsets, SI, over the samples that there are, and what is missing."""
 
     measures: Any
     wheelset_measures: Any
-    missing: dict[str, str]
+    coverage: Coverage
 
 
 def observe(stop: MeasuredStop, definition: MeasureDefinitions) -> Observed:
@@ -65,14 +55,12 @@ def observe(stop: MeasuredStop, definition: MeasureDefinitions) -> Observed:
     wheelsets = [SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES) for _ in WHEELSETS]
     defined = SimpleNamespace(**{name: float(getattr(definition, name)) for name, _ in DEFINITION})
     _observe(stop, train, wheelsets, defined)
-    missing = unsupported(stop)
-    _forget_unsupported(train, wheelsets, missing)
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):
         _copy(wheelset, record)
     whole = np.zeros(1, MEASURES)
     _copy(train, whole[0])
-    return Observed(measures=whole[0], wheelset_measures=records.view(np.recarray), missing=missing)
+    return Observed(whole[0], records.view(np.recarray), coverage_of(stop))
 
 
 def _observe(stop: MeasuredStop, train: Any, wheelsets: list[Any], definition: Any) -> None:
@@ -103,7 +91,11 @@ def _observe(stop: MeasuredStop, train: Any, wheelsets: list[Any], definition: A
                 venting[i][k],
                 force[i][k],
             )
-            keep_slide(wheelset, wheelset, definition, speed[k])
+            if isnan(speed[k] - wheels[i][k]):
+                # A lock before a gap and one after it need not be the same lock.
+                wheelset.lock = 0.0
+            else:
+                keep_slide(wheelset, wheelset, definition, speed[k])
         observe_train(train, definition, time[k], distance[k], speed[k], reservoir[k])
         keep_window(train, train)
     if rest is not None:
@@ -119,24 +111,9 @@ def _samples(recording: Recording, name: str) -> NDArray[np.float64]:
 
 
 def _venting(command: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.where(command == _VENT, 1.0, 0.0)
-
-
-def _forget_unsupported(train: Any, wheelsets: list[Any], missing: dict[str, str]) -> None:
-    """Leave no number where a record does not support one: what was added up may be of any size."""
-    for name in _OF_STOP & missing.keys():
-        setattr(train, name, float("nan"))
-    if "initial_adhesion" in missing:
-        train.sliding_time = float("nan")
-        train.speed_after_sliding = [float("nan")] * (WINDOW_SECONDS + 1)
-    for wheelset in wheelsets:
-        for name in _OF_WHEELSETS & missing.keys():
-            setattr(wheelset, name, float("nan"))
-        if "maximum_slide" in missing:
-            wheelset.maximum_slide_above = [float("nan")] * SPEED_CLASSES
-            wheelset.first_sliding_time = float("nan")
-        if "valve_actuations" in missing:
-            wheelset.valve_actuations = float("nan")
+    """Return 1 while the valve is commanded to vent. A gap keeps the state before it: one vent is not two."""
+    last_known = np.maximum.accumulate(np.where(np.isnan(command), 0, np.arange(len(command))))
+    return np.where(command[last_known] == _VENT, 1.0, 0.0)
 
 
 def _copy(source: Any, record: Any) -> None:

@@ -75,10 +75,20 @@ def prepare(
     speed = sound["speed"]
     rest = find_standstill(speed.time, speed.samples, trigger.time, float(wanted.standstill_speed))
     end = rest.time if rest else float(speed.time[-1])
-    defects += [*speed_defects(sound, trigger.time, end), *analogue_defects(sound, trigger.time, end)]
+    defects += _unlike_a_stop(sound, trigger, end)
     defects += _cut_off(speed, trigger, rest)
     stop = _on_raster(sound, trigger, rest, raster, tuple(defects), wanted)
     return replace(stop, choices={**stop.choices, "filter": _filter(wanted, unfiltered, sound)})
+
+
+def _unlike_a_stop(channels: Mapping[str, RawChannel], trigger: FoundTrigger, end: float) -> Iterator[Defect]:
+    for defect in (
+        *speed_defects(channels, trigger.time, end),
+        *analogue_defects(channels, trigger.time, end),
+    ):
+        # An offset shows with the brake released, which a late record never does.
+        if not (trigger.late and defect.kind == "offset"):
+            yield defect
 
 
 def _filter(wanted: Preparation, before: Mapping[str, RawChannel], after: Mapping[str, RawChannel]) -> str:

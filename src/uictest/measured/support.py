@@ -1,4 +1,4 @@
-"""Which measures a record supports, and why the others are not applicable."""
+"""What a record lacks of each measure, and why."""
 
 from __future__ import annotations
 
@@ -8,77 +8,95 @@ from typing import Final
 
 import numpy as np
 
-from uictest.measured.channels import of_wheelsets
+from uictest.evaluation import Coverage, MissingData
+from uictest.measured.channels import WHEELSETS, of_wheelsets
 from uictest.measured.prepare import MeasuredStop
 from uictest.recording import TIME
 
-_WHEELS: Final = ("speed", *of_wheelsets("wheel_speed"))
+Channels = tuple[str, ...]
+
+
+def _per_wheelset(*names: str) -> tuple[Channels, ...]:
+    return tuple(tuple(name.format(n=n) for name in names) for n in WHEELSETS)
+
+
+_WHEEL: Final = _per_wheelset("speed", "wheel_speed_{n}")
 
 _THROUGHOUT: Final = MappingProxyType(
     {
-        "initial_adhesion": _WHEELS,
-        "maximum_slide": _WHEELS,
-        "locked_time": _WHEELS,
-        "longest_lock": _WHEELS,
-        "sliding_duration": _WHEELS,
-        "minimum_deceleration": ("speed",),
-        "maximum_deceleration": ("speed",),
-        "reservoir_minimum_pressure": ("reservoir_pressure",),
-        "valve_actuations": of_wheelsets("valve_command"),
-        "maximum_clamping_force": of_wheelsets("clamping_force"),
+        "initial_adhesion": (("speed", *of_wheelsets("wheel_speed")),),
+        "minimum_deceleration": (("speed",),),
+        "maximum_deceleration": (("speed",),),
+        "reservoir_minimum_pressure": (("reservoir_pressure",),),
+        "maximum_slide_above_cutoff": _WHEEL,
+        "locked_time": _WHEEL,
+        "longest_lock": _WHEEL,
+        "sliding_duration": _WHEEL,
+        "valve_actuations": _per_wheelset("valve_command_{n}"),
+        "maximum_clamping_force": _per_wheelset("clamping_force_{n}"),
     }
 )
-"""Measure -> channels that must be known throughout the stop."""
+"""Measure -> for each of its values the channels that must be known throughout the stop."""
 
 _AT_THE_ENDS: Final = MappingProxyType(
     {
-        "braking_distance": ("speed", "distance"),
-        "mean_deceleration": ("speed", "distance"),
-        "braking_time": ("speed",),
-        "standstill": ("speed",),
+        "braking_distance": (("speed", "distance"),),
+        "mean_deceleration": (("speed", "distance"),),
+        "braking_time": (("speed",),),
+        "standstill": (("speed",),),
     }
 )
-"""Measure -> channels that must be known at the brake command and at standstill."""
+"""Measure -> for its value the channels that must be known at the brake command and at standstill."""
 
-_NEVER: Final = MappingProxyType(
-    {
-        "energy_residual": "a record holds no energy balance",
-        "air_residual": "a record holds no air balance",
-        "air_consumed": "a record holds no flow of air",
-        "air_vented": "a record holds no flow of air",
+_NO_FLOW: Final = MissingData("not recorded: flow of air", bounded=False)
+_NEVER: Final = MappingProxyType({"air_consumed": (_NO_FLOW,), "air_vented": (_NO_FLOW,) * len(WHEELSETS)})
+
+_ALL_OR_NOTHING: Final = frozenset({"initial_adhesion", "mean_deceleration", "minimum_deceleration"})
+"""Measures whose value a part of the samples does not bound.
+
+The first two count from a moment that may not be in the record, and the filter of the third has to settle.
+"""
+_LATE: Final = "the record begins after the brake command"
+
+
+def coverage_of(stop: MeasuredStop) -> Coverage:
+    """Return what a record lacks of each measure between brake command and its end."""
+    missing = {
+        measure: tuple(_missing(stop, measure, channels) for channels in values)
+        for measure, values in (*_THROUGHOUT.items(), *_AT_THE_ENDS.items())
     }
-)
-
-_FROM_THE_COMMAND: Final = frozenset(
-    {"braking_distance", "braking_time", "mean_deceleration", "minimum_deceleration", "initial_adhesion"}
-)
-"""Measures that count from the brake command."""
+    lacking = {measure: gaps for measure, gaps in missing.items() if any(gaps)}
+    return Coverage({**_NEVER, **lacking}, f"{_LATE}: no initial speed" if stop.trigger.late else "")
 
 
-def unsupported(stop: MeasuredStop) -> dict[str, str]:
-    """Return the measures that a record does not support, each with the reason."""
-    reasons = dict(_NEVER)
-    if stop.standstill is None:
-        reasons["standstill"] = "the record ends before standstill"
-    for measure, channels in {**_THROUGHOUT, **_AT_THE_ENDS}.items():
-        found = list(_reasons(stop, measure, channels))
-        if found and measure not in reasons:
-            reasons[measure] = "; ".join(dict.fromkeys(found))
-    return reasons
+def _missing(stop: MeasuredStop, measure: str, channels: Channels) -> MissingData | None:
+    if unusable := list(_unusable(stop, measure, channels)):
+        return MissingData("; ".join(unusable), bounded=False)
+    if gaps := dict.fromkeys(_gaps(stop, measure, channels)):
+        return MissingData("; ".join(gaps), bounded=measure not in _ALL_OR_NOTHING)
+    return None
 
 
-def _reasons(stop: MeasuredStop, measure: str, channels: tuple[str, ...]) -> Iterator[str]:
-    if stop.trigger.late and measure in _FROM_THE_COMMAND:
-        yield "the record begins after the brake command"
-    missing = [name for name in channels if name not in stop.recording.channels]
-    if missing:
-        yield f"not recorded: {', '.join(missing)}"
+def _unusable(stop: MeasuredStop, measure: str, channels: Channels) -> Iterator[str]:
+    """Yield why a value cannot even be bounded; all wheelsets that lack a channel are named together."""
+    recorded = stop.recording.channels
+    if any(name not in recorded for name in channels):
+        needed = dict.fromkeys(name for value in _needed(measure) for name in value)
+        yield f"not recorded: {', '.join(name for name in needed if name not in recorded)}"
     for defect in stop.defects:
         if defect.spoils and defect.channel in channels:
             yield str(defect)
+
+
+def _needed(measure: str) -> tuple[Channels, ...]:
+    return _THROUGHOUT[measure] if measure in _THROUGHOUT else _AT_THE_ENDS[measure]
+
+
+def _gaps(stop: MeasuredStop, measure: str, channels: Channels) -> Iterator[str]:
+    if stop.trigger.late and measure != "standstill":
+        yield _LATE
     for name in channels:
-        if name in stop.recording.channels:
-            yield from _unknown(stop, name, throughout=measure in _THROUGHOUT)
+        yield from _unknown(stop, name, throughout=measure in _THROUGHOUT)
 
 
 def _unknown(stop: MeasuredStop, name: str, *, throughout: bool) -> Iterator[str]:

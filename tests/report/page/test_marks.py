@@ -45,7 +45,7 @@ def test_the_first_phase_is_a_window_with_its_limit_and_what_was_found(
 
 def test_the_slide_limit_ends_where_slides_no_longer_count(marks: Callable[..., list[Mark]]) -> None:
     definition = {"low_speed_cutoff": "30 km/h (chosen; range 10 km/h .. 60 km/h)"}
-    (mark,) = marks("maximum_slide", definition, unit="%", lower=35.0)
+    (mark,) = marks("maximum_slide_above_cutoff", definition, unit="%", lower=35.0)
     assert (mark.plot, mark.kind, mark.y, mark.x0) == ("slide", "limit", 35.0, None)
     # 120 km/h less 1 m/s2: 30 km/h after 25 s.
     assert mark.x1 == pytest.approx(25.0, abs=0.06)

@@ -99,7 +99,7 @@ def _limits(
 
 _DRAWN: dict[str, Callable[[Verdict, Trace], Iterator[Mark]]] = {
     "initial_adhesion": _initial_adhesion,
-    "maximum_slide": _slide,
+    "maximum_slide_above_cutoff": _slide,
     "braking_distance": _braking_distance,
     "reservoir_minimum_pressure": _level("pressure"),
     "maximum_clamping_force": _level("force"),

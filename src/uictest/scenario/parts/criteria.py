@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 
 from uictest.scenario.parts.applicability import Applicability
 from uictest.scenario.parts.definition import Definition
-from uictest.scenario.parts.measure_catalogue import MEASURES, Measure
+from uictest.scenario.parts.measure_catalogue import MEASURES, Course, Measure
 from uictest.scenario.parts.model import Contradiction, Model, Part
 from uictest.scenario.physical import Physical, written
 from uictest.scenario.quantities import SCENARIO_SOURCE, Quantity
@@ -104,6 +104,16 @@ class Criterion(Model):
     def observed_by(self) -> tuple[str, ...]:
         """The fields of the scenario's `measures` part that decide what was observed."""
         return self._measured.observed_by
+
+    @property
+    def course(self) -> Course:
+        """What the measure's value can do while the stop goes on."""
+        return self._measured.course
+
+    @property
+    def of_simulation(self) -> bool:
+        """Whether the measure says something about the simulation itself, nothing about a train."""
+        return self._measured.of_simulation
 
     @property
     def aggregation(self) -> str:

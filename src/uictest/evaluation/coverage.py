@@ -1,0 +1,79 @@
+"""What of a stop was observed, and what is missing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from uictest.evaluation.records import StopMeasures, Wheelsets
+from uictest.evaluation.units import text
+
+if TYPE_CHECKING:
+    from uictest.scenario import Scenario
+
+
+@dataclass(frozen=True, slots=True)
+class MissingData:
+    """What a value of a measure lacks, in words.
+
+    `bounded`: the data that are there bound the value, as part of a stop does; otherwise it may be anything.
+    """
+
+    reason: str
+    bounded: bool = True
+
+    def and_also(self, reason: str) -> MissingData:
+        """Return this with a second reason; where the value may be anything, the first is enough."""
+        return MissingData(f"{self.reason}; {reason}") if self.bounded else self
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """What the record of a real stop lacks before its end.
+
+    Args:
+        missing: measure -> what each of its values lacks (one for the stop, or one per wheelset), None where
+            nothing; measures that are known throughout the record are left out.
+        no_initial_speed: why the initial speed is not known; empty where it is.
+
+    """
+
+    missing: Mapping[str, tuple[MissingData | None, ...]]
+    no_initial_speed: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ObservedStop:
+    """The measures of a stop as far as it was observed.
+
+    `cut_off` says why that was not to standstill; empty where it was. `coverage` is None for a simulation.
+    """
+
+    measures: StopMeasures
+    wheelsets: Wheelsets
+    cut_off: str = ""
+    coverage: Coverage | None = None
+
+    def missing(self, measure: str, count: int, *, settled: bool) -> tuple[MissingData | None, ...]:
+        """Return what each of the `count` values of a measure lacks; empty where none lacks anything.
+
+        To a value that is `settled` the end of the observation does not matter.
+        """
+        gaps = self.coverage.missing.get(measure, ()) if self.coverage else ()
+        if settled or not self.cut_off:
+            return gaps
+        end = MissingData(self.cut_off)
+        return tuple(gap.and_also(self.cut_off) if gap else end for gap in gaps or (None,) * count)
+
+
+def why_cut_off(scenario: Scenario, measures: StopMeasures, coverage: Coverage | None) -> str:
+    """Return why a stop was not observed to standstill; empty where it was."""
+    if measures.stopped:
+        return ""
+    speed = "an unknown speed" if math.isnan(measures.end_speed) else text(measures.end_speed * 3.6, "km/h")
+    if coverage is not None:
+        return f"the record ends after {text(measures.end_time, 's')} with the train at {speed}"
+    limit = scenario.simulation.maximum_duration.text
+    return f"the simulation ended at `maximum_duration` ({limit}) at {speed}; raise `maximum_duration`"
