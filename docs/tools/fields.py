@@ -42,6 +42,7 @@ PARTS: dict[str, type[BaseModel]] = {
     "measures": MeasureDefinitions,
     "criterion": Criterion,
 }
+_COURSES = {"grows": "can only grow", "falls": "can only fall", "settles": "is final once there is one"}
 _OF_EVERY_PART = frozenset(Part.model_fields)
 _BOUNDS = (("above", "> "), ("at_least", "≥ "), ("below", "< "), ("at_most", "≤ "))
 
@@ -75,11 +76,12 @@ def measures_table() -> str:
             "" if measure.unit == "1" else measure.unit,
             "each wheelset" if measure.of_wheelsets else "the stop",
             measure.meaning,
+            _COURSES[measure.course],
             ", ".join(f"`{each}`" for each in measure.definitions),
         )
         for name, measure in MEASURES.items()
     ]
-    return table(("measure", "unit", "of", "meaning", "definitions it needs"), rows)
+    return table(("measure", "unit", "of", "meaning", "until standstill it", "definitions it needs"), rows)
 
 
 def sample_table() -> str:

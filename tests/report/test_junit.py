@@ -43,11 +43,11 @@ def test_an_expected_failure_is_no_failure(make_result: MakeResult) -> None:
 
 
 def test_counts_agree_with_the_elements(make_result: MakeResult) -> None:
-    outcomes = ("pass", "fail", "invalid", "error", "skipped")
+    outcomes = ("pass", "fail", "invalid", "inconclusive", "error", "skipped")
     suite = _suite([make_result(outcome=outcome) for outcome in outcomes])
     counts = {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")}
-    assert counts == {"tests": "5", "failures": "2", "errors": "1", "skipped": "1"}
-    assert suite.get("time") == "1.250"
+    assert counts == {"tests": "6", "failures": "3", "errors": "1", "skipped": "1"}
+    assert suite.get("time") == "1.500"
 
 
 def test_hostile_names_and_reasons_leave_a_document_that_parses(

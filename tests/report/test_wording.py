@@ -45,7 +45,21 @@ def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
     ]
 
 
+def test_an_inconclusive_case_tells_what_could_not_be_judged(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    undecided = make_verdict(
+        verdict="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
+    )
+    assert explanation(make_result(outcome="inconclusive", criteria=(make_verdict(), undecided))) == [
+        "expected pass, came out inconclusive",
+        "braking-distance (validity) inconclusive: the record ends after 2 s",
+    ]
+
+
 def test_the_tally_counts_only_what_there_is(make_result: MakeResult) -> None:
     met, missed, error = make_result(), make_result(outcome="fail"), make_result(outcome="error")
     assert tally([met]) == "1 case: 1 met"
     assert tally([met, missed, error, met]) == "4 cases: 2 met, 1 missed, 1 in error"
+    undecided = make_result(outcome="inconclusive")
+    assert tally([met, missed, undecided]) == "3 cases: 1 met, 2 missed (1 inconclusive)"

@@ -6,17 +6,20 @@ import csv
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
 from uictest.sweep import Plan, Selection, Store, Worker
+from uictest.sweep.assembling import Assembler
 from uictest.sweep.findings import Findings, gather, read_result, write_findings
 from uictest.sweep.trends import MOST_VALUES
 
-from .conftest import GRID, Load
+from .conftest import GRID, Load, formula
 
 MakeWorker = Callable[[Plan], Worker]
 
@@ -38,6 +41,38 @@ def finished(load: Load, made_up: MakeWorker, tmp_path: Path) -> Callable[..., t
         return findings, store.folder
 
     return finish
+
+
+def unstopped(parameters: Any, rail: Any) -> Any:
+    """Stops of the formula, of which those on the slipperiest rail are not over when the simulation ends."""
+    measures, wheelsets = formula(parameters, rail)
+    running = rail[:, 1, 0] < 0.09
+    measures["stopped"] = np.where(running, 0.0, 1.0)
+    measures["end_speed"][running] = 2.0
+    wheelsets["longest_lock"] = 0.0
+    return measures, wheelsets
+
+
+def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
+    load: Load, tmp_path: Path
+) -> None:
+    selection = Selection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
+    store = Store(tmp_path / "out")
+    store.begin({}, restart=True)
+    worker = Worker(Assembler(selection.plan), unstopped, selection.plan)
+    for number in range(selection.parts):
+        store.write(number, worker.part(selection.part(number)))
+    findings = gather(selection, store, None, ["braking_distance_m"])
+    write_findings(store.folder, findings)
+    assert findings.tally.total().outcomes["inconclusive"] == 2
+    assert findings.tally.total().met == 4
+    assert findings.notes == ["2 cases inconclusive, since data to judge are missing: never met"]
+    heading, *rates = table(store.folder / "rates.csv")
+    counts = {row[1]: row[heading.index("inconclusive")] for row in rates if row[0] == "rail.friction"}
+    assert counts == {"0.08": "2", "0.10": "0", "0.12": "0"}
+    _, outcome, reason = findings.tally.missed[0]
+    assert outcome == "inconclusive"
+    assert "the simulation ended at `maximum_duration` (60 s) at 7.2 km/h" in reason
 
 
 def table(path: Path) -> list[list[str]]:
@@ -174,7 +209,14 @@ def test_the_document_can_be_read_back(finished: Callable[..., tuple[Findings, P
     _, folder = finished()
     document = read_result(folder)
     assert document == json.loads((folder / "sweep.json").read_text())
-    assert document["outcomes"] == {"pass": 5, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
+    assert document["outcomes"] == {
+        "pass": 5,
+        "fail": 1,
+        "invalid": 0,
+        "inconclusive": 0,
+        "error": 0,
+        "skipped": 0,
+    }
     assert document["maps"][0]["means"][0] == [1.0, 0.0]
 
 

@@ -122,8 +122,11 @@ def width(name: str, values: Iterable[Cell]) -> int:
     return min(max(longest + 2, _NARROWEST), _WIDEST)
 
 
+_COLOURS = {"met": "good", "pass": "good", "missed": "bad", "fail": "bad", "inconclusive": "bad"}
+
+
 def _colour_verdicts(sheet: Worksheet, columns: Sequence[str], rows: int, styles: Styles) -> None:
-    for word, colour in (("met", "good"), ("pass", "good"), ("missed", "bad"), ("fail", "bad")):
+    for word, colour in _COLOURS.items():
         for name in {"met", "verdict"} & set(columns):
             column = columns.index(name)
             rule: dict[str, Any] = {"type": "cell", "criteria": "==", "value": f'"{word}"'}

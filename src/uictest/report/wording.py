@@ -62,7 +62,8 @@ def criterion_sentences(result: CaseResult) -> Iterator[str]:
 
 def _deciding(result: CaseResult) -> Iterator[Verdict]:
     for verdict in result.criteria:
-        if verdict.verdict == "fail" or result.outcome == "skipped":
+        undecided = verdict.verdict == "inconclusive" and result.outcome == "inconclusive"
+        if verdict.verdict == "fail" or undecided or result.outcome == "skipped":
             yield verdict
 
 
@@ -74,11 +75,19 @@ def verdict_word(result: CaseResult) -> str:
 
 
 def tally(results: Iterable[CaseResult]) -> str:
-    """Return the counts of a run, e.g. `12 cases: 11 met, 1 missed`."""
+    """Return the counts of a run, e.g. `12 cases: 9 met, 3 missed (1 inconclusive)`."""
+    results = list(results)
     words = [verdict_word(result) for result in results]
-    counts = {"met": words.count("met"), "missed": words.count("MISSED"), "in error": words.count("ERROR")}
-    shown = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    undecided = sum(result.outcome == "inconclusive" for result in results)
+    shown = counts_words(words.count("met"), words.count("MISSED"), words.count("ERROR"), undecided)
     return f"{counted(len(words), 'case')}: {shown}" if words else "no case"
+
+
+def counts_words(met: int, missed: int, errors: int, inconclusive: int) -> str:
+    """Return counts of cases, those of none left out; the `inconclusive` ones are among the `missed`."""
+    open_ = f" ({inconclusive} inconclusive)" if inconclusive else ""
+    counts = {"met": met, f"missed{open_}": missed, "in error": errors}
+    return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
 
 
 def counted(count: int, noun: str) -> str:

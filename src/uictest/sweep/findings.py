@@ -101,7 +101,7 @@ def gather(
                 values[indices] = table.column(name).to_numpy(zero_copy_only=False)
     findings = Findings(tally, maps, verdicts, worst.indices(), trends=trends)
     findings.distributions = _counted(distributions, selection, store)
-    findings.notes.extend(_not_judged(tally))
+    findings.notes.extend(_not_judged(tally.total().outcomes))
     _add_sensitivities(findings, figures | ({MET: verdicts.astype(float)} if whole else {}))
     return findings
 
@@ -117,9 +117,11 @@ def _counted(spanned: Sequence[Distribution], selection: Selection, store: Store
     return found
 
 
-def _not_judged(tally: Tally) -> Iterator[str]:
-    if count := tally.total().outcomes["skipped"]:
+def _not_judged(outcomes: Mapping[str, int]) -> Iterator[str]:
+    if count := outcomes["skipped"]:
         yield f"{counted(count, 'case')} not judged, since no criterion applies: met where `pass` is expected"
+    if count := outcomes["inconclusive"]:
+        yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
 
 
 def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[MapOf]:

@@ -14,7 +14,7 @@ from uictest.sweep.plan import Plan
 if TYPE_CHECKING:
     import pyarrow as pa
 
-OUTCOMES: Final = ("pass", "fail", "invalid", "error", "skipped")
+OUTCOMES: Final = ("pass", "fail", "invalid", "inconclusive", "error", "skipped")
 MOST_EXAMPLES: Final = 10
 COLUMNS: Final = ("index", "id", "outcome", "met", "reason")
 

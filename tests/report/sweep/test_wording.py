@@ -20,6 +20,11 @@ def test_a_sweep_is_counted_and_none_is_counted_twice() -> None:
     assert sweep_tally(document) == "75 cases: 70 met, 4 missed, 1 in error"
 
 
+def test_inconclusive_cases_of_a_sweep_are_counted_among_the_missed() -> None:
+    document = {"cases": 75, "met": 70, "outcomes": {"error": 1, "skipped": 0, "inconclusive": 3}}
+    assert sweep_tally(document) == "75 cases: 70 met, 4 missed (3 inconclusive), 1 in error"
+
+
 def test_cases_that_no_criterion_applies_to_are_told_beside_those_met() -> None:
     document = {"cases": 75, "met": 75, "outcomes": {"error": 0, "skipped": 72}}
     assert sweep_tally(document) == "75 cases (72 not judged): 75 met"

@@ -11,7 +11,7 @@ from uictest.report.page.axis import Axis, Tick
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 402, 26, 150
 _GAP = 1.0
-_STACKED = ("pass", "fail", "invalid", "skipped", "error")
+_STACKED = ("pass", "fail", "invalid", "inconclusive", "skipped", "error")
 """Outcomes from the axis upwards."""
 
 

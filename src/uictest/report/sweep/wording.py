@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from uictest.report.wording import counted
+from uictest.report.wording import counted, counts_words
 
 _NAMED = 3  # values that are listed rather than counted
 STRETCH = " .. "
@@ -14,10 +14,10 @@ STRETCH = " .. "
 
 
 def sweep_tally(document: Mapping[str, Any]) -> str:
-    """Return the counts of a sweep, e.g. `75 cases: 70 met, 4 missed, 1 in error`."""
+    """Return the counts of a sweep, e.g. `75 cases: 70 met, 4 missed (2 inconclusive), 1 in error`."""
     cases, met, outcomes = document["cases"], document["met"], document["outcomes"]
-    counts = {"met": met, "missed": cases - met - outcomes["error"], "in error": outcomes["error"]}
-    shown = ", ".join(f"{n} {word}" for word, n in counts.items() if n)
+    errors, undecided = outcomes["error"], outcomes.get("inconclusive", 0)  # sweeps of 0.1 have none of these
+    shown = counts_words(met, cases - met - errors, errors, undecided)
     return f"{counted(cases, 'case')}{not_judged_words(outcomes)}: {shown}"
 
 
