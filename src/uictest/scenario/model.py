@@ -124,7 +124,8 @@ class Simulation(Model):
         description="Base step; a whole number of them makes a controller cycle.",
     )
     maximum_duration: Annotated[Quantity, kind("time", above="0 s", at_most="3600 s")] = Field(
-        default=default("180 s", "time"), description="Simulated time after which a stop is given up."
+        default=default("180 s", "time"),
+        description="Simulated time after which a stop is given up; what is open then is inconclusive.",
     )
 
 
