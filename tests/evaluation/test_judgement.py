@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uictest.evaluation import judge
+from uictest.evaluation import AppliedDefinition, judge
 
 G = 9.80665
 KMH = 1 / 3.6
@@ -175,6 +175,24 @@ def test_the_verdict_carries_what_it_was_taken_to_mean(appendix_b, scenario, sli
     slide = verdicts["minimum-slide"].definition
     assert slide["wheelsets"] == "at least half"
     assert slide["low_speed_cutoff"] == "30 km/h (chosen; range 10 km/h .. 60 km/h)"
+
+
+def test_the_verdict_carries_its_measure_and_definitions_as_data(
+    appendix_b, scenario, sliding_stop, wheelsets
+) -> None:
+    verdicts = by_id(
+        judge(scenario(appendix_b, condition="wet"), sliding_stop(), wheelsets(0.5, 0.5, 0.5, 0.5))
+    )
+    adhesion = verdicts["initial-adhesion"]
+    assert adhesion.measure == "initial_adhesion"
+    assert adhesion.definitions[0] == AppliedDefinition("first_phase_duration", 3.0, "s", "chosen", 2.0, 5.0)
+    assert [each.name for each in adhesion.definitions[1:]] == [
+        "sliding_slide",
+        "sliding_slip",
+        "moving_speed",
+    ]
+    assert adhesion.defined("moving_speed") == pytest.approx(10 / 3.6)
+    assert verdicts["minimum-slide"].defined("low_speed_cutoff") == pytest.approx(30 / 3.6)
 
 
 @pytest.mark.parametrize(

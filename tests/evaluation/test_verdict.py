@@ -2,9 +2,9 @@ import math
 
 import pytest
 
-from uictest.evaluation import Sensitivity, Stretch, Verdict
+from uictest.evaluation import AppliedDefinition, Sensitivity, Stretch, Verdict
 
-# The interface's names; `sensitivity` adds how firm the verdict is.
+# The interface's names; `sensitivity` adds how firm the verdict is, the last two say as data what was judged.
 FIELDS = [
     "id",
     "layer",
@@ -17,6 +17,8 @@ FIELDS = [
     "reason",
     "definition",
     "sensitivity",
+    "measure",
+    "definitions",
 ]
 SLIDE = Sensitivity(
     "low_speed_cutoff", "km/h", 10.0, 60.0, (Stretch(10.0, 40.0, "pass"), Stretch(50.0, 60.0, "fail"))
@@ -34,6 +36,8 @@ def verdict(**changes: object) -> Verdict:
         "upper": None,
     }
     fields |= {"margin": 45.0, "verdict": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
+    cutoff = AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "chosen", 10 / 3.6, 60 / 3.6)
+    fields |= {"measure": "maximum_slide", "definitions": (cutoff,)}
     return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
 
 
@@ -41,6 +45,17 @@ def test_the_json_form_has_the_fields_of_the_interface_and_comes_back() -> None:
     form = verdict().to_dict()
     assert list(form) == FIELDS
     assert Verdict.from_dict(form) == verdict()
+
+
+def test_a_result_of_the_first_version_can_still_be_read() -> None:
+    form = verdict().to_dict()
+    del form["measure"], form["definitions"]
+    assert Verdict.from_dict(form) == verdict(measure="", definitions=())
+
+
+def test_a_definition_is_found_by_its_name() -> None:
+    assert verdict().defined("low_speed_cutoff") == 30 / 3.6
+    assert verdict().defined("first_phase_duration") is None
 
 
 def test_nan_and_infinity_become_null() -> None:

@@ -13,11 +13,12 @@ from uictest.evaluation.result import (
     WheelsetFigures,
     unit_of,
 )
-from uictest.evaluation.verdict import Judgement, Layer, Sensitivity, Stretch, Verdict
+from uictest.evaluation.verdict import AppliedDefinition, Judgement, Layer, Sensitivity, Stretch, Verdict
 
 __all__ = [
     "JUDGED_KEYS",
     "SCHEMA",
+    "AppliedDefinition",
     "CaseResult",
     "Coverage",
     "Expectation",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from uictest.evaluation.applicability import why_not_applicable
@@ -10,14 +11,15 @@ from uictest.evaluation.bounds import Bounds
 from uictest.evaluation.circumstances import Circumstances, circumstances_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, bounds_of, decide
-from uictest.evaluation.meaning import meaning_of
+from uictest.evaluation.meaning import applied_definitions, meaning_of
 from uictest.evaluation.records import StopMeasures, Wheelsets
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
 
 if TYPE_CHECKING:
     from uictest.scenario import Scenario
-    from uictest.scenario.parts.criteria import Criterion
+    from uictest.scenario.parts.criteria import Criteria, Criterion
+    from uictest.scenario.parts.measures import MeasureDefinitions
 
 
 def judge(
@@ -46,22 +48,16 @@ def judge(
     circumstances = circumstances_of(scenario)
     cut_off = why_cut_off(scenario, measures, coverage)
     stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
-    return [
-        _judge(
-            criterion,
-            meaning_of(criterion, profile, scenario.measures) if explain else {},
-            circumstances,
-            stop,
-            explain=explain,
-        )
-        for profile in scenario.criteria
-        for criterion in profile.criteria
-    ]
+    verdicts = []
+    for profile in scenario.criteria:
+        for criterion in profile.criteria:
+            verdict = _judge(criterion, circumstances, stop, explain=explain)
+            verdicts.append(_defined(verdict, criterion, profile, scenario.measures) if explain else verdict)
+    return verdicts
 
 
 def _judge(
     criterion: Criterion,
-    meant: dict[str, str],
     circumstances: Circumstances,
     stop: ObservedStop,
     *,
@@ -70,12 +66,23 @@ def _judge(
     bounds = bounds_of(criterion)
     undecided = _before_judging(criterion, circumstances, stop)
     if undecided is not None:
-        return _verdict(criterion, bounds, undecided, meant)
+        return _verdict(criterion, bounds, undecided)
     stated = criterion.definition.stated()
     decision = decide(criterion, bounds, stated, stop)
     if not explain or decision.verdict == "inconclusive":
-        return _verdict(criterion, bounds, decision, meant)
-    return _verdict(criterion, bounds, decision, meant, *_sensitivities(criterion, bounds, stated, stop))
+        return _verdict(criterion, bounds, decision)
+    return _verdict(criterion, bounds, decision, *_sensitivities(criterion, bounds, stated, stop))
+
+
+def _defined(
+    verdict: Verdict, criterion: Criterion, profile: Criteria, observation: MeasureDefinitions
+) -> Verdict:
+    """Return a verdict with what its criterion was taken to mean."""
+    return replace(
+        verdict,
+        definition=meaning_of(criterion, profile, observation),
+        definitions=applied_definitions(criterion, profile, observation),
+    )
 
 
 def _before_judging(
@@ -105,9 +112,7 @@ def _sensitivities(
         yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
 
 
-def _verdict(
-    criterion: Criterion, bounds: Bounds, decision: Decision, meant: dict[str, str], *moves: Sensitivity
-) -> Verdict:
+def _verdict(criterion: Criterion, bounds: Bounds, decision: Decision, *moves: Sensitivity) -> Verdict:
     return Verdict(
         id=criterion.id,
         layer=criterion.layer,
@@ -118,8 +123,8 @@ def _verdict(
         margin=_margin(decision, bounds),
         verdict=decision.verdict,
         reason=decision.reason,
-        definition=meant,
         sensitivity=moves,
+        measure=criterion.measure,
     )
 
 

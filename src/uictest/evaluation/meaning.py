@@ -1,4 +1,4 @@
-"""What a criterion was taken to mean, in words: printed with its verdict."""
+"""What a criterion was taken to mean, in words and in numbers: part of its verdict."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from uictest.evaluation.decision import bounds_of
 from uictest.evaluation.units import in_unit, text, with_unit
+from uictest.evaluation.verdict import AppliedDefinition
 
 if TYPE_CHECKING:
     from uictest.scenario.parts.criteria import Criteria, Criterion
@@ -31,6 +32,28 @@ def meaning_of(criterion: Criterion, profile: Criteria, observation: MeasureDefi
         quantity = getattr(observation, name)
         meaning[name] = f"{quantity.text} ({_mark(quantity.source, observation.sources)})"
     return meaning
+
+
+def applied_definitions(
+    criterion: Criterion, profile: Criteria, observation: MeasureDefinitions
+) -> tuple[AppliedDefinition, ...]:
+    """Return every definition that a criterion's verdict rests on, as :func:`meaning_of` names them."""
+    own = (
+        AppliedDefinition(
+            name,
+            float(parameter.value),
+            parameter.value.unit,
+            _mark(parameter.source, profile.sources),
+            *map(float, parameter.range),
+        )
+        for name, parameter in criterion.definition.parameters().items()
+    )
+    observed = (
+        AppliedDefinition(name, float(quantity), quantity.unit, _mark(quantity.source, observation.sources))
+        for name in criterion.observed_by
+        for quantity in (getattr(observation, name),)
+    )
+    return (*own, *observed)
 
 
 def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:

@@ -71,12 +71,29 @@ class Sensitivity:
 
 
 @dataclass(frozen=True, slots=True)
+class AppliedDefinition:
+    """A definition as a number: what a verdict, or the measure behind it, was taken to mean.
+
+    `value`, `lowest` and `highest` are in `unit`, an SI unit; without a range the last two are None.
+    `mark` says how far the number can be trusted: stated, published or chosen.
+    """
+
+    name: str
+    value: float
+    unit: str
+    mark: str
+    lowest: float | None = None
+    highest: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
     """One criterion's verdict on one stop.
 
     `value`, `lower`, `upper` and `margin` are in `unit`; None where a bound is not set or there is no value.
     `margin` is the distance to the nearest bound, positive on the good side. For a criterion over wheelsets
-    `value` is the one of the wheelset that decides. `definition` maps each definition used to its text.
+    `value` is the one of the wheelset that decides. `definition` maps each definition used to its text,
+    `measure` and `definitions` hold the name of the measure and the definitions that are numbers.
     """
 
     id: str
@@ -90,6 +107,8 @@ class Verdict:
     reason: str
     definition: dict[str, str] = field(default_factory=dict)
     sensitivity: tuple[Sensitivity, ...] = ()
+    measure: str = ""
+    definitions: tuple[AppliedDefinition, ...] = ()
 
     @property
     def firm(self) -> bool:
@@ -101,7 +120,15 @@ class Verdict:
         form: dict[str, Any] = json_form(asdict(self))
         return {**form, "sensitivity": [sensitivity.to_dict() for sensitivity in self.sensitivity]}
 
+    def defined(self, name: str) -> float | None:
+        """Return the SI value of a definition, None where the verdict has none of this name."""
+        return next((each.value for each in self.definitions if each.name == name), None)
+
     @classmethod
     def from_dict(cls, content: Mapping[str, Any]) -> Verdict:
         """Return the verdict whose `to_dict` is `content`."""
-        return cls(**{**content, "sensitivity": tuple(map(Sensitivity.from_dict, content["sensitivity"]))})
+        parts = {
+            "sensitivity": tuple(map(Sensitivity.from_dict, content["sensitivity"])),
+            "definitions": tuple(AppliedDefinition(**each) for each in content.get("definitions", ())),
+        }
+        return cls(**{**content, **parts})
