@@ -19,8 +19,12 @@ RECORDING = Recording(
 )
 
 
+CYCLE = 0.01
+
+
 def _cases(count: int) -> list[Any]:
-    return [SimpleNamespace(id=f"case-{n}") for n in range(count)]
+    scenario = SimpleNamespace(controller=SimpleNamespace(cycle_time=CYCLE))
+    return [SimpleNamespace(id=f"case-{n}", scenario=scenario) for n in range(count)]
 
 
 def _result(case_id: str, outcome: str = "pass") -> CaseResult:
@@ -58,6 +62,23 @@ def test_of_a_large_batch_the_worst_are_simulated_again(replayed: list[str]) -> 
     assert len(drawing.finish(Campaign(results), jobs=1)) == DRAWN
     assert {f"case-{DRAWN + n}" for n in range(4)} <= set(replayed)
     assert f"case-{DRAWN + 4}" not in replayed
+
+
+def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    intervals = []
+
+    def replay(cases: Sequence[Any], every: float, jobs: int) -> Any:
+        intervals.append(every)
+        return [(case, RECORDING) for case in cases]
+
+    monkeypatch.setattr(campaign, "replay", replay)
+    drawing = Drawing(_cases(1), RecordingWish("all", every=0.1), wanted=True)
+    assert drawing.recording.every == 0.1
+    drawing.take(Examined(_result("case-0"), RECORDING))
+    assert list(drawing.finish(Campaign([_result("case-0")]), jobs=1)) == ["case-0"]
+    assert intervals == [CYCLE]
 
 
 @pytest.mark.parametrize(("wanted", "interrupted"), [(False, False), (True, True)])

@@ -12,12 +12,11 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.evaluation import AppliedDefinition, CaseResult, Verdict
 from uictest.recording import Recording
 from uictest.report import RunContent, Subject
 from uictest.report.page import page_html, sweep_page_html, trace_of
 from uictest.report.sweep.content import SweepContent
-from uictest.scenario.parts.measure_catalogue import MEASURES
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
@@ -85,7 +84,7 @@ def page(
     make_recording: MakeRecording,
 ) -> Path:
     """A run of three cases, one of them missed, all drawn."""
-    distance = make_verdict(definition={"measure": MEASURES["braking_distance"].meaning})
+    distance = make_verdict(measure="braking_distance")
     results = [
         make_result(id="dry-120"),
         make_result(id="slip-120", scenario="scenarios/slip.yaml", outcome="invalid", criteria=(distance,)),
@@ -137,9 +136,71 @@ def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(brows
     assert _wait(browser, _PLOTTED) > 15
     assert _run(browser, "return [...document.querySelectorAll('details.stop[open]')].length") == 1
     assert _run(browser, "return document.querySelectorAll('.loops-plot .scatterlayer .trace').length") >= 9
-    assert _run(browser, "return document.querySelectorAll('.panels-plot .heatmaplayer image').length") == 1
+    assert _drawn_bars(browser, "vent") == 4
     bands = ".loops-plot .layer-below .shapelayer path, .loops-plot .shapelayer path"
     assert _run(browser, f"return document.querySelectorAll('{bands}').length") >= 1
+
+
+def _drawn_bars(browser: Any, kind: str) -> int:
+    """Return how many bars of a kind are painted: each has an edge of its own."""
+    script = """
+      const plot = document.querySelector('details.stop[open] .panels-plot');
+      const trace = plot.calcdata.find(([point]) => point.trace.name === arguments[0])[0].trace;
+      return document.querySelectorAll(`.panels-plot .trace${trace.uid} .js-line`).length;
+    """
+    return int(_run(browser, script, kind))
+
+
+def test_every_vent_is_painted_however_short_and_wherever_one_zooms(
+    browser: Any,
+    tmp_path: Path,
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_recording: MakeRecording,
+) -> None:
+    recording = make_recording(34001)
+    for n in (1, 2, 3, 4):
+        recording[f"valve_command_{n}"][:] = 0.0
+    recording["valve_command_2"][1000:33000:100] = 2.0  # a vent of 1 ms every 0.1 s
+    result = make_result()
+    content = make_content(result, traces={result.id: trace_of(recording)})
+    browser.get(_written(tmp_path, content).as_uri())
+    _wait(browser, _PLOTTED)
+    assert _drawn_bars(browser, "vent") == 320
+    zoom = "return Plotly.relayout(document.querySelector('.panels-plot'), {'xaxis.range': [9.95, 10.35]})"
+    browser.execute_script(zoom)
+    assert _drawn_bars(browser, "vent") >= 4
+
+
+def test_the_criterion_that_failed_is_named_and_drawn_first(
+    browser: Any,
+    tmp_path: Path,
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+) -> None:
+    locked = {"wheel_speed_4": 0.0, "slide_4": 1.0}
+    recording = make_recording()
+    for name, value in locked.items():
+        recording[name][500:900] = value
+    definitions = tuple(
+        AppliedDefinition(name, value, "m/s", "chosen")
+        for name, value in (("locked_speed", 0.1), ("moving_speed", 10 / 3.6))
+    )
+    lock = make_verdict(
+        id="locked-wheels", measure="longest_lock", verdict="fail", value=4.0, unit="s", upper=1.0,
+        lower=None, margin=-3.0, definitions=definitions,
+    )  # fmt: skip
+    result = make_result(outcome="fail", criteria=(make_verdict(measure="braking_distance"), lock))
+    content = make_content(result, traces={result.id: trace_of(recording)})
+    browser.get(_written(tmp_path, content).as_uri())
+    _wait(browser, _PLOTTED)
+    criteria = "return [...document.querySelectorAll('table.criteria tbody th')].map(h => h.firstChild.data)"
+    assert _run(browser, criteria) == ["locked-wheels", "braking-distance"]
+    legend = "return [...document.querySelectorAll('ul.marked li')].map(each => each.innerText)"
+    assert _run(browser, legend)[0] == "fail locked-wheels in Locked wheelsets"
+    assert _drawn_bars(browser, "interval") == 1
 
 
 def test_a_link_from_the_table_opens_its_case(browser: Any, page: Path) -> None:
@@ -174,7 +235,7 @@ def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser: Any,
     _wait(browser, _PLOTTED)
     slider = browser.find_element("css selector", "details[open] .readout input")
     before = slider.get_attribute("aria-valuetext")
-    slider.send_keys("\ue014" * 140)  # arrow right, 7 s
+    slider.send_keys("\ue014" * 200)  # arrow right, 6.8 s
     assert slider.get_attribute("aria-valuetext") != before
     cells = _run(
         browser, "return [...document.querySelectorAll('details[open] .readout td')].map(c => c.innerText)"

@@ -3,7 +3,7 @@
 from uictest.campaign.examination import Examined, RecordingWish, examine
 from uictest.campaign.execution import Campaign, run
 from uictest.campaign.expression import ExpressionError
-from uictest.campaign.replay import replay
+from uictest.campaign.replay import replay, shortest_cycle
 from uictest.campaign.selection import by_expression, by_id, by_tag
 from uictest.campaign.subjects import subject_of, subjects_of
 
@@ -18,6 +18,7 @@ __all__ = [
     "examine",
     "replay",
     "run",
+    "shortest_cycle",
     "subject_of",
     "subjects_of",
 ]

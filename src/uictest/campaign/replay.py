@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
     from uictest.scenario import Case
+
+
+def shortest_cycle(cases: Iterable[Case]) -> float:
+    """Return the shortest controller cycle of cases, s: a recording that fine misses no valve command."""
+    return min((float(case.scenario.controller.cycle_time) for case in cases), default=math.inf)
 
 
 def replay(cases: Sequence[Case], *, every: float, jobs: int) -> Iterator[tuple[Case, Recording]]:

@@ -19,7 +19,8 @@ class Drawing:
     """Collects the traces of a batch.
 
     A batch of few cases is recorded as it runs. Of a large one the cases to draw are only known at its end;
-    they are simulated again, which is cheap beside the batch.
+    they are simulated again, which is cheap beside the batch. So are those of a batch whose recordings are
+    too coarse for the valves: a page shows every command.
     """
 
     cases: Sequence[Case]
@@ -46,7 +47,7 @@ class Drawing:
         if self.wanted and not self._on_the_way and not done.interrupted:
             worst = [result.id for result in worst_first(done.results) if result.outcome != "error"]
             chosen = campaign.by_id(self.cases, frozenset(worst[:DRAWN]))
-            for case, recording in campaign.replay(chosen, every=self.wish.every, jobs=jobs):
+            for case, recording in campaign.replay(chosen, every=self._interval, jobs=jobs):
                 self.traces[case.id] = trace_of(recording)
         return self.traces
 
@@ -54,4 +55,9 @@ class Drawing:
     def _on_the_way(self) -> bool:
         from uictest.report.page import DRAWN
 
-        return self.wanted and len(self.cases) <= DRAWN
+        return self.wanted and len(self.cases) <= DRAWN and self.wish.every <= self._interval
+
+    @property
+    def _interval(self) -> float:
+        """Time between two samples of what is drawn, s."""
+        return min(self.wish.every, campaign.shortest_cycle(self.cases))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -238,7 +238,7 @@ def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
     """
     import shutil
 
-    from uictest.campaign import RecordingWish, subjects_of
+    from uictest.campaign import RecordingWish, shortest_cycle, subjects_of
     from uictest.campaign import run as examine
     from uictest.report import write_recording
     from uictest.report.run_report import RECORDINGS
@@ -251,7 +251,9 @@ def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
         if examined.recording is not None:
             write_recording(folder, examined.result.id, examined.recording)
 
-    campaign = examine(cases, jobs=run.jobs, recording=RecordingWish("all"), on_result=keep)
+    wish = RecordingWish("all")
+    wish = replace(wish, every=min(wish.every, shortest_cycle(cases)))
+    campaign = examine(cases, jobs=run.jobs, recording=wish, on_result=keep)
     if campaign.interrupted:
         raise KeyboardInterrupt
     findings.worst, findings.subjects = campaign.results, subjects_of(cases)

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from uictest.report.escaping import printable
 from uictest.report.page.quantities import Line, Panel
-from uictest.report.page.trace import SAMPLES, Trace
+from uictest.report.page.trace import Trace, curve_of, interval_of
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -34,21 +32,22 @@ class Overlay:
 def overlay_of(
     title: str, first: Recording, second: Recording, names: tuple[str, str], remarkable: Sequence[str]
 ) -> Overlay:
-    """Return the speed and the remarkable channels of both recordings on the times of the first one."""
+    """Return the speed and the remarkable channels of both recordings, each to its own end."""
     channels = [name for name in dict.fromkeys([_SPEED, *remarkable]) if _in_both(name, first, second)]
-    time = first["time"][:: -(-len(first) // SAMPLES)]
-    series = {}
+    curves = {}
     panels = []
     for name in channels[:DRAWN]:
-        series[f"first {name}"] = np.interp(time, first["time"], first[name])
-        series[f"second {name}"] = np.interp(time, second["time"], second[name], right=np.nan)
+        curves[f"first {name}"] = curve_of(first["time"], first[name])
+        curves[f"second {name}"] = curve_of(second["time"], second[name])
         lines = (
             Line(f"first {name}", names[0], "train"),
             Line(f"second {name}", names[1], "wheelset-3", dotted=True),
         )
         shown = printable(name)
         panels.append((Panel(shown, shown, printable(first.units[name]), (name,), include=()), lines))
-    return Overlay(title, Trace(time, series), panels, max(len(channels) - DRAWN, 0))
+    end = max(float(first["time"][-1]), float(second["time"][-1]))
+    trace = Trace(float(first["time"][0]), end, interval_of(first["time"]), curves)
+    return Overlay(title, trace, panels, max(len(channels) - DRAWN, 0))
 
 
 def _in_both(name: str, first: Recording, second: Recording) -> bool:

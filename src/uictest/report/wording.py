@@ -32,6 +32,19 @@ def limits(verdict: Verdict) -> str:
     return "no limit"
 
 
+def value_and_limits(verdict: Verdict) -> str:
+    """Return what a criterion found beside its limits, e.g. `0.3 %, upper limit 0.1 %`."""
+    return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict)}"
+
+
+_MOST_URGENT = ("fail", "inconclusive", "pass", "not_applicable")
+
+
+def failing_first(verdicts: Iterable[Verdict]) -> list[Verdict]:
+    """Return verdicts with the failing ones first, then the inconclusive ones, then those that passed."""
+    return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.verdict))
+
+
 def verdict_sentence(verdict: Verdict) -> str:
     """Return one line that says what a criterion found: verdict and reason, or value, limits and margin."""
     value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
@@ -53,8 +66,8 @@ def explanation(result: CaseResult) -> list[str]:
 
 
 def criterion_sentences(result: CaseResult) -> Iterator[str]:
-    """Yield what each criterion found, and how firmly the verdict stands on its definitions."""
-    for verdict in result.criteria:
+    """Yield what each criterion found, failing ones first, and how firmly it stands on its definitions."""
+    for verdict in failing_first(result.criteria):
         yield verdict_sentence(verdict)
         for sensitivity in verdict.sensitivity:
             yield printable(f"{verdict.id}: {sensitivity}")

@@ -7,13 +7,26 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from uictest.report.page.marks import Mark, marks_of
+import numpy as np
+
+from uictest.report.page.bars import vents
+from uictest.report.page.mark import Mark
+from uictest.report.page.marks import marks_of
 from uictest.report.page.overlay_view import panel_form
 from uictest.report.page.packing import packed
-from uictest.report.page.quantities import LOOPS, PANELS, QUANTITIES, lines_of, panel_lines
+from uictest.report.page.quantities import (
+    LOOPS,
+    PANELS,
+    QUANTITIES,
+    STRIPS,
+    WHEELSETS,
+    loop_lines,
+    panel_lines,
+)
 from uictest.report.page.script_json import script_json
 from uictest.report.page.sketch import Sketch, sketch_of
-from uictest.report.wording import verdict_word
+from uictest.report.page.trace import BINS, Curve
+from uictest.report.wording import failing_first, verdict_word
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult, Verdict
@@ -35,7 +48,10 @@ class Gauge:
 
 @dataclass(frozen=True, slots=True)
 class CaseView:
-    """A drawn case. `key` names its part of the page; `data` is the JSON its plots are drawn from."""
+    """A drawn case. `key` names its part of the page; `data` is the JSON its plots are drawn from.
+
+    `marked` names the plots that each criterion is drawn in, failing ones first; `note` says what lines show.
+    """
 
     key: str
     result: CaseResult
@@ -44,12 +60,13 @@ class CaseView:
     figures: Sequence[Figure]
     sketch: Sketch
     data: str
-    interval: float
+    marked: Sequence[tuple[Verdict, Sequence[str]]]
+    note: str
 
 
 def case_view(key: str, result: CaseResult, subject: Subject, trace: Trace) -> CaseView:
     """Return the view of a case with its plots drawn."""
-    marks = marks_of(result, trace)
+    marks = marks_of(result.criteria, trace)
     return CaseView(
         key,
         result,
@@ -58,8 +75,34 @@ def case_view(key: str, result: CaseResult, subject: Subject, trace: Trace) -> C
         list(figures_of(result)),
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),
-        trace.interval,
+        list(_marked(result, marks)),
+        " ".join(_notes(result, trace)),
     )
+
+
+def _marked(result: CaseResult, marks: Sequence[Mark]) -> Iterator[tuple[Verdict, list[str]]]:
+    titles = {plot.key: plot.title for plot in (*PANELS, *LOOPS)} | STRIPS
+    for verdict in failing_first(result.criteria):
+        plots = dict.fromkeys(mark.plot for mark in marks if mark.criterion == verdict.id)
+        if plots:
+            yield verdict, [titles[plot].partition(":")[0] for plot in plots]
+
+
+def _notes(result: CaseResult, trace: Trace) -> Iterator[str]:
+    every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
+    yield f"Recorded every {every}."
+    if trace.interval * BINS < trace.end - trace.start:
+        yield f"A line shows the smallest and the largest sample of every {part}."
+    if not trace.states:
+        return
+    yield "Valves show every change that was recorded."
+    drawn = sum(len(vents(trace, n)) for n in WHEELSETS)
+    counted = sum(wheelset.valve_actuations for wheelset in result.wheelsets)
+    if drawn < counted:
+        yield (
+            f"The recording holds {drawn} of {counted:.0f} vents: those shorter than {every} can lie between"
+            " two samples."
+        )
 
 
 def figures_of(result: CaseResult) -> Iterator[Figure]:
@@ -102,21 +145,21 @@ def plots_json() -> str:
     """Return what all cases have in common: panels, loops and their lines."""
     panels = [panel_form(panel, panel_lines(panel)) for panel in PANELS]
     loops = [
-        dataclasses.asdict(loop)
-        | {
-            "of_wheelsets": QUANTITIES[loop.across].of_wheelsets,
-            "lines": [dataclasses.asdict(line) for line in lines_of(loop.up)],
-        }
+        dataclasses.asdict(loop) | {"lines": [dataclasses.asdict(line) for _, line in loop_lines(loop)]}
         for loop in LOOPS
     ]
     quantities = {key: dataclasses.asdict(quantity) for key, quantity in QUANTITIES.items()}
-    return script_json({"panels": panels, "loops": loops, "quantities": quantities})
+    return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": STRIPS})
 
 
 def _data(trace: Trace, marks: Sequence[Mark]) -> dict[str, Any]:
+    states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
     return {
-        "time": packed(trace.time),
-        "series": {name: packed(series) for name, series in trace.series.items()},
+        "start": trace.start,
+        "end": trace.end,
+        "over_time": packed({**trace.curves, **states}, trace.interval),
+        "loops": packed(trace.loops),
+        "states": list(states),
         "marks": [dataclasses.asdict(mark) for mark in marks],
     }
 

@@ -30,8 +30,11 @@ def overlay_view(
     """Return the view of panels with the lines they show."""
     drawn = panels_over_time(trace, panels, [])
     data = {
-        "time": packed(trace.time),
-        "series": {name: packed(series) for name, series in trace.series.items()},
+        "start": trace.start,
+        "end": trace.end,
+        "over_time": packed(trace.curves, trace.interval),
+        "loops": packed({}),
+        "states": [],
         "marks": [],
         "panels": [panel_form(panel, lines) for panel, lines in panels],
     }

@@ -9,7 +9,7 @@ from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.ranking import DRAWN, worst_first
 from uictest.report.page.rendering import render
-from uictest.report.wording import counted, explanation, tally, verdict_word
+from uictest.report.wording import counted, explanation, failing_first, tally, verdict_word
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
@@ -32,6 +32,7 @@ def page_html(content: RunContent) -> str:
         plots=plots_json(),
         with_plots=bool(drawn),
         explanation=explanation,
+        failing_first=failing_first,
         figures_of=figures_of,
         gauge_of=gauge_of,
         verdict_word=verdict_word,

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from uictest.report.page.extremes import Samples, extremes
 
 _COLUMN = (
     3.0  # pixels: a drawing is shown larger or smaller than it is written, and lines are wider than this
 )
-
-Samples = NDArray[np.float64]
 
 
 def path_over_time(x: Samples, y: Samples) -> str:
@@ -17,7 +16,7 @@ def path_over_time(x: Samples, y: Samples) -> str:
 
     Of every column only the extremes are kept, in their order, so that no peak is lost.
     """
-    kept = _extremes(np.floor(x / _COLUMN), y)
+    kept = extremes(np.floor(x / _COLUMN), y)
     return path(x[kept], y[kept])
 
 
@@ -47,12 +46,3 @@ def _step(across: int, up: int) -> str:
     if up == 0:
         return f"h{across}"
     return f"v{up}" if across == 0 else f"l{across} {up}"
-
-
-def _extremes(columns: Samples, y: Samples) -> NDArray[np.intp]:
-    """Return the rows of the smallest and the largest y of every column; gaps count as smallest."""
-    starts = np.flatnonzero(np.diff(columns, prepend=columns[0] - 1))
-    column = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(columns)))
-    order = np.lexsort((np.nan_to_num(y, nan=-np.inf), column))
-    lasts = np.append(starts[1:], len(columns)) - 1
-    return np.unique(np.concatenate([order[starts], order[lasts]]))

@@ -65,7 +65,14 @@ PANELS = (
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
 )
-"""Panels over time from top to bottom; the valve states follow below them."""
+"""Panels over time from top to bottom; the strips follow below them."""
+
+STRIPS = {
+    "valves": "WSP valves: hold (faint), vent (strong)",
+    "locked": "Locked wheelsets",
+    "sliding": "Sliding wheelsets",
+}
+"""Strips with a row for each wheelset, from top to bottom, and their titles; one without bars is left out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +136,17 @@ def lines_of(key: str) -> tuple[Line, ...]:
     return tuple(
         Line(f"{key}_{n}", f"{quantity.label} {n}", f"wheelset-{n}", key in _DOTTED) for n in WHEELSETS
     )
+
+
+def names_of(key: str) -> tuple[str, ...]:
+    """Return the channels of a quantity: one, or one per wheelset."""
+    return tuple(f"{key}_{n}" for n in WHEELSETS) if QUANTITIES[key].of_wheelsets else (key,)
+
+
+def loop_lines(loop: Loop) -> list[tuple[str, Line]]:
+    """Return the lines of a loop, each with the channel that it is drawn over."""
+    across = names_of(loop.across)
+    return [(across[k % len(across)], line) for k, line in enumerate(lines_of(loop.up))]
 
 
 def panel_lines(panel: Panel) -> tuple[Line, ...]:

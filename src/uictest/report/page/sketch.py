@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby
-
-import numpy as np
-from numpy.typing import NDArray
 
 from uictest.report.page.axis import Axis, Tick, span
-from uictest.report.page.marks import Mark
+from uictest.report.page.bars import Bar, bars_path, mark_bars, state_bars
+from uictest.report.page.mark import Mark
 from uictest.report.page.polyline import dots, path, path_over_time
 from uictest.report.page.quantities import (
     LOOPS,
     PANELS,
-    QUANTITIES,
+    STRIPS,
     WHEELSETS,
     Line,
     Loop,
     Panel,
-    lines_of,
+    loop_lines,
     panel_lines,
 )
 from uictest.report.page.trace import Trace
@@ -30,7 +27,6 @@ _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below
 _BELOW = 32  # the panels: tick labels and what they count
 _BAND = 15
 _LOOP_WIDTH, _LOOP_HEIGHT = 316, 230
-_STATES = {1: "hold", 2: "vent"}  # fill, the state of every valve without WSP action, is left blank
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +38,19 @@ class Rectangle:
     width: float
     height: float
     kind: str
+    status: str
     label: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A level line of a mark, pixels."""
+    """A level line of a mark, pixels; a point where both ends are the same."""
 
     x1: float
     x2: float
     y: float
     kind: str
+    status: str
     label: str
 
 
@@ -73,6 +71,8 @@ class Drawing:
     paths: Sequence[tuple[Line, str]] = ()
     shaded: Sequence[Rectangle] = ()
     levels: Sequence[Level] = ()
+    bars: Sequence[tuple[str, str]] = ()
+    """Kind of bars and their path."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,19 +95,20 @@ def panels_over_time(
     trace: Trace, panels: Sequence[tuple[Panel, Sequence[Line]]], marks: Sequence[Mark]
 ) -> Sketch:
     """Return panels above each other over one time axis, below them the valve states if there are any."""
-    last = float(trace.time[-1])
-    time = Axis(float(trace.time[0]), last if last > trace.time[0] else last + 1.0, LEFT, RIGHT)
+    time = Axis(trace.start, trace.end if trace.end > trace.start else trace.start + 1.0, LEFT, RIGHT)
     drawings: list[Drawing] = []
     top = 0.0
     for panel, lines in panels:
-        known = [line for line in lines if line.series in trace.series]
+        known = [line for line in lines if line.series in trace.curves]
         if known:
             own = [mark for mark in marks if mark.plot == panel.key]
             drawings.append(_panel(panel, known, trace, time, top, own))
             top = drawings[-1].bottom + _GAP
-    if "valve_command_1" in trace.series:
-        drawings.append(_valves(trace, time, top))
-        top = drawings[-1].bottom + _GAP
+    for key, title in STRIPS.items():
+        bars = mark_bars(marks, key) | (state_bars(trace) if key == "valves" else {})
+        if bars:
+            drawings.append(_strip(key, title, bars, [mark for mark in marks if mark.plot == key], time, top))
+            top = drawings[-1].bottom + _GAP
     return Sketch(top + _BELOW, drawings)
 
 
@@ -116,8 +117,8 @@ def _panel(
 ) -> Drawing:
     upper, lower = top + _TITLE, top + _TITLE + panel.height * _HEIGHT
     levels = [mark.y for mark in marks if mark.y is not None]
-    y = Axis(*span((trace.series[line.series] for line in lines), [*panel.include, *levels]), lower, upper)
-    across = time.pixels(trace.time)
+    curves = [(line, trace.curves[line.series]) for line in lines]
+    y = Axis(*span((curve.y for _, curve in curves), [*panel.include, *levels]), lower, upper)
     return Drawing(
         panel.key,
         panel.title,
@@ -128,48 +129,42 @@ def _panel(
         time.tick_marks(10),
         y.tick_marks(4),
         y_title=panel.unit,
-        paths=[(line, path_over_time(across, y.pixels(trace.series[line.series]))) for line in lines],
+        paths=[(line, path_over_time(time.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
         shaded=list(_shaded(marks, time, upper, lower)),
         levels=list(_levels(marks, time, y)),
     )
 
 
-def _valves(trace: Trace, time: Axis, top: float) -> Drawing:
+def _strip(
+    key: str, title: str, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
+) -> Drawing:
     upper = top + _TITLE
-    ends = np.append(time.pixels(trace.time), time.end)
-    shaded = [
-        Rectangle(ends[first], upper + row * _BAND + 2, ends[last] - ends[first], _BAND - 4, state)
-        for row, n in enumerate(WHEELSETS)
-        if f"valve_command_{n}" in trace.series
-        for first, last, state in _stretches(trace.series[f"valve_command_{n}"])
-    ]
     bottom = upper + len(WHEELSETS) * _BAND
-    y_ticks = [(upper + (row + 0.5) * _BAND, str(n)) for row, n in enumerate(WHEELSETS)]
-    x_ticks = time.tick_marks(10)
-    title = "WSP valves: hold (faint), vent (strong)"
-    return Drawing("valves", title, LEFT, RIGHT, upper, bottom, x_ticks, y_ticks, shaded=shaded)
-
-
-def _stretches(commands: NDArray[np.float64]) -> Iterator[tuple[int, int, str]]:
-    """Yield first row, row after the last, and state of each stretch that is not fill."""
-    row = 0
-    for command, run in groupby(np.rint(commands).tolist()):
-        after = row + sum(1 for _ in run)
-        if command in _STATES:
-            yield row, after, _STATES[int(command)]
-        row = after
+    row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
+    return Drawing(
+        key,
+        title,
+        LEFT,
+        RIGHT,
+        upper,
+        bottom,
+        time.tick_marks(10),
+        [(row.at(n), str(n)) for n in WHEELSETS],
+        bars=[(kind, bars_path(each, time, row)) for kind, each in bars.items()],
+        levels=list(_levels([mark for mark in marks if mark.label], time, row)),
+    )
 
 
 def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
-    pairs = [
-        (up, trace.series[across], trace.series[up.series])
-        for across, up in _pairs(loop)
-        if across in trace.series and up.series in trace.series
+    curves = [
+        (line, trace.loops[name])
+        for _, line in loop_lines(loop)
+        if (name := f"{loop.key} {line.series}") in trace.loops
     ]
     draw = dots if loop.dots else path
     ends = [end for mark in marks for end in (mark.x0, mark.x1) if end is not None]
-    x = Axis(*span((across for _, across, _ in pairs), [*loop.include, *ends]), LEFT, _LOOP_WIDTH - 10)
-    y = Axis(*span((values for _, _, values in pairs), [0.0]), _LOOP_HEIGHT - 34, _TITLE)
+    x = Axis(*span((curve.x for _, curve in curves), [*loop.include, *ends]), LEFT, _LOOP_WIDTH - 10)
+    y = Axis(*span((curve.y for _, curve in curves), [0.0]), _LOOP_HEIGHT - 34, _TITLE)
     return Drawing(
         loop.key,
         loop.title,
@@ -181,29 +176,22 @@ def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
         y.tick_marks(5),
         loop.across_title,
         loop.up_title,
-        [(line, draw(x.pixels(across), y.pixels(values))) for line, across, values in pairs],
+        [(line, draw(x.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
         list(_shaded(marks, x, y.end, y.start)),
     )
 
 
-def _pairs(loop: Loop) -> Iterable[tuple[str, Line]]:
-    across, up = QUANTITIES[loop.across], lines_of(loop.up)
-    return [
-        (f"{loop.across}_{n}" if across.of_wheelsets else loop.across, line) for n, line in enumerate(up, 1)
-    ]
-
-
 def _shaded(marks: Sequence[Mark], x: Axis, upper: float, lower: float) -> Iterator[Rectangle]:
     for mark in marks:
-        if mark.kind in ("window", "band"):
+        if mark.y is None:
             first, last = _ends(mark, x)
-            yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.label)
+            yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.status, mark.label)
 
 
 def _levels(marks: Sequence[Mark], x: Axis, y: Axis) -> Iterator[Level]:
     for mark in marks:
         if mark.y is not None:
-            yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.label)
+            yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.status, mark.label)
 
 
 def _ends(mark: Mark, x: Axis) -> tuple[float, float]:

@@ -20,7 +20,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, explanation, verdict_word
+from uictest.report.wording import counted, explanation, failing_first, verdict_word
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent
@@ -54,6 +54,7 @@ def sweep_page_html(content: SweepContent) -> str:
         circumstances_words=circumstances_words,
         counted=counted,
         explanation=explanation,
+        failing_first=failing_first,
         figure_words=figure_words,
         figures_of=figures_of,
         gauge_of=gauge_of,

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.report.page.quantities import QUANTITIES, WHEELSETS, Quantity
+from uictest.report.page.extremes import thinned
+from uictest.report.page.quantities import LOOPS, QUANTITIES, WHEELSETS, loop_lines, names_of
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
 
-SAMPLES = 800
-"""Samples kept of a channel at most: about one per pixel of the plots."""
+BINS = 800
+"""Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""
+
+LOOP_BINS = 400
+"""Parts of a stop of which a loop shows the extremes of both its quantities; chosen."""
 
 DECELERATION_WINDOW = 0.5
 """s: over how long the deceleration that is drawn is averaged; chosen to show what a passenger feels."""
+
+SLIDE_SPEED = 1.0
+"""m/s: below it no slide is derived, as none is recorded by the rig."""
+
+STATES = ("valve_command",)
+"""Quantities that hold states: every change of them is drawn, at its time."""
+
+UNKNOWN = -1
+"""The state where none was recorded."""
 
 _GRAVITY = 9.80665  # m/s2
 
@@ -26,39 +39,61 @@ Series = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
+class Curve:
+    """The points of a line, as samples: `x` and `y` are equally long; where y is NaN the line has a gap."""
+
+    x: Series
+    y: Series
+
+
+@dataclass(frozen=True, slots=True)
+class States:
+    """A channel of states: `state[k]` holds from `time[k]` (s) to `time[k + 1]`, the last to the end."""
+
+    time: Series
+    state: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
 class Trace:
-    """Series of one stop over time.
+    """What is drawn of one stop.
 
     Args:
-        time: s since the brake command, increasing.
-        series: name -> values in the unit of `quantities.QUANTITIES`; wheelsets have `_1` .. `_4` at the end.
+        start, end: first and last time of the record, s since the brake command.
+        interval: time between two samples of the record, s.
+        curves: name -> line over time (s), in the unit of `quantities.QUANTITIES`; wheelsets have
+            `_1` .. `_4` at the end.
+        states: name -> states over time.
+        loops: key of a loop and name of its upper series, with a blank between -> line.
         sliding_time: when a wheelset first slid, s; None where none did or it is not known.
+        derived: names of the curves that the record does not hold.
 
     """
 
-    time: Series
-    series: Mapping[str, Series]
+    start: float
+    end: float
+    interval: float
+    curves: Mapping[str, Curve]
+    states: Mapping[str, States] = field(default_factory=dict)
+    loops: Mapping[str, Curve] = field(default_factory=dict)
     sliding_time: float | None = None
-
-    @property
-    def interval(self) -> float:
-        """Time between two samples, s (0 for a single sample)."""
-        return float(self.time[1] - self.time[0]) if len(self.time) > 1 else 0.0
+    derived: tuple[str, ...] = ()
 
 
 def trace_of(recording: Recording) -> Trace:
-    """Return what is drawn of a recording; every n-th sample, so that at most `SAMPLES` are left."""
-    kept = slice(None, None, -(-len(recording) // SAMPLES))
-    channels = dict(recording.channels)
-    if "speed" in channels:
-        channels["deceleration"] = deceleration(channels["time"], channels["speed"])
-    series = {
-        name: _shown(channels[name][kept], quantity)
-        for key, quantity in QUANTITIES.items()
-        for name in _names(key, quantity)
-        if name in channels
-    }
-    return Trace(channels["time"][kept], series, _sliding_time(recording.metadata))
+    """Return what is drawn of a recording: the extremes of every signal, every change of a state."""
+    time = recording["time"]
+    series = _in_units(dict(recording.channels) | _derived(recording))
+    return Trace(
+        float(time[0]),
+        float(time[-1]),
+        interval_of(time),
+        {name: curve_of(time, samples) for name, samples in series.items() if not _is_state(name)},
+        {name: _states(time, samples) for name, samples in series.items() if _is_state(name)},
+        dict(_loops(series)),
+        _sliding_time(recording.metadata),
+        tuple(name for name in series if name not in recording.channels),
+    )
 
 
 def deceleration(time: Series, speed: Series) -> Series:
@@ -74,12 +109,63 @@ def deceleration(time: Series, speed: Series) -> Series:
     return np.asarray(change / (after - before) / _GRAVITY, dtype=np.float64)
 
 
-def _names(key: str, quantity: Quantity) -> tuple[str, ...]:
-    return tuple(f"{key}_{n}" for n in WHEELSETS) if quantity.of_wheelsets else (key,)
+def slide(speed: Series, wheel_speed: Series) -> Series:
+    """Return the slide (v - r omega) / v of a wheelset; 0 where the train is no faster than `SLIDE_SPEED`."""
+    runs = speed > SLIDE_SPEED
+    share = (speed - wheel_speed) / np.where(runs, speed, 1.0)
+    return np.where(runs | np.isnan(speed), share, 0.0)
 
 
-def _shown(samples: Series, quantity: Quantity) -> Series:
-    return np.asarray(samples, dtype=np.float64) / quantity.scale
+def _derived(recording: Recording) -> dict[str, Series]:
+    """Return what is drawn though the record does not hold it, SI (the deceleration in g)."""
+    channels = recording.channels
+    if "speed" not in channels:
+        return {}
+    speed = channels["speed"]
+    derived = {"deceleration": deceleration(channels["time"], speed)}
+    for n in WHEELSETS:
+        if f"wheel_speed_{n}" in channels and f"slide_{n}" not in channels:
+            derived[f"slide_{n}"] = slide(speed, channels[f"wheel_speed_{n}"])
+    return derived
+
+
+def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
+    return {
+        name: np.asarray(channels[name], dtype=np.float64) / quantity.scale
+        for key, quantity in QUANTITIES.items()
+        for name in names_of(key)
+        if name in channels
+    }
+
+
+def curve_of(time: Series, samples: Series) -> Curve:
+    """Return the line through the extremes of a signal."""
+    rows = thinned(samples, BINS)
+    return Curve(time[rows], samples[rows])
+
+
+def _is_state(name: str) -> bool:
+    return name.rpartition("_")[0] in STATES
+
+
+def _states(time: Series, samples: Series) -> States:
+    state = np.where(np.isfinite(samples), np.rint(samples), UNKNOWN).astype(np.int64)
+    changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
+    return States(time[changes], state[changes])
+
+
+def _loops(series: Mapping[str, Series]) -> Iterator[tuple[str, Curve]]:
+    for loop in LOOPS:
+        for across, line in loop_lines(loop):
+            if across in series and line.series in series:
+                x, y = series[across], series[line.series]
+                rows = np.union1d(thinned(x, LOOP_BINS), thinned(y, LOOP_BINS))
+                yield f"{loop.key} {line.series}", Curve(x[rows], y[rows])
+
+
+def interval_of(time: Series) -> float:
+    """Return the mean time between two samples, s (0 for a single sample)."""
+    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 0.0
 
 
 def _sliding_time(metadata: Mapping[str, str]) -> float | None:

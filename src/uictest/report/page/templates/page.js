@@ -85,31 +85,46 @@
 
   /* A browser that cannot inflate the plotting script shows the drawings that are there without it. */
   if (!first("#plotly") || !window.DecompressionStream) return;
-  const common = first("#plots") ? json(first("#plots")) : { panels: [], loops: [] };
-  const MISSING = 65535;
+  const common = first("#plots") ? json(first("#plots")) : { panels: [], loops: [], strips: {} };
+  const MISSING = 32767;
   const STATES = ["fill", "hold", "vent"];
+  const [FILL, HOLD, VENT] = [0, 1, 2];
+  const ROWS = [1, 2, 3, 4];
 
-  const unpacked = ({ offset, step, data }) => {
-    const bytes = Uint8Array.from(atob(data), (character) => character.charCodeAt(0));
-    const view = new DataView(bytes.buffer);
-    return Float64Array.from({ length: bytes.length / 2 }, (_, k) => {
-      const number = view.getUint16(2 * k, true);
-      return number === MISSING ? NaN : offset + step * number;
+  const bytesOf = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const inflated = (text) =>
+    new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate")));
+
+  /* Lines as `packing.py` writes them: differences of numbers, all low bytes before all high ones. */
+  const unpacked = async ({ lines, data }) => {
+    const bytes = new Uint8Array(await inflated(data).arrayBuffer());
+    const half = bytes.length / 2;
+    let at = 0;
+    const numbers = (count) => {
+      let sum = 0;
+      return Array.from({ length: count }, () => {
+        sum += ((bytes[at] | (bytes[at + half] << 8)) << 16) >> 16;
+        at += 1;
+        return sum;
+      });
+    };
+    const curves = Object.entries(lines).map(([name, { count, x, y }]) => {
+      const across = Float64Array.from(numbers(count), (number) => x[0] + x[1] * number);
+      const up = Float64Array.from(numbers(count), (number) => (number === MISSING ? NaN : y[0] + y[1] * number));
+      return [name, { x: across, y: up }];
     });
+    return Object.fromEntries(curves);
   };
 
-  const stopOf = (element) => {
-    const { time, series, marks, panels = common.panels } = json(element);
-    const known = Object.entries(series).map(([name, packed]) => [name, unpacked(packed)]);
-    return { time: unpacked(time), series: Object.fromEntries(known), marks, panels };
+  const stopOf = async (element) => {
+    const { over_time, loops, panels = common.panels, ...rest } = json(element);
+    return { ...rest, panels, curves: await unpacked(over_time), loops: await unpacked(loops) };
   };
 
   /* The script is only inflated and run once a plot is looked at: until then it is text that costs nothing. */
   const run = async (deflated) => {
-    const bytes = Uint8Array.from(atob(deflated), (character) => character.charCodeAt(0));
     const script = document.createElement("script");
-    const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    script.textContent = await new Response(inflated).text();
+    script.textContent = await inflated(deflated).text();
     document.head.append(script);
     return window.Plotly;
   };
@@ -154,82 +169,124 @@
     font: { size: 12, color: colour("ink") },
   });
 
+  const MARK_COLOURS = { pass: "good", fail: "bad", inconclusive: "odd" };
+  const inkOf = (mark) => colour(MARK_COLOURS[mark.status]);
+
   const shapeOf = (mark, xref, yref) => {
     const x0 = mark.x0 ?? 0;
     const x1 = mark.x1 ?? 1;
     const across = mark.x0 === null && mark.x1 === null ? `${xref} domain` : xref;
+    const upright = { xref: across, yref: `${yref} domain`, x0, x1, y0: 0, y1: 1 };
+    if (mark.kind === "instant") return { type: "line", ...upright, line: { color: inkOf(mark), width: 2 } };
     if (mark.y === null)
-      return { type: "rect", layer: "below", xref: across, yref: `${yref} domain`, x0, x1, y0: 0, y1: 1,
-               fillcolor: colour("window"), opacity: 0.75, line: { width: 0 } };
+      return { type: "rect", layer: "below", ...upright, opacity: 0.75, line: { width: 0 },
+               fillcolor: colour(mark.kind === "window" && mark.status === "fail" ? "bad-wash" : "window") };
     return { type: "line", xref: across, yref, x0, x1, y0: mark.y, y1: mark.y,
-             line: { color: colour("limit"), width: mark.kind === "found" ? 2.6 : 1.5,
+             line: { color: inkOf(mark), width: mark.kind === "found" ? 2.6 : 1.5,
                      dash: mark.kind === "found" ? "solid" : "dash" } };
   };
 
-  const labelOf = (mark, xref, yref) => ({
-    text: plain(mark.label),
-    xref: mark.x1 === null ? `${xref} domain` : xref,
-    x: mark.x1 ?? 1,
-    xanchor: mark.x1 === null || mark.kind === "band" ? "right" : "left",
-    yref: mark.y === null ? `${yref} domain` : yref,
-    y: mark.y ?? (mark.kind === "band" ? 0.98 : 0.02),
-    yanchor: mark.kind === "band" ? "top" : mark.y === null || mark.x1 === null ? "bottom" : "middle",
-    showarrow: false,
-    bgcolor: mark.y === null ? "rgba(0,0,0,0)" : colour("paper"),
-    borderpad: 1,
-    font: { size: 11, color: colour("limit") },
+  /* A label stands behind its mark, else before it, and inside where there is room on neither side. */
+  const labelOf = (mark, xref, yref, share) => {
+    const end = mark.x1 === null ? 1 : share(mark.x1);
+    const behind = mark.kind !== "band" && end < 0.75;
+    const before = mark.kind !== "band" && !behind && share(mark.x0 ?? -Infinity) > 0.3;
+    return {
+      text: plain(mark.label),
+      xref: mark.x1 === null ? `${xref} domain` : xref,
+      x: before ? mark.x0 : mark.x1 ?? 1,
+      xanchor: behind ? "left" : "right",
+      xshift: behind ? 5 : -5,
+      yref: mark.y === null ? `${yref} domain` : yref,
+      y: mark.y ?? (mark.kind === "window" ? 0.02 : 0.98),
+      yanchor: mark.y === null ? (mark.kind === "window" ? "bottom" : "top")
+        : behind || before || mark.kind === "interval" ? "middle" : "bottom",
+      showarrow: false,
+      bgcolor: mark.y === null ? "rgba(0,0,0,0)" : colour("paper"),
+      borderpad: 1,
+      font: { size: 11, color: inkOf(mark) },
+    };
+  };
+
+  const place = (mark, xaxis, yaxis) => ({
+    type: "scatter", mode: "markers", x: [mark.x0], y: [mark.y], xaxis, yaxis, hoverinfo: "none", name: mark.criterion,
+    marker: { symbol: "circle-open", size: 10, color: inkOf(mark), line: { width: 2 } },
   });
 
-  /* Panels above each other share one time axis; a gap of 24 pixels holds the title of the next. */
+  const addMark = (mark, traces, layout, x, y, share) => {
+    if (mark.kind === "point") traces.push(place(mark, x, y));
+    else if (mark.kind !== "interval") layout.shapes.push(shapeOf(mark, x, y));
+    if (mark.label) layout.annotations.push(labelOf(mark, x, y, share));
+  };
+
+  /* Bars as one filled line with gaps: a shape each would take seconds. Its edge keeps the shortest in sight. */
+  const bars = (kind, spans, fill, yaxis) => ({
+    type: "scatter", mode: "lines", fill: "toself", fillcolor: fill, line: { color: fill, width: 1, simplify: false },
+    x: spans.flatMap(([from, to]) => [from, to, to, from, from, null]),
+    y: spans.flatMap(([, , row]) => [row - 0.36, row - 0.36, row + 0.36, row + 0.36, row - 0.36, null]),
+    xaxis: "x", yaxis, hoverinfo: "skip", name: kind,
+  });
+
+  const spansOf = (stop, wanted) =>
+    ROWS.flatMap((n) => {
+      const { x, y } = stop.curves[`valve_command_${n}`] ?? { x: [], y: [] };
+      return Array.from(x, (from, k) => [from, x[k + 1] ?? stop.end, n, Math.round(y[k])]);
+    }).filter(([from, , , state]) => state === wanted && (state !== FILL || from > stop.start));
+
+  const stripBars = (stop, key, yaxis) => {
+    const states = [["hold", HOLD, "hold"], ["fill", FILL, "paper"], ["vent", VENT, "vent"]];
+    const valves = key === "valves" ? states.map(([kind, state, ink]) => bars(kind, spansOf(stop, state), colour(ink), yaxis)) : [];
+    const marked = stop.marks.filter((mark) => mark.plot === key && mark.kind === "interval");
+    const kinds = [...new Set(marked.map((mark) => mark.status))];
+    const intervals = kinds.map((status) => {
+      const own = marked.filter((mark) => mark.status === status);
+      return bars("interval", own.map((mark) => [mark.x0, mark.x1, mark.y]), inkOf({ status }), yaxis);
+    });
+    return [...valves, ...intervals].filter((each) => each.x.length);
+  };
+
+  /* Panels above each other share one time axis; a gap of 26 pixels holds the title of the next. */
   const panelsFigure = (stop) => {
-    const panels = stop.panels.filter((panel) => panel.lines.some((each) => each.series in stop.series));
-    const valves = [1, 2, 3, 4].map((n) => stop.series[`valve_command_${n}`]);
-    const heights = panels.map((panel) => 112 * panel.height);
-    if (valves[0]) heights.push(72);
+    const panels = stop.panels.filter((panel) => panel.lines.some((each) => each.series in stop.curves));
+    const strips = Object.entries(common.strips).filter(([key]) => stripBars(stop, key, "y").length);
+    const heights = [...panels.map((panel) => 112 * panel.height), ...strips.map(() => 72)];
     const gap = 26;
     const total = heights.reduce((sum, height) => sum + height + gap, 0);
-    const last = stop.time[stop.time.length - 1];
+    const share = (time) => (time - stop.start) / (stop.end - stop.start || 1);
     /* An open end of a mark is the end of the record, so that zooming keeps it in its place. */
     const marks = stop.marks.map((mark) =>
       mark.y !== null && (mark.x0 === null) !== (mark.x1 === null)
-        ? { ...mark, x0: mark.x0 ?? stop.time[0], x1: mark.x1 ?? last }
+        ? { ...mark, x0: mark.x0 ?? stop.start, x1: mark.x1 ?? stop.end }
         : mark,
     );
     const traces = [];
     const layout = { shapes: [], annotations: [] };
     let top = 1;
-    const place = (height) => {
+    const domainOf = (height) => {
       const upper = top - gap / total;
       top = upper - height / total;
       return [Math.max(top, 0), upper];
     };
+    const addPlot = (k, key, title, yaxis) => {
+      const y = k ? `y${k + 1}` : "y";
+      layout[`yaxis${k ? k + 1 : ""}`] = axis({ domain: domainOf(heights[k]), ...yaxis });
+      layout.annotations.push(heading(title, "x domain", `${y} domain`));
+      for (const mark of marks.filter((mark) => mark.plot === key)) addMark(mark, traces, layout, "x", y, share);
+      return y;
+    };
     panels.forEach((panel, k) => {
       const y = k ? `y${k + 1}` : "y";
-      layout[`yaxis${k ? k + 1 : ""}`] = axis({
-        domain: place(heights[k]), nticks: 5, autorangeoptions: { include: panel.include },
-      });
       for (const each of panel.lines)
-        if (each.series in stop.series)
-          traces.push(line(each, { x: stop.time, y: stop.series[each.series], xaxis: "x", yaxis: y }));
-      layout.annotations.push(heading(`${panel.title}, ${panel.unit}`, "x domain", `${y} domain`));
-      for (const mark of marks.filter((mark) => mark.plot === panel.key)) {
-        layout.shapes.push(shapeOf(mark, "x", y));
-        if (mark.label) layout.annotations.push(labelOf(mark, "x", y));
-      }
+        if (each.series in stop.curves) traces.push(line(each, { ...stop.curves[each.series], xaxis: "x", yaxis: y }));
+      addPlot(k, panel.key, `${panel.title}, ${panel.unit}`, { nticks: 5, autorangeoptions: { include: panel.include } });
     });
-    if (valves[0]) {
-      const k = panels.length + 1;
-      layout[`yaxis${k}`] = axis({ domain: place(72), fixedrange: true, tickvals: [1, 2, 3, 4], autorange: "reversed" });
-      layout.annotations.push(heading("WSP valves: hold (faint), vent (strong)", "x domain", `y${k} domain`));
-      const [hold, vent] = [colour("hold"), colour("vent")];
-      traces.push({
-        type: "heatmap", x: stop.time, y: [1, 2, 3, 4], z: valves.map((valve) => Array.from(valve, Math.round)),
-        xaxis: "x", yaxis: `y${k}`, zmin: 0, zmax: 2, showscale: false, ygap: 4, hoverinfo: "none", name: "valves",
-        colorscale: [[0, "rgba(0,0,0,0)"], [0.33, "rgba(0,0,0,0)"], [0.34, hold], [0.66, hold], [0.67, vent], [1, vent]],
-      });
-    }
+    strips.forEach(([key, title], n) => {
+      const y = `y${panels.length + n + 1}`;
+      traces.push(...stripBars(stop, key, y));
+      addPlot(panels.length + n, key, title, { fixedrange: true, tickvals: ROWS, range: [4.5, 0.5], showgrid: false });
+    });
     layout.xaxis = axis({
-      anchor: valves[0] ? `y${panels.length + 1}` : `y${panels.length}`, range: [stop.time[0], last],
+      anchor: `y${heights.length > 1 ? heights.length : ""}`, range: [stop.start, stop.end],
       title: { text: "time since the brake command, s", font: { size: 11, color: colour("quiet") }, standoff: 6 },
       showspikes: true, spikemode: "across", spikesnap: "cursor", spikethickness: 1, spikedash: "solid",
       spikecolor: colour("quiet"),
@@ -248,18 +305,15 @@
     const layout = { shapes: [], annotations: [], grid };
     common.loops.forEach((loop, k) => {
       const tail = k ? k + 1 : "";
-      loop.lines.forEach((each, n) => {
-        const across = loop.of_wheelsets ? `${loop.across}_${n + 1}` : loop.across;
-        if (across in stop.series && each.series in stop.series)
-          traces.push(line(each, { x: stop.series[across], y: stop.series[each.series], opacity: 0.75, ...dots(loop, each), xaxis: `x${tail}`, yaxis: `y${tail}` }));
-      });
+      for (const each of loop.lines) {
+        const curve = stop.loops[`${loop.key} ${each.series}`];
+        if (curve) traces.push(line(each, { ...curve, opacity: 0.75, ...dots(loop, each), xaxis: `x${tail}`, yaxis: `y${tail}` }));
+      }
       layout[`xaxis${tail}`] = axis({ nticks: 6, autorangeoptions: { include: loop.include }, title: { text: loop.across_title, font: { size: 11 }, standoff: 4 } });
       layout[`yaxis${tail}`] = axis({ nticks: 6, title: { text: loop.up_title, font: { size: 11 }, standoff: 4 }, automargin: true });
       layout.annotations.push(heading(loop.title, `x${tail} domain`, `y${tail} domain`));
-      for (const mark of stop.marks.filter((mark) => mark.plot === loop.key)) {
-        layout.shapes.push(shapeOf(mark, `x${tail}`, `y${tail}`));
-        layout.annotations.push(labelOf(mark, `x${tail}`, `y${tail}`));
-      }
+      for (const mark of stop.marks.filter((mark) => mark.plot === loop.key))
+        addMark(mark, traces, layout, `x${tail}`, `y${tail}`, () => 1);
     });
     return { traces, layout: frame({ ...layout, height: stacked ? 270 * count : 300, hovermode: false, margin: { l: 52, r: 8, t: 24, b: 44 } }) };
   };
@@ -302,52 +356,65 @@
     const build = (label, read) => {
       const row = body.insertRow();
       cell(row, "th", label).scope = "row";
-      for (const n of [1, 2, 3, 4]) cells.push([cell(row, "td", ""), (k) => read(n, k)]);
+      for (const n of ROWS) cells.push([cell(row, "td", ""), (time) => read(n, time)]);
     };
+    const { curves } = stop;
     for (const [name, label, decimals] of WHEELSET_ROWS)
-      if (`${name}_1` in stop.series) build(label, (n, k) => text(stop.series[`${name}_${n}`]?.[k], decimals));
-    if ("valve_command_1" in stop.series)
-      build("valve", (n, k) => STATES[Math.round(stop.series[`valve_command_${n}`]?.[k])] ?? "–");
+      if (`${name}_1` in curves) build(label, (n, time) => text(valueAt(curves[`${name}_${n}`], time), decimals));
+    if ("valve_command_1" in curves)
+      build("valve", (n, time) => STATES[Math.round(stateAt(curves[`valve_command_${n}`], time))] ?? "–");
     for (const [name, label, decimals] of TRAIN_ROWS)
-      if (name in stop.series) {
+      if (name in curves) {
         const row = document.createElement("div");
         train.append(row);
         cell(row, "dt", label);
-        cells.push([cell(row, "dd", ""), (k) => text(stop.series[name][k], decimals)]);
+        cells.push([cell(row, "dd", ""), (time) => text(valueAt(curves[name], time), decimals)]);
       }
 
-    let at = 0;
+    let at = stop.start;
     const put = () => {
       const { _size: size, xaxis } = panels._fullLayout;
-      const x = xaxis.l2p(stop.time[at]);
+      const x = xaxis.l2p(at);
       mark.hidden = x < 0 || x > xaxis._length;
       mark.style.cssText = `left:${xaxis._offset + x}px;top:${size.t}px;height:${size.h}px`;
     };
-    const show = (k) => {
-      at = Math.max(0, Math.min(k, stop.time.length - 1));
-      slider.value = at;
-      slider.setAttribute("aria-valuetext", `${text(stop.time[at], 2)} seconds`);
-      output.textContent = `${text(stop.time[at], 2)} s`;
+    const show = (time) => {
+      at = Math.max(stop.start, Math.min(time, stop.end));
+      slider.value = (slider.max * (at - stop.start)) / (stop.end - stop.start || 1);
+      slider.setAttribute("aria-valuetext", `${text(at, 2)} seconds`);
+      output.textContent = `${text(at, 2)} s`;
       for (const [element, read] of cells) element.textContent = read(at);
       put();
     };
-    slider.max = stop.time.length - 1;
-    slider.addEventListener("input", () => show(Number(slider.value)));
-    panels.on("plotly_hover", ({ xvals }) => show(nearest(stop.time, xvals[0])));
+    slider.addEventListener("input", () =>
+      show(stop.start + (slider.value / slider.max) * (stop.end - stop.start)));
+    panels.on("plotly_hover", ({ xvals }) => show(xvals[0]));
     panels.on("plotly_afterplot", put);
-    const start = stop.marks.find((mark) => mark.kind === "window");
-    show(start ? nearest(stop.time, start.x0) : 0);
+    const start = stop.marks.find((mark) => mark.plot !== "over-distance" && mark.x0 !== null);
+    show(start ? start.x0 : stop.start);
   };
 
-  const nearest = (time, wanted) => {
+  /* The row of the last x that is not behind a time. */
+  const rowAt = (x, time) => {
     let low = 0;
-    let high = time.length - 1;
+    let high = x.length;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
-      if (time[middle] < wanted) low = middle;
+      if (x[middle] <= time) low = middle;
       else high = middle;
     }
-    return wanted - time[low] < time[high] - wanted ? low : high;
+    return low;
+  };
+
+  const stateAt = (curve, time) => (curve ? curve.y[rowAt(curve.x, time)] : NaN);
+
+  /* The height of a line as it is drawn; to its end it stays at its last point. */
+  const valueAt = (curve, time) => {
+    if (!curve) return NaN;
+    const { x, y } = curve;
+    const k = rowAt(x, time);
+    if (k + 1 >= x.length || time <= x[k]) return y[k];
+    return y[k] + ((time - x[k]) / (x[k + 1] - x[k])) * (y[k + 1] - y[k]);
   };
 
   const toggleRoles = (Plotly, plots, figures) => {
@@ -366,7 +433,7 @@
     if (plots.dataset.drawn) return;
     plots.dataset.drawn = "yes";
     const Plotly = await plotly();
-    const stop = stopOf(first(`script.trace[data-case="${plots.dataset.case}"]`));
+    const stop = await stopOf(first(`script.trace[data-case="${plots.dataset.case}"]`));
     const panels = first(".panels-plot", plots);
     const loops = first(".loops-plot", plots);
     const figures = [[panels, panelsFigure], [loops, loopsFigure]].filter(([element]) => element);
