@@ -51,6 +51,29 @@ def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path)
     assert case["wheelsets"][0]["valve_actuations"] is None
 
 
+def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_recorded(
+    call: Call, workplace: Path
+) -> None:
+    time = _recording()["time"]
+    slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * _recording()["speed"]
+    writer_of("csv")(_recording(wheel_speed_2=slid), workplace / "slid.csv")
+    stated = (*STATED[2:-1], "uictest-slide.yaml", "--rail", "wet")
+    (workplace / "uictest-slide.yaml").write_text(
+        "schema: uictest/criteria/1\nname: slide\ncriteria:\n"
+        "  - {id: adhesion, layer: validity, measure: initial_adhesion, upper: 0.2 g,"
+        " definition: {first_phase_duration: {value: 2 s, range: [1 s, 3 s]}}}\n"
+    )
+    answer = call("evaluate", "slid.csv", *stated, "--record", "all")
+    assert answer.code == 0
+    call("report", "reports/latest", "--format", "html", "-o", "again")
+    for page in (Path("reports/latest/index.html"), Path("again/index.html")):
+        html = page.read_text()
+        assert "first phase, 2 s" in html
+        assert "limit 0.2 g" in html
+        assert "Recorded stop" in html
+        assert "one-caliper" not in html
+
+
 def test_a_scenario_states_everything(call: Call, stop: Path, scenario: Callable[..., Path]) -> None:
     path = scenario("a", "rail: {condition: wet}\n")
     assert call("evaluate", stop, "--scenario", path).code == 0

@@ -2,13 +2,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from uictest.evaluation import evaluate
-from uictest.measured import judge_stop, load_map, prepare, select, stated_case
+from uictest.measured import judge_recording, judge_stop, load_map, prepare, select, stated_case
 from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
 from uictest.recording.formats.reader import read_here
 from uictest.rig import Stop
@@ -95,6 +96,27 @@ def test_a_sound_record_of_a_good_stop_passes_by_our_own_criteria(
     chosen = {name: each for name, each in channels.items() if re.fullmatch(pattern[kept], name)}
     case = stated_case("good", 40.0 / 3.6, OURS)
     assert judge_stop(case, prepared(chosen)).outcome == "pass"
+
+
+def test_the_recording_of_a_judged_stop_says_when_a_wheelset_first_slid(
+    case: Case, simulated: Callable[[float], Stop], channels: Any, prepared: Any
+) -> None:
+    wanted = simulated(100.0).measures.sliding_time
+    _, recording = judge_recording(case, prepared(channels))
+    assert float(recording.metadata["sliding_time"]) == pytest.approx(wanted)
+    assert recording.metadata["brake_command_time"] == "0 s"
+
+
+def test_a_record_that_begins_late_says_neither_when_the_command_was_given_nor_what_slid_first(
+    case: Case, channels: Any, prepared: Any
+) -> None:
+    late = {
+        name: replace(each, time=each.time[200:], samples=each.samples[200:])
+        for name, each in channels.items()
+    }
+    stop = prepared(late, trigger_time="1 s")
+    assert stop.trigger.late
+    assert dict(judge_recording(case, stop)[1].metadata) == {"case": case.id}
 
 
 def test_the_preparation_stands_in_every_verdict(case: Case, channels: Any, prepared: Any) -> None:

@@ -7,7 +7,7 @@ import pytest
 from markdown_it import MarkdownIt
 
 from uictest.evaluation import CaseResult
-from uictest.report import RunContent, append_step_summary
+from uictest.report import RunContent, Subject, append_step_summary
 from uictest.report.markdown import markdown_summary
 from uictest.report.step_summary import LIMIT
 
@@ -32,6 +32,16 @@ def test_the_summary_is_one_table_with_cases_not_met_first(
     assert lines[4].startswith("| **MISSED** | `b[x]` | fail | 465.2 |")
     assert "locked" in lines[4]
     assert lines[5].startswith("| met | `dry-120[command=90]` | pass | 465.2 | 27.5 | 1.195 | – |")  # noqa: RUF001
+
+
+def test_a_recorded_stop_is_told_from_a_simulated_one(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    subjects = {"b": Subject(recorded={"file": "b.csv"})}
+    text = markdown_summary(make_content(make_result(id="a"), make_result(id="b"), subjects=subjects))
+    simulated, recorded = text.splitlines()[-2:]
+    assert "| pass (recorded stop) |" in recorded
+    assert "recorded" not in simulated
 
 
 def test_ten_thousand_cases_stay_within_the_limit_and_say_what_is_missing(

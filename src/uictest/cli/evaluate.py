@@ -100,22 +100,24 @@ def evaluate(
     statements = [*(f"{key}={text}" for key, text in given.items() if text is not None), *(overrides or ())]
     stated = _stated(scenario, expression, statements)
 
-    from uictest.campaign import subjects_of
+    from uictest.campaign import RecordingWish
     from uictest.cli.display import chosen_display
-    from uictest.cli.measured_batch import judge_all, publish, read_all, tell, traces_of
+    from uictest.cli.measured_batch import judge_all, publish, read_all, subjects_of, tell, traces_of
     from uictest.report import manifest, tally
 
     recordings = read_all(files, mapped)
     cases = [_checked(lambda m=measured: m.case(stated, inputs)) for measured in recordings]  # type: ignore[misc]
     read = {name: digest for case in cases for name, digest in case.inputs.items()}
+    examined = judge_all(recordings, cases)
     done, place = publish(
-        judge_all(recordings, cases, recorded),
+        examined,
+        RecordingWish(recorded.value),
         manifest(context.obj.arguments, None, read, len(cases)),
         output,
         junit,
         chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0),
-        subjects_of(cases),
-        traces_of(recordings, cases),
+        subjects_of(recordings, cases),
+        traces_of(examined),
     )
     if not quiet:
         tell(recordings)

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from uictest import report
-from uictest.campaign import Campaign, Examined
+from uictest.campaign import Campaign, Examined, RecordingWish
 from uictest.cli.display import Display
-from uictest.cli.options import Recorded
 from uictest.cli.recordings import each_file, names_of
 from uictest.cli.streams import message
 
@@ -63,31 +62,39 @@ def read_all(files: Sequence[Path], channel_map: ChannelMap) -> list[Measured]:
     return [replace(each, name=name) for each, name in zip(read_ones, names_of(files), strict=True)]
 
 
-def judge_all(recordings: Sequence[Measured], cases: Sequence[Case], wish: Recorded) -> list[Examined]:
-    """Judge every stop, and keep the samples it was judged by where they are wanted."""
-    from uictest.measured import judge_stop, unusable_result
+def judge_all(recordings: Sequence[Measured], cases: Sequence[Case]) -> list[Examined]:
+    """Judge every stop; the samples it was judged by come with its result."""
+    from uictest.measured import judge_recording, unusable_result
 
     examined = []
     for measured, case in zip(recordings, cases, strict=True):
         if measured.stop is None:
             examined.append(Examined(unusable_result(case, measured.defects)))
             continue
-        result = judge_stop(case, measured.stop)
-        kept = wish is Recorded.ALL or (wish is Recorded.FAILED and not result.met)
-        examined.append(Examined(result, measured.stop.recording if kept else None))
+        examined.append(Examined(*judge_recording(case, measured.stop)))
     return examined
 
 
-def traces_of(recordings: Sequence[Measured], cases: Sequence[Case]) -> dict[str, Trace]:
+def subjects_of(recordings: Sequence[Measured], cases: Sequence[Case]) -> dict[str, report.Subject]:
+    """Return what the stops are about, by the id of the case each is judged as."""
+    from uictest.measured import recorded_subject
+
+    return {
+        case.id: recorded_subject(case, measured.stop)
+        for measured, case in zip(recordings, cases, strict=True)
+    }
+
+
+def traces_of(examined: Sequence[Examined]) -> dict[str, Trace]:
     """Return what there is to draw of the recordings, by the id of the case each is judged as."""
     from uictest.report.page import trace_of
 
-    stops = [(case.id, measured.stop) for measured, case in zip(recordings, cases, strict=True)]
-    return {case_id: trace_of(stop.recording) for case_id, stop in stops if stop is not None}
+    return {each.result.id: trace_of(each.recording) for each in examined if each.recording is not None}
 
 
 def publish(
     examined: Sequence[Examined],
+    wish: RecordingWish,
     manifest: dict[str, Any],
     output: Path,
     junit: Path | None,
@@ -97,14 +104,15 @@ def publish(
 ) -> tuple[Campaign, Path]:
     """Write the reports of a run of recordings; return its results and where they are. Raises OSError.
 
-    `subjects` says what the cases are about and `traces` what the page draws of them, by id.
+    `wish` says whose samples are kept, `subjects` what the cases are about and `traces` what the page draws
+    of them, by id.
     """
     from uictest.recording import write_text_atomic
 
     results = [each.result for each in examined]
     with report.RunFolder(output, report.run_name(datetime.now(UTC), manifest)) as folder:
         for each in examined:
-            if each.recording is not None:
+            if each.recording is not None and wish.wants(each.result):
                 report.write_recording(folder.path, each.result.id, each.recording)
         document = report.write_reports(folder.path, results, manifest, complete=True, subjects=subjects)
         content = report.RunContent(folder.name, results, manifest, True, subjects, traces)

@@ -8,11 +8,12 @@ from uictest.measured.channel_map import ChannelMap, load_map, presets
 from uictest.measured.circumstances import FACTS, stated_case
 from uictest.measured.defect import Defect
 from uictest.measured.file import digest_of, stop_in
-from uictest.measured.judgement import judge_stop, unusable_result
+from uictest.measured.judgement import judge_recording, judge_stop, unusable_result
 from uictest.measured.preparation import Preparation
 from uictest.measured.prepare import MeasuredStop, UnusableError, prepare
 from uictest.measured.proposal import fitting_preset, listing, proposed_map
 from uictest.measured.raw import MapError, RawChannel, select
+from uictest.measured.subject import recorded_subject
 
 __all__ = [
     "FACTS",
@@ -25,12 +26,14 @@ __all__ = [
     "UnusableError",
     "digest_of",
     "fitting_preset",
+    "judge_recording",
     "judge_stop",
     "listing",
     "load_map",
     "prepare",
     "presets",
     "proposed_map",
+    "recorded_subject",
     "select",
     "stated_case",
     "stop_in",

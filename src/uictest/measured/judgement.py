@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from uictest.evaluation import CaseResult, error_result, evaluate
 from uictest.measured.defect import Defect
-from uictest.measured.observation import observe
+from uictest.measured.observation import Observed, observe
 from uictest.measured.prepare import MeasuredStop
+from uictest.recording import BRAKE_COMMAND_TIME, Recording
 
 if TYPE_CHECKING:
     from uictest.scenario import Case
 
 
 def judge_stop(case: Case, stop: MeasuredStop) -> CaseResult:
-    """Return the result of a recorded stop under the circumstances and criteria of a case.
+    """Return the result of a recorded stop under the circumstances and criteria of a case."""
+    result, _ = judge_recording(case, stop)
+    return result
+
+
+def judge_recording(case: Case, stop: MeasuredStop) -> tuple[CaseResult, Recording]:
+    """Return the result of a recorded stop, and its recording with the facts that a simulated one states.
 
     How the record was prepared, and what was found wrong with it, stand in the definition of every verdict.
     """
     observed = observe(stop, case.scenario.measures)
     result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
     told = {**stop.choices, **_defects(stop.defects)}
-    return replace(
+    result = replace(
         result, criteria=tuple(replace(v, definition={**v.definition, **told}) for v in result.criteria)
     )
+    return result, replace(stop.recording, metadata=dict(_facts(case, stop, observed)))
+
+
+def _facts(case: Case, stop: MeasuredStop, observed: Observed) -> Iterator[tuple[str, str]]:
+    yield "case", case.id
+    if not stop.trigger.late:
+        yield BRAKE_COMMAND_TIME, "0 s"
+    known = "initial_adhesion" not in observed.coverage.missing
+    if known and math.isfinite(observed.measures.sliding_time):
+        yield "sliding_time", f"{observed.measures.sliding_time:.6g}"
 
 
 def unusable_result(case: Case, defects: tuple[Defect, ...]) -> CaseResult:

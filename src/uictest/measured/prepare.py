@@ -78,7 +78,11 @@ def prepare(
     defects += _unlike_a_stop(sound, trigger, end)
     defects += _cut_off(speed, trigger, rest)
     stop = _on_raster(sound, trigger, rest, raster, tuple(defects), wanted)
-    return replace(stop, choices={**stop.choices, "filter": _filter(wanted, unfiltered, sound)})
+    sampling = f"speed every {1e3 * usual_interval(speed.time):.6g} ms"
+    return replace(
+        stop,
+        choices={**stop.choices, "filter": _filter(wanted, unfiltered, sound), "sampling": sampling},
+    )
 
 
 def _unlike_a_stop(channels: Mapping[str, RawChannel], trigger: FoundTrigger, end: float) -> Iterator[Defect]:

@@ -35,7 +35,8 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     text = f"## uictest: {tally(content.results)}\n\n"
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
-    rows = list(map(_row, sorted(content.results, key=lambda result: result.met)))
+    ordered = sorted(content.results, key=lambda result: result.met)
+    rows = [_row(result, recorded=bool(content.subject(result.id).recorded)) for result in ordered]
     table = MarkdownTable(_COLUMNS, "lllrrrrrl", rows, "more cases are in `summary.csv` and `results.json`.")
     return text + table.within(limit - len(text.encode()))
 
@@ -45,11 +46,12 @@ def append_step_summary(content: RunContent) -> None:
     append_to_step_summary(partial(markdown_summary, content))
 
 
-def _row(result: CaseResult) -> str:
+def _row(result: CaseResult, *, recorded: bool) -> str:
     word = verdict_word(result)
     slide = max((wheelset.maximum_slide for wheelset in result.wheelsets), default=None)
     figures = [figure(getattr(result.measures, name, None), form) for name, form in _FIGURES.items()]
     figures.append(figure(None if slide is None else 100 * slide, ".1f"))
     why = "" if result.met else prose("; ".join(explanation(result)))
-    cells = (word if result.met else f"**{word}**", code(result.id), result.outcome, *figures, why)
+    outcome = f"{result.outcome} (recorded stop)" if recorded else result.outcome
+    cells = (word if result.met else f"**{word}**", code(result.id), outcome, *figures, why)
     return row(cells)

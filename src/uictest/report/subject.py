@@ -9,11 +9,16 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """Title, tags and main settings of a case; `settings` maps a key of the scenario to its text."""
+    """Title, tags and main settings of a case, name -> text.
+
+    `settings` holds what a simulated stop was run with; of a recorded one it holds the conditions that it was
+    judged by, and `recorded`, else empty, says where its samples come from.
+    """
 
     title: str = ""
     tags: tuple[str, ...] = ()
     settings: Mapping[str, str] = field(default_factory=dict)
+    recorded: Mapping[str, str] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON form."""
@@ -23,7 +28,10 @@ class Subject:
     def from_dict(cls, content: Mapping[str, Any]) -> Subject:
         """Return the subject whose `to_dict` is `content`. Raises ValueError for anything else."""
         try:
-            settings = {str(key): str(text) for key, text in content["settings"].items()}
-            return cls(str(content["title"]), tuple(map(str, content["tags"])), settings)
+            texts = (
+                {str(key): str(text) for key, text in each.items()}
+                for each in (content["settings"], content.get("recorded", {}))
+            )
+            return cls(str(content["title"]), tuple(map(str, content["tags"])), *texts)
         except (KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"not the subject of a case: {error}") from error

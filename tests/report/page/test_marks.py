@@ -80,7 +80,9 @@ def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Mar
 
 def test_the_largest_slide_of_each_wheelset_is_marked_where_it_was_too_small(marks: Marks) -> None:
     cutoff = {"low_speed_cutoff": 30 / 3.6}
-    limit, *points = marks("maximum_slide_above_cutoff", cutoff, unit="%", lower=60.0, value=40.0, verdict="fail")
+    limit, *points = marks(
+        "maximum_slide_above_cutoff", cutoff, unit="%", lower=60.0, value=40.0, verdict="fail"
+    )
     assert limit.kind == "limit"
     assert [(mark.kind, mark.label) for mark in points] == [
         ("point", "1: 40 %"),

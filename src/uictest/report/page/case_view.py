@@ -20,6 +20,7 @@ from uictest.report.page.quantities import (
     QUANTITIES,
     STRIPS,
     WHEELSETS,
+    key_of,
     loop_lines,
     panel_lines,
 )
@@ -76,7 +77,7 @@ def case_view(key: str, result: CaseResult, subject: Subject, trace: Trace) -> C
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),
         list(_marked(result, marks)),
-        " ".join(_notes(result, trace)),
+        " ".join(_notes(result, subject, trace)),
     )
 
 
@@ -88,14 +89,18 @@ def _marked(result: CaseResult, marks: Sequence[Mark]) -> Iterator[tuple[Verdict
             yield verdict, [titles[plot].partition(":")[0] for plot in plots]
 
 
-def _notes(result: CaseResult, trace: Trace) -> Iterator[str]:
+def _notes(result: CaseResult, subject: Subject, trace: Trace) -> Iterator[str]:
     every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
-    yield f"Recorded every {every}."
+    yield f"Sampled every {every}."
     if trace.interval * BINS < trace.end - trace.start:
         yield f"A line shows the smallest and the largest sample of every {part}."
+    labels = dict.fromkeys(QUANTITIES[key_of(name)].label for name in trace.derived)
+    if labels:
+        yield f"Derived from recorded speeds: {', '.join(labels)}."
     if not trace.states:
         return
-    yield "Valves show every change that was recorded."
+    recorded = f", but none between two samples, {every} apart" if subject.recorded else ""
+    yield f"Valves show every change that was recorded{recorded}."
     drawn = sum(len(vents(trace, n)) for n in WHEELSETS)
     counted = sum(wheelset.valve_actuations for wheelset in result.wheelsets)
     if drawn < counted:

@@ -143,6 +143,11 @@ def names_of(key: str) -> tuple[str, ...]:
     return tuple(f"{key}_{n}" for n in WHEELSETS) if QUANTITIES[key].of_wheelsets else (key,)
 
 
+def key_of(name: str) -> str:
+    """Return the quantity of a channel."""
+    return next(key for key in QUANTITIES if name in names_of(key))
+
+
 def loop_lines(loop: Loop) -> list[tuple[str, Line]]:
     """Return the lines of a loop, each with the channel that it is drawn over."""
     across = names_of(loop.across)

@@ -299,11 +299,12 @@
 
   const loopsFigure = (stop, width) => {
     const traces = [];
-    const count = common.loops.length;
+    const drawn = common.loops.filter((loop) => loop.lines.some((each) => `${loop.key} ${each.series}` in stop.loops));
+    const count = drawn.length;
     const stacked = width < 640;
     const grid = { pattern: "independent", xgap: 0.16, ygap: 0.24, rows: stacked ? count : 1, columns: stacked ? 1 : count };
     const layout = { shapes: [], annotations: [], grid };
-    common.loops.forEach((loop, k) => {
+    drawn.forEach((loop, k) => {
       const tail = k ? k + 1 : "";
       for (const each of loop.lines) {
         const curve = stop.loops[`${loop.key} ${each.series}`];
