@@ -19,6 +19,8 @@ Bar = tuple[float, float, float]
 FILL, HOLD, VENT = 0, 1, 2
 _HALF_HEIGHT = 0.36
 """Of a bar, where a row is 1 high."""
+_HALF_HEIGHT_MARKED = 0.46
+"""Of an interval that is marked, so that it shows above and below the states in it."""
 _LEAST_WIDTH = 1.0
 """Pixels: a state that is drawn is never narrower."""
 
@@ -53,9 +55,12 @@ def mark_bars(marks: Iterable[Mark], strip: str) -> dict[str, list[Bar]]:
     return bars
 
 
-def bars_path(bars: Iterable[Bar], x: Axis, y: Axis) -> str:
+def bars_path(kind: str, bars: Iterable[Bar], x: Axis, y: Axis) -> str:
     """Return SVG path data of bars."""
-    return "".join(_rectangle(x.at(first), x.at(last), y, row) for first, last, row in bars)
+    half = _HALF_HEIGHT_MARKED if kind.startswith("interval") else _HALF_HEIGHT
+    return "".join(
+        _rectangle(x.at(first), x.at(last), y.at(row - half), y.at(row + half)) for first, last, row in bars
+    )
 
 
 def _bars(states: States, state: int, n: int, end: float) -> list[Bar]:
@@ -67,7 +72,6 @@ def _bars(states: States, state: int, n: int, end: float) -> list[Bar]:
     ]
 
 
-def _rectangle(first: float, last: float, y: Axis, row: float) -> str:
-    upper, lower = y.at(row - _HALF_HEIGHT), y.at(row + _HALF_HEIGHT)
+def _rectangle(first: float, last: float, upper: float, lower: float) -> str:
     width = f"{max(last - first, _LEAST_WIDTH):.4g}"
     return f"M{first:.1f} {upper:.1f}h{width}v{lower - upper:.1f}h-{width}z"

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
 
 DRAWN = 18
-"""Cases drawn on one page. Each takes about 160 kB, and a page must still open from a mail attachment."""
+"""Cases drawn on one page. Each takes up to 270 kB, and a page must still open from a mail attachment."""
 
 
 def worst_first(results: Iterable[CaseResult]) -> list[CaseResult]:

@@ -150,7 +150,7 @@ def _strip(
         bottom,
         time.tick_marks(10),
         [(row.at(n), str(n)) for n in WHEELSETS],
-        bars=[(kind, bars_path(each, time, row)) for kind, each in bars.items()],
+        bars=[(kind, bars_path(kind, each, time, row)) for kind, each in bars.items()],
         levels=list(_levels([mark for mark in marks if mark.label], time, row)),
     )
 

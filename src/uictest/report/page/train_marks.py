@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest.report.escaping import printable
 from uictest.report.page.mark import Mark, instant, limits, point
+from uictest.report.wording import limits as limits_words
 from uictest.report.wording import number, quantity, value_and_limits
 
 if TYPE_CHECKING:
@@ -21,18 +23,12 @@ _KMH = 1.0 / 3.6
 
 def braking_distance(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the band of distances within the bounds, and the distance reached."""
-    label = f"{verdict.id}: {number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
-    yield Mark("over-distance", "band", label, verdict.lower, verdict.upper)
-    if verdict.value is not None and verdict.verdict != "pass":
-        yield instant("over-distance", verdict.value, f"{number(verdict.value)} {verdict.unit}")
+    yield from _band(verdict, "over-distance")
 
 
 def braking_time(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the band of times within the bounds, and the time reached."""
-    label = f"{verdict.id}: {number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
-    yield Mark("speed", "band", label, verdict.lower, verdict.upper)
-    if verdict.value is not None and verdict.verdict != "pass":
-        yield instant("speed", verdict.value, f"{number(verdict.value)} {verdict.unit}")
+    yield from _band(verdict, "speed")
 
 
 def mean_deceleration(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
@@ -95,6 +91,13 @@ def air_residual(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
 def energy_residual(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the end of the stop, at which the balance of energy is drawn up."""
     yield from _sum_at_the_end(verdict, trace, "speed")
+
+
+def _band(verdict: Verdict, plot: str) -> Iterator[Mark]:
+    label = printable(f"{verdict.id}: {limits_words(verdict).removeprefix('limits ')}")
+    yield Mark(plot, "band", label, verdict.lower, verdict.upper)
+    if verdict.value is not None and verdict.verdict != "pass":
+        yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
 
 
 def _sum_at_the_end(verdict: Verdict, trace: Trace, plot: str) -> Iterator[Mark]:

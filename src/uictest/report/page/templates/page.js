@@ -220,10 +220,10 @@
   };
 
   /* Bars as one filled line with gaps: a shape each would take seconds. Its edge keeps the shortest in sight. */
-  const bars = (kind, spans, fill, yaxis) => ({
+  const bars = (kind, spans, fill, yaxis, half = 0.36) => ({
     type: "scatter", mode: "lines", fill: "toself", fillcolor: fill, line: { color: fill, width: 1, simplify: false },
     x: spans.flatMap(([from, to]) => [from, to, to, from, from, null]),
-    y: spans.flatMap(([, , row]) => [row - 0.36, row - 0.36, row + 0.36, row + 0.36, row - 0.36, null]),
+    y: spans.flatMap(([, , row]) => [row - half, row - half, row + half, row + half, row - half, null]),
     xaxis: "x", yaxis, hoverinfo: "skip", name: kind,
   });
 
@@ -240,9 +240,9 @@
     const kinds = [...new Set(marked.map((mark) => mark.status))];
     const intervals = kinds.map((status) => {
       const own = marked.filter((mark) => mark.status === status);
-      return bars("interval", own.map((mark) => [mark.x0, mark.x1, mark.y]), inkOf({ status }), yaxis);
+      return bars("interval", own.map((mark) => [mark.x0, mark.x1, mark.y]), inkOf({ status }), yaxis, 0.46);
     });
-    return [...valves, ...intervals].filter((each) => each.x.length);
+    return [...intervals, ...valves].filter((each) => each.x.length);
   };
 
   /* Panels above each other share one time axis; a gap of 26 pixels holds the title of the next. */
@@ -391,7 +391,8 @@
       show(stop.start + (slider.value / slider.max) * (stop.end - stop.start)));
     panels.on("plotly_hover", ({ xvals }) => show(xvals[0]));
     panels.on("plotly_afterplot", put);
-    const start = stop.marks.find((mark) => mark.plot !== "over-distance" && mark.x0 !== null);
+    const worthwhile = (mark) => mark.status !== "pass" || mark.kind === "window";
+    const start = stop.marks.find((mark) => mark.plot !== "over-distance" && mark.x0 !== null && worthwhile(mark));
     show(start ? start.x0 : stop.start);
   };
 
