@@ -86,43 +86,6 @@ def test_what_is_no_run_is_named_for_what_it_is(call: Call, scenario: Write, mad
         assert (answer.code, answer.err) == (4, f"uictest: {said}{takes}")
 
 
-@pytest.fixture
-def baseline(call: Call, scenario: Write, made_up: list[str]) -> str:
-    scenario("a")
-    assert call("run", "--baseline", "accepted", "--accept").code == 0
-    return "accepted"
-
-
-def test_a_run_like_its_baseline_exits_0_and_a_changed_one_1(
-    call: Call, scenario: Write, baseline: str
-) -> None:
-    assert call("run", "--baseline", baseline).code == 0
-    scenario("a", "tags: [fail]\nexpect: fail\n")
-    answer = call("run", "--baseline", baseline)
-    assert answer.code == 1
-    assert "DIFFERS  a     outcome   pass" in answer.err
-    assert call("run", "--baseline", baseline, "--accept").code == 0
-    assert call("run", "--baseline", baseline).code == 0
-
-
-def test_an_error_outweighs_a_difference(call: Call, scenario: Write, baseline: str) -> None:
-    scenario("a", "tags: [error]\n")
-    assert call("run", "--baseline", baseline).code == 3
-
-
-def test_accepting_does_not_make_a_missed_case_met(call: Call, scenario: Write, baseline: str) -> None:
-    scenario("a", "tags: [fail]\n")
-    assert call("run", "--baseline", baseline, "--accept").code == 1
-
-
-def test_without_a_baseline_there_is_a_way_to_one(call: Call, scenario: Write, made_up: list[str]) -> None:
-    scenario("a")
-    answer = call("run", "--baseline", "nowhere")
-    assert answer.code == 4
-    assert "--accept makes" in answer.err
-    assert call("run", "--accept").code == 4
-
-
 def test_reports_for_people_are_chosen(call: Call, scenario: Write, made_up: list[str]) -> None:
     scenario("a")
     call("run", "--report", "xlsx,md")

@@ -8,6 +8,7 @@ import pytest
 from uictest.cli.display import Annotations, Document, Lines, VerdictTable, chosen_display, interactive
 from uictest.cli.options import Colour, Format
 from uictest.evaluation import CaseResult
+from uictest.report import RunContent
 
 MET = CaseResult("[bold]a", "a.yaml", {}, "pass", "pass")
 MISSED = CaseResult("b", "b.yaml", {}, "pass", "fail", reason="locked")
@@ -50,7 +51,7 @@ def _shown(terminal: Terminal, colour: Colour = Colour.AUTO, *, quiet: bool = Fa
         display = chosen_display(Format.TEXT, colour, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
             display.case(result)
-        display.end([MET, MISSED], "{}")
+        display.end(RunContent("run", [MET, MISSED], {}), "{}")
     return terminal.getvalue()
 
 

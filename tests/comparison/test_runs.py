@@ -22,7 +22,7 @@ def test_a_figure_that_moved_is_named_with_both_values(make_run: MakeRun) -> Non
     found = compare_runs(make_run(), make_run(braking_distance_m=470.0, friction="0.297"), DEFAULT)
     (difference,) = found.beyond
     assert (difference.case, difference.quantity) == ("dry-120", "braking_distance_m")
-    assert (difference.first, difference.second, difference.unit) == ("465", "470", "m")
+    assert (difference.first, difference.second, difference.unit) == (465.0, 470.0, "m")
     assert (difference.deviation, difference.allowed) == (5.0, pytest.approx(0.47))
     assert found.notes == ["dry-120: friction: 0.3 -> 0.297"]
 

@@ -4,12 +4,23 @@ import io
 from collections.abc import Callable
 
 from rich.console import Console, RenderableType
+from rich.table import Table
+from rich.text import Text
 
 from uictest.evaluation import CaseResult, Verdict
+from uictest.report import RunContent
 from uictest.report.table import explanation_text, verdict_table
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
+
+
+def _table(*results: CaseResult) -> Table:
+    return verdict_table(results, RunContent("run", results, {}).word)
+
+
+def _explanation(result: CaseResult, *, every_criterion: bool = False) -> Text:
+    return explanation_text(RunContent("run", [result], {}), result, every_criterion=every_criterion)
 
 
 def _rendered(renderable: RenderableType, width: int = 120, *, terminal: bool = False) -> str:
@@ -20,20 +31,20 @@ def _rendered(renderable: RenderableType, width: int = 120, *, terminal: bool = 
 
 
 def test_a_row_holds_verdict_and_figures(make_result: MakeResult) -> None:
-    row = _rendered(verdict_table([make_result()])).splitlines()[-1].split()
+    row = _rendered(_table(make_result())).splitlines()[-1].split()
     assert row == ["dry-120[command=90]", "met", "pass", "465.2", "27.5", "1.20", "-", "8", "4"]
 
 
 def test_a_long_id_is_folded_and_not_cut(make_result: MakeResult) -> None:
     case_id = "slip-" + "0123456789" * 5
-    shown = _rendered(verdict_table([make_result(id=case_id)]), width=90)
+    shown = _rendered(_table(make_result(id=case_id)), width=90)
     first_column = "".join(line.split(" ", 1)[0] for line in shown.splitlines()[2:])
     assert first_column == case_id
 
 
 def test_markup_and_terminal_codes_in_a_name_are_shown_as_text(make_result: MakeResult) -> None:
     result = make_result(id="[red]x[/red]\x1b[2J", outcome="error", reason="[/]", criteria=())
-    for renderable in (verdict_table([result]), explanation_text(result)):
+    for renderable in (_table(result), _explanation(result)):
         shown = _rendered(renderable, terminal=True)
         assert r"[red]x[/red]\x1b[2J" in shown
         assert "\x1b[2J" not in shown
@@ -43,7 +54,7 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
     broken = make_verdict(id="locked", verdict="fail", margin=None, reason="locked for 3 s")
-    shown = _rendered(explanation_text(make_result(outcome="fail", criteria=(make_verdict(), broken))))
+    shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
         "MISSED dry-120[command=90]",
         "  expected pass, came out fail",
@@ -52,6 +63,4 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
 
 
 def test_every_criterion_is_explained_when_asked(make_result: MakeResult) -> None:
-    assert "braking-distance (validity) pass" in _rendered(
-        explanation_text(make_result(), every_criterion=True)
-    )
+    assert "braking-distance (validity) pass" in _rendered(_explanation(make_result(), every_criterion=True))

@@ -2,46 +2,75 @@
 
 from __future__ import annotations
 
-import shutil
+import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import message
 
 if TYPE_CHECKING:
-    from uictest.comparison import Tolerances
+    from uictest.cli.batch import Published
+    from uictest.comparison import Baseline, Scope, Tolerances
+    from uictest.report import BaselineComparison
+    from uictest.scenario import Case
 
-_KEPT = ("results.json", "manifest.json")
+
+def scope_of(selected: Sequence[Case], searched: Sequence[Path]) -> Scope:
+    """Return what a run was asked for; `searched` are the files and folders of which it takes every case."""
+    from uictest.comparison import Scope
+    from uictest.scenario.reading import display_name
+
+    return Scope(frozenset(case.id for case in selected), [display_name(path) for path in searched])
 
 
-def against_baseline(run: Path, baseline: Path, tolerances: Tolerances, *, quiet: bool) -> ExitCode:
-    """Show on stderr how a run differs from the baseline; MISSED where that is out of tolerance.
+def open_baseline(folder: Path, scope: Scope, tolerances: Tolerances, *, accepting: bool) -> Baseline | None:
+    """Return the baseline in a folder; None where the run that is accepted is the first one there.
 
-    Raises InvalidInputError where the baseline cannot be read.
+    Raises InvalidInputError where it cannot be read.
     """
-    from uictest.comparison import compare_run_folders, comparison_lines, verdict_line
+    from uictest.comparison import read_baseline
+    from uictest.report import RESULTS
 
+    if accepting and not (folder / RESULTS).exists():
+        return None
+    way_out = (
+        f"remove {folder} to start a new one" if accepting else "--accept makes the results of a run one"
+    )
     try:
-        compared = compare_run_folders(baseline, run, tolerances)
-    except (OSError, ValueError) as error:
-        raise InvalidInputError(
-            f"uictest: {baseline} is no baseline: {error}; --accept makes the results of a run one"
-        ) from error
-    for line in comparison_lines(compared):
-        message(line)
-    if not quiet or not compared.agrees:
-        message(f"uictest: against {baseline}: {verdict_line(compared)}")
-    return ExitCode.MET if compared.agrees else ExitCode.MISSED
+        return read_baseline(folder, scope, tolerances)
+    except OSError as error:
+        reason = f"{error.filename}: {error.strerror}"
+        raise InvalidInputError(f"uictest: {folder} is no baseline: {reason}; {way_out}") from error
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {way_out}") from error
 
 
-def accept(run: Path, baseline: Path) -> None:
-    """Make the results of a run the baseline. Raises OSError."""
-    from uictest.recording import atomic_path
+def show_comparison(baseline: BaselineComparison, *, quiet: bool) -> None:
+    """Show on stderr how the run compares with its baseline; with `quiet` only where it differs."""
+    from uictest.report import baseline_summary, not_compared_sentences
 
-    baseline.mkdir(parents=True, exist_ok=True)
-    for name in _KEPT:
-        with atomic_path(baseline / name) as temporary:
-            shutil.copyfile(run / name, temporary)
-    message(f"uictest: {baseline} now holds the results of {run.name}")
+    if quiet and baseline.agrees:
+        return
+    for note in baseline.notes:
+        message(f"note: {note}")
+    for sentence in not_compared_sentences(baseline):
+        message(f"uictest: {sentence}")
+    message(f"uictest: {baseline_summary(baseline)}")
+
+
+def accept_run(run: Published, folder: Path, baseline: Baseline | None) -> None:
+    """Make the results of a run the baseline; what the run did not select stays. Raises OSError."""
+    from uictest.comparison import accepted_document
+    from uictest.evaluation import to_json
+    from uictest.recording import write_text_atomic
+    from uictest.report import RESULTS, counted
+
+    document = accepted_document(json.loads(run.document), baseline)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in (("manifest.json", document["manifest"]), (RESULTS, document)):
+        write_text_atomic(folder / name, to_json(content))
+    kept = len(document["cases"]) - len(run.content.results)
+    others = f"; {counted(kept, 'case')} not selected stay as they were" if kept else ""
+    message(f"uictest: {folder} now holds the results of {run.place.name}{others}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
@@ -18,7 +18,8 @@ from uictest.cli.progress import progress
 from uictest.cli.streams import message
 
 if TYPE_CHECKING:
-    from uictest.report import ReportFormat, RunContent
+    from uictest.comparison import Baseline
+    from uictest.report import Difference, ReportFormat, RunContent
     from uictest.report.page import Trace
     from uictest.scenario import Case
 
@@ -37,12 +38,23 @@ class Batch:
     formats: Sequence[ReportFormat]
     quiet: bool
     verbose: bool
+    baseline: Baseline | None = None
+    """What to compare with; None where nothing is."""
 
 
-def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Path | None]:
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A run whose reports are written: their folder, what they show, and the text of results.json."""
+
+    place: Path
+    content: RunContent
+    document: str
+
+
+def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Published | None]:
     """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
 
-    Returns what came of it and the folder of its reports, None where there is nothing to report. Raises
+    Returns what came of it and its reports, None where there is nothing to report. Raises
     OSError where the reports cannot be written; nothing is left behind then.
     """
     started = perf_counter()
@@ -58,11 +70,11 @@ def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Path | None]:
         place = folder.publish()
     report.point_latest(place)
     _append_step_summary(content)
-    _write_junit(batch.junit, done)
-    display.end(done.results, document)
+    _write_junit(batch.junit, content)
+    display.end(content, document)
     if not batch.quiet:
-        _sum_up(batch, done, perf_counter() - started, place)
-    return done, place
+        _sum_up(batch, content, done, perf_counter() - started, place)
+    return done, Published(place, content, document)
 
 
 def _write_reports(
@@ -71,10 +83,17 @@ def _write_reports(
     """Write all reports; return what they show and the text of results.json."""
     complete = len(done.results) == len(batch.cases)
     subjects = campaign.subjects_of(batch.cases)
-    document = report.write_reports(
-        folder.path, done.results, batch.manifest, complete=complete, subjects=subjects
-    )
     content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
+    if batch.baseline is not None:
+        content = replace(content, baseline=batch.baseline.compare(content))
+    document = report.write_reports(
+        folder.path,
+        done.results,
+        batch.manifest,
+        complete=complete,
+        subjects=subjects,
+        baseline=content.baseline,
+    )
     report.write_formats(
         folder.path, content, [each for each in batch.formats if each != report.ReportFormat.CSV]
     )
@@ -99,7 +118,7 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
             drawing.take(examined)
             if examined.recording is not None and batch.recording.wants(examined.result):
                 report.write_recording(folder, examined.result.id, examined.recording)
-            display.case(examined.result)
+            display.case(examined.result, _differences(batch, examined))
             if batch.verbose and examined.traceback:
                 message(examined.traceback.rstrip())
             advance()
@@ -109,15 +128,19 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
         )
 
 
-def _write_junit(path: Path | None, done: Campaign) -> None:
+def _differences(batch: Batch, examined: Examined) -> Sequence[Difference]:
+    return () if batch.baseline is None else batch.baseline.differences(examined.result)
+
+
+def _write_junit(path: Path | None, content: RunContent) -> None:
     from uictest.recording import write_text_atomic
 
     if path is not None:
-        write_text_atomic(path, report.junit_xml(done.results))
+        write_text_atomic(path, report.junit_xml(content.results, content.baseline))
 
 
-def _sum_up(batch: Batch, done: Campaign, seconds: float, place: Path) -> None:
+def _sum_up(batch: Batch, content: RunContent, done: Campaign, seconds: float, place: Path) -> None:
     ended = "interrupted, " if done.interrupted else ""
     left = len(batch.cases) - len(done.results)
     not_run = f", {left} not run" if left else ""
-    message(f"uictest: {ended}{report.tally(done.results)}{not_run} in {seconds:.1f} s; reports in {place}")
+    message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {place}")

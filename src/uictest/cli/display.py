@@ -9,68 +9,87 @@ from typing import TYPE_CHECKING, Protocol, TextIO
 
 from uictest.cli.options import Colour, Format
 from uictest.cli.streams import coloured, data
-from uictest.report import case_annotations, case_line, criterion_lines, definition_lines, verdict_word
+from uictest.report import (
+    DIFFERS,
+    case_annotations,
+    case_line,
+    case_word,
+    criterion_lines,
+    definition_lines,
+    missing_annotations,
+    missing_lines,
+)
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
+    from uictest.report import Difference, RunContent
 
-_ANSI = {"met": "\x1b[32m", "MISSED": "\x1b[1;31m", "ERROR": "\x1b[1;35m"}
+_ANSI = {"met": "\x1b[32m", "MISSED": "\x1b[1;31m", "ERROR": "\x1b[1;35m", "DIFFERS": "\x1b[1;31m"}
 _ANSI_END = "\x1b[0m"
 
 
 class Display(Protocol):
     """Shows results while they come in, and what remains to be shown at the end."""
 
-    def case(self, result: CaseResult) -> None:
-        """Show one result."""
+    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+        """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
 
-    def end(self, results: Sequence[CaseResult], document: str) -> None:
+    def end(self, content: RunContent, document: str) -> None:
         """Show the rest; `document` is the text of results.json."""
 
 
 class Lines:
-    """One line per case as it finishes; with -v also per criterion, with -q only what is not met."""
+    """One line per case as it finishes; with -v also per criterion, with -q only what does not pass."""
 
     def __init__(self, *, colour: bool, quiet: bool, verbose: bool) -> None:
         self._colour = colour
         self._quiet = quiet
         self._verbose = verbose
 
-    def case(self, result: CaseResult) -> None:
+    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
         """Show one result."""
-        if self._quiet and result.met:
+        if self._quiet and result.met and not differences:
             return
-        word = verdict_word(result)
-        rest = case_line(result).removeprefix(word)
-        data(f"{_ANSI[word]}{word}{_ANSI_END}{rest}" if self._colour else f"{word}{rest}")
+        self._show(case_word(result, differences), case_line(result, differences))
         if self._verbose:
             for line in criterion_lines(result):
                 data(line)
 
-    def end(self, results: Sequence[CaseResult], document: str) -> None:
-        """Show what the criteria were taken to mean, where they are shown."""
+    def end(self, content: RunContent, document: str) -> None:
+        """Show the missing cases of the baseline, and what the criteria were taken to mean."""
+        for line in missing_lines(content.baseline) if content.baseline else ():
+            self._show(DIFFERS, line)
         if self._verbose:
-            for line in definition_lines([each for each in results if not (self._quiet and each.met)]):
+            for line in definition_lines(_shown(content, quiet=self._quiet)):
                 data(line)
+
+    def _show(self, word: str, line: str) -> None:
+        data(f"{_ANSI[word]}{word}{_ANSI_END}{line.removeprefix(word)}" if self._colour else line)
 
 
 class Annotations(Lines):
-    """Lines, and a GitHub annotation below each case that is not met."""
+    """Lines, and a GitHub annotation below each case that does not pass."""
 
-    def case(self, result: CaseResult) -> None:
+    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
         """Show one result."""
-        super().case(result)
-        for line in case_annotations([result]):
+        super().case(result, differences)
+        for line in case_annotations(result, differences):
+            data(line)
+
+    def end(self, content: RunContent, document: str) -> None:
+        """Show the rest, and an annotation for each missing case of the baseline."""
+        super().end(content, document)
+        for line in missing_annotations(content.baseline) if content.baseline else ():
             data(line)
 
 
 class Document:
     """results.json and nothing else."""
 
-    def case(self, result: CaseResult) -> None:
+    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
         """Show nothing before the document is complete."""
 
-    def end(self, results: Sequence[CaseResult], document: str) -> None:
+    def end(self, content: RunContent, document: str) -> None:
         """Show the document."""
         data(document.rstrip("\n"))
 
@@ -83,10 +102,10 @@ class VerdictTable:
         self._quiet = quiet
         self._verbose = verbose
 
-    def case(self, result: CaseResult) -> None:
+    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
         """Show nothing yet: columns are as wide as their widest cell."""
 
-    def end(self, results: Sequence[CaseResult], document: str) -> None:
+    def end(self, content: RunContent, document: str) -> None:
         """Show the table and the explanations."""
         from rich.console import Console
 
@@ -95,12 +114,14 @@ class VerdictTable:
         console = Console(
             color_system="auto" if self._colour else None, force_terminal=self._colour, highlight=False
         )
-        shown = [result for result in results if not (self._quiet and result.met)]
+        shown = _shown(content, quiet=self._quiet)
         if shown:
-            console.print(verdict_table(shown))
+            console.print(verdict_table(shown, content.word))
         for result in shown:
-            if self._verbose or not result.met:
-                console.print(explanation_text(result, every_criterion=self._verbose))
+            if self._verbose or not content.passes(result):
+                console.print(explanation_text(content, result, every_criterion=self._verbose))
+        for line in missing_lines(content.baseline) if content.baseline else ():
+            console.print(line, markup=False)
         if self._verbose:
             for line in definition_lines(shown):
                 console.print(line, markup=False)
@@ -116,6 +137,10 @@ def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool)
     elif interactive(sys.stdout):
         display = VerdictTable
     return display(colour=coloured(colour, sys.stdout), quiet=quiet, verbose=verbose)
+
+
+def _shown(content: RunContent, *, quiet: bool) -> list[CaseResult]:
+    return [result for result in content.results if not (quiet and content.passes(result))]
 
 
 def interactive(stream: TextIO) -> bool:

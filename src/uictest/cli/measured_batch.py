@@ -123,7 +123,7 @@ def publish(
         write_text_atomic(junit, report.junit_xml(results))
     for result in results:
         display.case(result)
-    display.end(results, document)
+    display.end(content, document)
     return Campaign(results), place
 
 

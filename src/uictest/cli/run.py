@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from uictest.cli.cases import case_lines, cases_json, load_cases, nothing_selected, select_cases
+from uictest.cli.baseline import accept_run, open_baseline, scope_of, show_comparison
+from uictest.cli.cases import (
+    case_lines,
+    cases_json,
+    load_cases,
+    nothing_selected,
+    scenario_paths,
+    select_cases,
+)
 from uictest.cli.exit_codes import ExitCode, of_campaign, worst
 from uictest.cli.options import (
     Colour,
@@ -36,7 +44,6 @@ from uictest.cli.options import (
 from uictest.cli.streams import data, message
 
 if TYPE_CHECKING:
-    from uictest.comparison import Tolerances
     from uictest.evaluation import CaseResult
     from uictest.scenario import Case
 
@@ -66,10 +73,14 @@ def run(
     formats: Reports = "csv,html",
     baseline: Annotated[
         Path | None,
-        typer.Option("--baseline", metavar="DIR", help="Compare with the results kept there; exit 1 if out."),
+        typer.Option(
+            "--baseline",
+            metavar="DIR",
+            help="Compare with the baseline in DIR; exit 1 if a figure is out of tolerance.",
+        ),
     ] = None,
     accept: Annotated[
-        bool, typer.Option("--accept", help="Make the results of this run the --baseline.")
+        bool, typer.Option("--accept", help="Make the results of the selected cases the --baseline.")
     ] = False,
     tolerance: ToleranceTexts = None,
     durations: Annotated[
@@ -97,6 +108,11 @@ def run(
         data(cases_json(selected) if shown is Format.JSON else case_lines(selected))
         return ExitCode.MET
 
+    accepted = None
+    if baseline is not None:
+        searched = () if expression or tag or last_failed else scenario_paths(paths)
+        accepted = open_baseline(baseline, scope_of(selected, searched), tolerances, accepting=accept)
+
     from uictest.campaign import RecordingWish
     from uictest.cli.batch import Batch, run_batch
     from uictest.cli.display import chosen_display
@@ -113,25 +129,23 @@ def run(
         formats=wanted,
         quiet=quiet,
         verbose=verbosity > 0,
+        baseline=None if accept else accepted,
     )
-    done, place = run_batch(batch, chosen_display(shown, colour, quiet=batch.quiet, verbose=batch.verbose))
+    done, published = run_batch(
+        batch, chosen_display(shown, colour, quiet=batch.quiet, verbose=batch.verbose)
+    )
     if durations is not None:
         _show_slowest(done.results, durations or len(done.results))
     code = of_campaign(done)
-    if baseline is not None and place is not None and not done.interrupted:
-        code = worst(code, _with_baseline(place, baseline, tolerances, accepted=accept, quiet=quiet))
+    if accept and baseline is not None and published is not None:
+        if done.interrupted:
+            message(f"uictest: interrupted: {baseline} stays as it was")
+        else:
+            accept_run(published, baseline, accepted)
+    if published is not None and (comparison := published.content.baseline) is not None:
+        show_comparison(comparison, quiet=quiet)
+        code = worst(code, ExitCode.MET if comparison.agrees else ExitCode.MISSED)
     return code
-
-
-def _with_baseline(
-    place: Path, baseline: Path, tolerances: Tolerances, *, accepted: bool, quiet: bool
-) -> ExitCode:
-    from uictest.cli.baseline import accept, against_baseline
-
-    if accepted:
-        accept(place, baseline)
-        return ExitCode.MET
-    return against_baseline(place, baseline, tolerances, quiet=quiet)
 
 
 def _inputs(cases: Sequence[Case]) -> dict[str, str]:

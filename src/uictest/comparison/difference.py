@@ -3,30 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
+
+from uictest.report.difference import Difference
 
 if TYPE_CHECKING:
     from uictest.comparison.overlay import Overlay
-
-
-@dataclass(frozen=True, slots=True)
-class Difference:
-    """One quantity that is not the same on both sides.
-
-    `case` is empty for a recording. `first` and `second` are texts for a reader. `deviation` and `allowed`
-    are in `unit`; None where the sides cannot be subtracted. `remark` says where or why.
-    """
-
-    case: str
-    quantity: str
-    first: str
-    second: str
-    within: bool
-    unit: str = ""
-    deviation: float | None = None
-    allowed: float | None = None
-    remark: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,5 +51,5 @@ class Comparison:
             "agrees": self.agrees,
             "compared": self.compared,
             "notes": list(self.notes),
-            "differences": [asdict(difference) for difference in self.differences],
+            "differences": [difference.to_dict() for difference in self.differences],
         }

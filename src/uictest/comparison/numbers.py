@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from uictest.comparison.difference import Difference
 from uictest.comparison.tolerance import Tolerances
-from uictest.report.wording import number
+from uictest.report.difference import Difference
 
 
 def compare_numbers(
@@ -15,10 +14,9 @@ def compare_numbers(
     """Return how two figures differ, None where they are the same. No number equals only no number."""
     if first == second or (math.isnan(first) and math.isnan(second)):
         return None
-    ours, theirs = number(first), number(second)
     if not (math.isfinite(first) and math.isfinite(second)):
         remark = "there is one on one side only"
-        return Difference(case, quantity, ours, theirs, within=False, unit=unit, remark=remark)
+        return Difference(case, quantity, first, second, within=False, unit=unit, remark=remark)
     deviation = abs(second - first)
     allowed = tolerances.of(quantity).allowed(max(abs(first), abs(second)))
-    return Difference(case, quantity, ours, theirs, deviation <= allowed, unit, deviation, allowed)
+    return Difference(case, quantity, first, second, deviation <= allowed, unit, deviation, allowed)

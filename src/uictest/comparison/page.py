@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from uictest.comparison.wording import verdict_line
+from uictest.report.difference import value_text
 from uictest.report.page.overlay_view import overlay_view
 from uictest.report.page.rendering import render
 from uictest.report.wording import number
@@ -25,5 +26,6 @@ def comparison_html(comparison: Comparison) -> str:
         overlays=overlays,
         verdict_line=verdict_line(comparison),
         number=number,
+        value_text=value_text,
         with_plots=bool(overlays),
     )

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.comparison.difference import Comparison, Difference
+from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.overlay import overlay_of
 from uictest.comparison.tolerance import Tolerances
+from uictest.report.difference import Difference
 from uictest.report.wording import number
 
 if TYPE_CHECKING:
@@ -70,8 +71,8 @@ def _channel(
     return Difference(
         case,
         name,
-        number(float(ours[worst])),
-        number(float(theirs[worst])),
+        float(ours[worst]),
+        float(theirs[worst]),
         within=deviation <= allowed,
         unit=unit,
         deviation=None if np.isnan(deviation) else deviation,

@@ -7,10 +7,11 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from uictest.comparison.difference import Comparison, Difference
+from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.tolerance import Tolerances
 from uictest.evaluation.result import unit_of
+from uictest.report.difference import Difference
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
@@ -26,7 +27,7 @@ def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) 
         found = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
         compared += len(found)
         differences += [difference for difference in found if difference is not None]
-    return Comparison(first.name, second.name, compared, differences, list(_notes(first, second)))
+    return Comparison(first.name, second.name, compared, differences, list(run_notes(first, second)))
 
 
 def _case(
@@ -37,6 +38,14 @@ def _case(
         before, after = ("missing" if side is None else side.outcome for side in (first, second))
         yield Difference(case_id, "case", before, after, within=False, remark="the case is on one side only")
         return
+    yield from case_differences(first, second, tolerances)
+
+
+def case_differences(
+    first: CaseResult, second: CaseResult, tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    """Yield one item per quantity of a case compared: None where both results are the same."""
+    case_id = first.id
     yield _texts(case_id, "outcome", first.outcome, second.outcome)
     verdicts, others = _verdicts(first), _verdicts(second)
     for name in dict.fromkeys([*verdicts, *others]):
@@ -62,7 +71,7 @@ def _figures(result: CaseResult) -> dict[str, float]:
     return figures
 
 
-def _notes(first: RunContent, second: RunContent) -> Iterator[str]:
+def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
     """Yield what went into the runs differently: it explains differences and is none by itself."""
     for what in ("seed", "versions", "inputs"):
         yield from _changes(what, first.manifest.get(what), second.manifest.get(what))

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
-import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from uictest.evaluation import WheelsetFigures
+from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.escaping import printable
 from uictest.report.wording import counted, number
 
 if TYPE_CHECKING:
-    from uictest.comparison.difference import Comparison, Difference
+    from uictest.comparison.difference import Comparison
+    from uictest.report.difference import Difference
 
 _HEADINGS = ("", "case", "quantity", "first", "second", "deviation", "allowed", "unit", "")
-_OF_WHEELSETS = frozenset(field.name for field in dataclasses.fields(WheelsetFigures))
 
 
 def comparison_lines(comparison: Comparison, *, every: bool = False) -> Iterator[str]:
@@ -24,7 +22,7 @@ def comparison_lines(comparison: Comparison, *, every: bool = False) -> Iterator
 
     Of a figure that the wheelsets of a stop have, the worst stands for all. `every`: all of all differences.
     """
-    shown = comparison.differences if every else _worst_of_wheelsets(comparison.beyond)
+    shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
     if shown:
         yield from _aligned([_HEADINGS, *map(_row, shown)])
     for note in comparison.notes:
@@ -45,37 +43,13 @@ def verdict_line(comparison: Comparison) -> str:
     return f"{count} compared: {len(comparison.beyond)} out of tolerance, {within} different within tolerance"
 
 
-def _worst_of_wheelsets(differences: Sequence[Difference]) -> list[Difference]:
-    by_figure: dict[tuple[str, str], list[Difference]] = {}
-    for difference in differences:
-        by_figure.setdefault((difference.case, _figure(difference.quantity)), []).append(difference)
-    return [_worst(group) for group in by_figure.values()]
-
-
-def _figure(quantity: str) -> str:
-    """Return the name of a figure, less the number of the wheelset."""
-    name, _, number_of_wheelset = quantity.rpartition("_")
-    return name if number_of_wheelset.isdigit() and name in _OF_WHEELSETS else quantity
-
-
-def _worst(group: Sequence[Difference]) -> Difference:
-    worst = max(group, key=_excess)
-    return worst if len(group) == 1 else dataclasses.replace(worst, remark=f"worst of {len(group)} wheelsets")
-
-
-def _excess(difference: Difference) -> float:
-    if difference.deviation is None or not difference.allowed:
-        return math.inf
-    return difference.deviation / difference.allowed
-
-
 def _row(difference: Difference) -> tuple[str, ...]:
     return (
         "within" if difference.within else "DIFFERS",
         difference.case or "-",
         difference.quantity,
-        difference.first,
-        difference.second,
+        value_text(difference.first),
+        value_text(difference.second),
         number(difference.deviation),
         number(difference.allowed),
         difference.unit or "-",

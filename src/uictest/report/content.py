@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
+from uictest.report.difference import Difference
 from uictest.report.subject import Subject
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ class RunContent:
         complete: False where selected cases are missing from the results.
         subjects: what cases are about, by id; a case may lack one.
         traces: what there is to draw, by id.
+        baseline: how the run compares with its baseline; None where it was given none.
 
     """
 
@@ -33,7 +36,29 @@ class RunContent:
     complete: bool = True
     subjects: Mapping[str, Subject] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
+    baseline: BaselineComparison | None = None
 
     def subject(self, case_id: str) -> Subject:
         """Return what a case is about; an empty subject where that is not known."""
         return self.subjects.get(case_id, Subject())
+
+    def differences(self, case_id: str) -> Sequence[Difference]:
+        """Return the quantities of a case that are out of the tolerance of the baseline."""
+        return self.baseline.differences.get(case_id, ()) if self.baseline else ()
+
+    def passes(self, result: CaseResult) -> bool:
+        """Return whether a case meets its expectation and nothing of it differs from the baseline."""
+        return result.met and not self.differences(result.id)
+
+    def word(self, result: CaseResult) -> str:
+        """Return `met`, `MISSED`, `ERROR` or `DIFFERS`: how a case stands to expectation and baseline."""
+        return case_word(result, self.differences(result.id))
+
+    def explanation(self, result: CaseResult) -> list[str]:
+        """Return why a case came out as it did, and what of it differs from the baseline."""
+        return case_explanation(result, self.differences(result.id))
+
+    @property
+    def tally(self) -> str:
+        """The counts of the run."""
+        return run_tally(self.results, self.baseline)

@@ -3,24 +3,33 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal
 
+from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import workflow_message, workflow_property
-from uictest.report.wording import explanation, verdict_word
+from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
+    from uictest.report.baseline import BaselineComparison
+    from uictest.report.difference import Difference
 
 _COMMAND = re.compile(r"^(\s*):(?=:)")
 
 
-def case_annotations(results: Iterable[CaseResult]) -> Iterator[str]:
-    """Yield an `::error` command for each case that did not meet its expectation."""
-    for result in results:
-        if not result.met:
-            title = f"{verdict_word(result)} {result.id}"
-            yield annotation(result.scenario, title, "\n".join(explanation(result)))
+def case_annotations(result: CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
+    """Yield an `::error` command for a case that misses its expectation or differs from the baseline."""
+    if differences or not result.met:
+        title = f"{case_word(result, differences)} {result.id}"
+        yield annotation(result.scenario, title, "\n".join(case_explanation(result, differences)))
+
+
+def missing_annotations(baseline: BaselineComparison) -> Iterator[str]:
+    """Yield an `::error` command for each case of the baseline that is missing."""
+    for case_id, scenario in baseline.missing.items():
+        lines = difference_sentences(baseline.differences[case_id])
+        yield annotation(scenario, f"{DIFFERS} {case_id}", "\n".join(lines))
 
 
 def annotation(

@@ -7,22 +7,31 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import xml_text
-from uictest.report.wording import explanation
+from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
+    from uictest.report.baseline import BaselineComparison
+    from uictest.report.difference import Difference
 
 
-def junit_xml(results: Sequence[CaseResult]) -> str:
+def junit_xml(results: Sequence[CaseResult], baseline: BaselineComparison | None = None) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
+
+    A case that differs from the baseline is a failure, as is a case of the baseline that is missing.
 
     It keeps to the schema that Jenkins' xUnit plugin checks against, which knows no `file` of a testcase.
     """
     root = ElementTree.Element("testsuites")
-    suite = ElementTree.SubElement(root, "testsuite", name="uictest", tests=str(len(results)))
+    suite = ElementTree.SubElement(root, "testsuite", name="uictest", tests="0")
+    differences = baseline.differences if baseline else {}
     for result in results:
-        suite.append(_testcase(result))
+        suite.append(_testcase(result, differences.get(result.id, ())))
+    for case_id, scenario in (baseline.missing if baseline else {}).items():
+        suite.append(_missing_testcase(case_id, scenario, differences[case_id]))
+    suite.set("tests", str(len(suite)))
     for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(name, str(len(suite.findall(f"testcase/{tag}"))))
     suite.set("time", f"{sum(result.duration for result in results):.3f}")
@@ -30,26 +39,43 @@ def junit_xml(results: Sequence[CaseResult]) -> str:
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
-def _testcase(result: CaseResult) -> ElementTree.Element:
-    element = ElementTree.Element(
-        "testcase",
-        classname=xml_text(_dotted(result.scenario)),
-        name=xml_text(result.id),
-        time=f"{result.duration:.3f}",
-    )
-    tag = _child_tag(result)
+def _testcase(result: CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
+    element = _empty_testcase(result.id, result.scenario, result.duration)
+    tag = _child_tag(result, differs=bool(differences))
     if tag is not None:
-        lines = [xml_text(line) for line in explanation(result)]
-        child = ElementTree.SubElement(element, tag, message=lines[0])
-        # GitLab shows the text and ignores the message, so the text has to say everything.
-        child.text = "\n".join(lines)
+        kind = "baseline" if case_word(result, differences) == DIFFERS else ""
+        _add_child(element, tag, case_explanation(result, differences), kind)
     return element
 
 
-def _child_tag(result: CaseResult) -> str | None:
+def _missing_testcase(case_id: str, scenario: str, differences: Sequence[Difference]) -> ElementTree.Element:
+    element = _empty_testcase(case_id, scenario, 0.0)
+    _add_child(element, "failure", difference_sentences(differences), "baseline")
+    return element
+
+
+def _empty_testcase(case_id: str, scenario: str, duration: float) -> ElementTree.Element:
+    return ElementTree.Element(
+        "testcase",
+        classname=xml_text(_dotted(scenario)),
+        name=xml_text(case_id),
+        time=f"{duration:.3f}",
+    )
+
+
+def _add_child(element: ElementTree.Element, tag: str, texts: Sequence[str], kind: str = "") -> None:
+    lines = [xml_text(text) for text in texts]
+    child = ElementTree.SubElement(element, tag, message=lines[0])
+    if kind:
+        child.set("type", kind)
+    # GitLab shows the text and ignores the message, so the text has to say everything.
+    child.text = "\n".join(lines)
+
+
+def _child_tag(result: CaseResult, *, differs: bool) -> str | None:
     if result.outcome == "error":
         return "error"
-    if not result.met:
+    if not result.met or differs:
         return "failure"
     return "skipped" if result.outcome == "skipped" else None
 

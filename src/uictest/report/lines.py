@@ -5,30 +5,39 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.wording import (
+    DIFFERS,
     criterion_sentences,
     definition_sentence,
-    explanation,
     number,
-    verdict_word,
 )
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
+    from uictest.report.baseline import BaselineComparison
+    from uictest.report.difference import Difference
 
 _NAMED_CASES = 3
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
 
 
-def case_line(result: CaseResult) -> str:
-    """Return the line of one case; for a case that is not met the explanation stands at its end."""
-    words = [verdict_word(result), printable(result.id)]
+def case_line(result: CaseResult, differences: Sequence[Difference] = ()) -> str:
+    """Return the line of one case; the explanation of one that is not met, or differs, stands at its end."""
+    words = [case_word(result, differences), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}", *_figures(result)]
-    if not result.met:
-        outcomes, *reasons = explanation(result)
+    if differences or not result.met:
+        outcomes, *reasons = case_explanation(result, differences)
         words.append(f"reason={'; '.join(reasons or [outcomes])}")
     return " ".join(words)
+
+
+def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
+    """Yield one line per case of the baseline that is missing."""
+    for case_id in baseline.missing:
+        reason = "; ".join(difference_sentences(baseline.differences[case_id]))
+        yield f"{DIFFERS} {printable(case_id)} reason={reason}"
 
 
 def criterion_lines(result: CaseResult) -> Iterator[str]:

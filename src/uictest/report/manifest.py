@@ -26,11 +26,11 @@ def manifest(
     """
     return {
         "schema": SCHEMA,
-        "command": ["uictest", *(_without_machine(word) for word in command)],
+        "command": ["uictest", *(without_machine(word) for word in command)],
         "seed": seed,
         "cases": cases,
         "versions": _versions(),
-        "inputs": {_without_machine(name): digest for name, digest in sorted(inputs.items())},
+        "inputs": {without_machine(name): digest for name, digest in sorted(inputs.items())},
     }
 
 
@@ -40,7 +40,8 @@ def digest(content: Mapping[str, Any]) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
-def _without_machine(word: str) -> str:
+def without_machine(word: str) -> str:
+    """Return a path, or an option with one, without the folders of this machine."""
     option, equals, value = word.partition("=") if word.startswith("--") else ("", "", word)
     path = PurePath(value)
     if not path.is_absolute():

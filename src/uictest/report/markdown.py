@@ -5,14 +5,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.markdown_table import MarkdownTable, row
 from uictest.report.markdown_text import code, figure, prose
 from uictest.report.step_summary import LIMIT, append_to_step_summary
-from uictest.report.wording import explanation, tally, verdict_word
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
+    from uictest.report.baseline import BaselineComparison
     from uictest.report.content import RunContent
+    from uictest.report.difference import Difference
 
 _FIGURES = {
     "braking_distance_m": ".1f",
@@ -20,6 +23,9 @@ _FIGURES = {
     "mean_deceleration_mps2": ".3f",
     "initial_adhesion_g": ".4f",
 }
+_DIFFERENCE_COLUMNS = ("case", "quantity", "baseline", "this run", "deviation", "tolerance", "unit", "remark")
+_DIFFERENCES_SHOWN = 100
+"""Quantities out of the tolerance of the baseline that a reader is shown here."""
 _COLUMNS = (
     *("verdict", "case", "outcome"),
     *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide, %"),
@@ -32,11 +38,11 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
 
     What would go beyond `limit` bytes is left out, and a last line says how many cases that is.
     """
-    text = f"## uictest: {tally(content.results)}\n\n"
+    text = f"## uictest: {content.tally}\n\n"
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
-    ordered = sorted(content.results, key=lambda result: result.met)
-    rows = [_row(result, recorded=bool(content.subject(result.id).recorded)) for result in ordered]
+    text += _baseline(content.baseline, limit // 2) if content.baseline else ""
+    rows = [_row(content, result) for result in sorted(content.results, key=content.passes)]
     table = MarkdownTable(_COLUMNS, "lllrrrrrl", rows, "more cases are in `summary.csv` and `results.json`.")
     return text + table.within(limit - len(text.encode()))
 
@@ -46,12 +52,31 @@ def append_step_summary(content: RunContent) -> None:
     append_to_step_summary(partial(markdown_summary, content))
 
 
-def _row(result: CaseResult, *, recorded: bool) -> str:
-    word = verdict_word(result)
+def _baseline(baseline: BaselineComparison, limit: int) -> str:
+    """Return how the run compares with its baseline, with a table of the quantities out of tolerance."""
+    text = "".join(
+        f"{prose(line)}.\n\n" for line in (baseline_summary(baseline), *not_compared_sentences(baseline))
+    )
+    rows = [_difference_row(each) for each in worst_of_wheelsets(baseline.all_differences)]
+    rest = "more quantities are in `results.json`."
+    table = MarkdownTable(_DIFFERENCE_COLUMNS, "llrrrrll", rows, rest, _DIFFERENCES_SHOWN)
+    return f"{text}{table.within(limit)}\n" if rows else text
+
+
+def _difference_row(difference: Difference) -> str:
+    sides = (prose(value_text(side)) for side in (difference.first, difference.second))
+    sizes = (figure(size, ".5g") for size in (difference.deviation, difference.allowed))
+    unit, remark = prose(difference.unit), prose(difference.remark)
+    return row([code(difference.case), code(difference.quantity), *sides, *sizes, unit, remark])
+
+
+def _row(content: RunContent, result: CaseResult) -> str:
+    word, passes = content.word(result), content.passes(result)
     slide = max((wheelset.maximum_slide for wheelset in result.wheelsets), default=None)
     figures = [figure(getattr(result.measures, name, None), form) for name, form in _FIGURES.items()]
     figures.append(figure(None if slide is None else 100 * slide, ".1f"))
-    why = "" if result.met else prose("; ".join(explanation(result)))
-    outcome = f"{result.outcome} (recorded stop)" if recorded else result.outcome
-    cells = (word if result.met else f"**{word}**", code(result.id), outcome, *figures, why)
+    why = "" if passes else prose("; ".join(content.explanation(result)))
+    recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
+    outcome = f"{result.outcome}{recorded}"
+    cells = (word if passes else f"**{word}**", code(result.id), outcome, *figures, why)
     return row(cells)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from uictest.report.baseline import BaselineComparison
 from uictest.report.content import RunContent
 from uictest.report.run_report import RECORDINGS, RESULTS
 from uictest.report.subject import Subject
@@ -23,19 +25,28 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
         ValueError: one of them is not what it should be.
 
     """
-    from uictest.evaluation import results_of
-
     path = folder / RESULTS
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the results of a run: {error}") from error
+    drawn = read_traces(folder, [result.id for result in content.results]) if traces else {}
+    return dataclasses.replace(content, traces=drawn)
+
+
+def run_content(document: Mapping[str, Any], name: str) -> RunContent:
+    """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
+    from uictest.evaluation import results_of
+
+    try:
         results = results_of(document)
         subjects = {name: Subject.from_dict(each) for name, each in document.get("subjects", {}).items()}
         manifest: Any = dict(document.get("manifest", {}))
-    except (ValueError, AttributeError, TypeError) as error:
-        raise ValueError(f"{path}: not the results of a run: {error}") from error
-    drawn = read_traces(folder, [result.id for result in results]) if traces else {}
+        baseline = BaselineComparison.from_dict(each) if (each := document.get("baseline")) else None
+    except (ValueError, KeyError, AttributeError, TypeError) as error:
+        raise ValueError(str(error)) from error
     complete = bool(document.get("complete", True))
-    return RunContent(folder.resolve().name, results, manifest, complete, subjects, drawn)
+    return RunContent(name, results, manifest, complete, subjects, baseline=baseline)
 
 
 def read_traces(folder: Path, case_ids: Sequence[str]) -> dict[str, Trace]:

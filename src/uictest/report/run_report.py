@@ -14,6 +14,7 @@ from uictest.report.tables import criteria_csv, summary_csv, wheelsets_csv
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
     from uictest.recording import Recording
+    from uictest.report.baseline import BaselineComparison
     from uictest.report.subject import Subject
 
 RESULTS = "results.json"
@@ -32,23 +33,26 @@ def write_reports(
     *,
     complete: bool,
     subjects: Mapping[str, Subject] | None = None,
+    baseline: BaselineComparison | None = None,
 ) -> str:
     """Write manifest, tables, results and JUnit into the folder, and return the text of results.json.
 
     `complete` is False where selected cases are missing from the results; `subjects` says what cases are
-    about, by id. Raises OSError.
+    about, by id; `baseline` how the run compares with its baseline. Raises OSError.
     """
     from uictest.evaluation import result_document, to_json
     from uictest.recording import write_text_atomic
 
     about = {case_id: subject.to_dict() for case_id, subject in (subjects or {}).items()}
     header = {"manifest": dict(manifest), "complete": complete, "subjects": about}
+    if baseline is not None:
+        header["baseline"] = baseline.to_dict()
     document = _encodable(to_json(result_document(results, **header)))
     texts = {
         "manifest.json": _encodable(to_json(dict(manifest))),
         **csv_files(results),
         RESULTS: document,
-        "junit.xml": junit_xml(results),
+        "junit.xml": junit_xml(results, baseline),
     }
     for name, text in texts.items():
         write_text_atomic(folder / name, text)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult, Verdict
+
+DIFFERS = "DIFFERS"
+"""The word for a case that meets its expectation and differs from the baseline."""
 
 
 def number(value: float | None) -> str:
@@ -87,19 +90,24 @@ def verdict_word(result: CaseResult) -> str:
     return "met" if result.met else "MISSED"
 
 
-def tally(results: Iterable[CaseResult]) -> str:
-    """Return the counts of a run, e.g. `12 cases: 9 met, 3 missed (1 inconclusive)`."""
+def tally(results: Iterable[CaseResult], differing: Container[str] = ()) -> str:
+    """Return the counts of a run, e.g. `12 cases: 9 met, 3 missed (1 inconclusive)`.
+
+    A case that is met counts as different where its id is among those `differing` from the baseline.
+    """
     results = list(results)
-    words = [verdict_word(result) for result in results]
+    words = [DIFFERS if result.met and result.id in differing else verdict_word(result) for result in results]
     undecided = sum(result.outcome == "inconclusive" for result in results)
-    shown = counts_words(words.count("met"), words.count("MISSED"), words.count("ERROR"), undecided)
+    met, missed, errors, different = (words.count(word) for word in ("met", "MISSED", "ERROR", DIFFERS))
+    shown = counts_words(met, missed, errors, undecided, different)
     return f"{counted(len(words), 'case')}: {shown}" if words else "no case"
 
 
-def counts_words(met: int, missed: int, errors: int, inconclusive: int) -> str:
+def counts_words(met: int, missed: int, errors: int, inconclusive: int, different: int = 0) -> str:
     """Return counts of cases, those of none left out; the `inconclusive` ones are among the `missed`."""
     open_ = f" ({inconclusive} inconclusive)" if inconclusive else ""
     counts = {"met": met, f"missed{open_}": missed, "in error": errors}
+    counts["different from the baseline"] = different
     return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
 
 

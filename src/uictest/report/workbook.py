@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.tables import CRITERION_FIELDS
 from uictest.report.wording import definition_sentence
@@ -15,6 +16,7 @@ from uictest.report.wording import definition_sentence
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
     from uictest.report.content import RunContent
+    from uictest.report.difference import Difference
 
 
 def workbook_bytes(content: RunContent) -> bytes:
@@ -32,6 +34,7 @@ def _sheets(content: RunContent) -> dict[str, list[Row]]:
         "Cases": list(_cases(content)),
         "Wheelsets": list(_wheelsets(content)),
         "Criteria": list(_criteria(content)),
+        **_baseline_sheet(content),
         "Provenance": list(_provenance(content)),
     }
 
@@ -40,7 +43,13 @@ def _cases(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         subject = content.subject(result.id)
         about: Row = {"title": subject.title, "tags": " ".join(subject.tags), "scenario": result.scenario}
-        yield {"case": result.id, **about, **result_row(result)}
+        yield {"case": result.id, **about, **result_row(result), **_against_baseline(content, result)}
+
+
+def _against_baseline(content: RunContent, result: CaseResult) -> Row:
+    if content.baseline is None:
+        return {}
+    return {"baseline": "differs" if content.differences(result.id) else "agrees"}
 
 
 def result_row(result: CaseResult) -> Row:
@@ -66,9 +75,33 @@ def _criteria(content: RunContent) -> Iterator[Row]:
             yield row | {"definition": definition_sentence(verdict), "sensitivity": firm}
 
 
+def _baseline_sheet(content: RunContent) -> dict[str, list[Row]]:
+    if content.baseline is None:
+        return {}
+    return {"Baseline": [_difference_row(each) for each in content.baseline.all_differences]}
+
+
+def _difference_row(difference: Difference) -> Row:
+    return {
+        "case": difference.case,
+        "quantity": difference.quantity,
+        "baseline": difference.first,
+        "this run": difference.second,
+        "deviation": difference.deviation,
+        "tolerance": difference.allowed,
+        "unit": difference.unit,
+        "remark": difference.remark,
+    }
+
+
 def _provenance(content: RunContent) -> Iterator[Row]:
     yield {"what": "run", "value": content.name}
     yield {"what": "complete", "value": content.complete}
+    if content.baseline is not None:
+        yield {"what": "baseline", "value": baseline_summary(content.baseline)}
+        yield {"what": "baseline: SHA-256", "value": content.baseline.sha256}
+        for sentence in not_compared_sentences(content.baseline):
+            yield {"what": "baseline", "value": sentence}
     yield from manifest_rows(content.manifest)
 
 

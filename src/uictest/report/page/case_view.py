@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from uictest.report.baseline import case_explanation, case_word
 from uictest.report.page.bars import vents
 from uictest.report.page.mark import Mark
 from uictest.report.page.marks import marks_of
@@ -27,10 +28,11 @@ from uictest.report.page.quantities import (
 from uictest.report.page.script_json import script_json
 from uictest.report.page.sketch import Sketch, sketch_of
 from uictest.report.page.trace import BINS, Curve
-from uictest.report.wording import failing_first, verdict_word
+from uictest.report.wording import failing_first
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult, Verdict
+    from uictest.report.difference import Difference
     from uictest.report.page.trace import Trace
     from uictest.report.subject import Subject
 
@@ -51,13 +53,15 @@ class Gauge:
 class CaseView:
     """A drawn case. `key` names its part of the page; `data` is the JSON its plots are drawn from.
 
-    `marked` names the plots that each criterion is drawn in, failing ones first; `note` says what lines show.
+    `explanation` is empty where the case passes; `marked` names the plots that each criterion is drawn in,
+    failing ones first; `note` says what lines show.
     """
 
     key: str
     result: CaseResult
     subject: Subject
     word: str
+    explanation: Sequence[str]
     figures: Sequence[Figure]
     sketch: Sketch
     data: str
@@ -65,14 +69,17 @@ class CaseView:
     note: str
 
 
-def case_view(key: str, result: CaseResult, subject: Subject, trace: Trace) -> CaseView:
-    """Return the view of a case with its plots drawn."""
+def case_view(
+    key: str, result: CaseResult, subject: Subject, trace: Trace, differences: Sequence[Difference] = ()
+) -> CaseView:
+    """Return the view of a case with its plots drawn; `differences` are those from the baseline."""
     marks = marks_of(result.criteria, trace)
     return CaseView(
         key,
         result,
         subject,
-        verdict_word(result),
+        case_word(result, differences),
+        case_explanation(result, differences) if differences or not result.met else (),
         list(figures_of(result)),
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest.report.difference import value_text
 from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge_of, plots_json
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.ranking import DRAWN, worst_first
 from uictest.report.page.rendering import render
-from uictest.report.wording import counted, explanation, failing_first, tally, verdict_word
+from uictest.report.wording import DIFFERS, counted, failing_first, number
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
+    from uictest.report.baseline import BaselineComparison
     from uictest.report.content import RunContent
 
 
@@ -25,17 +27,17 @@ def page_html(content: RunContent) -> str:
         drawn=drawn,
         keys={view.result.id: view.key for view in drawn},
         maps=maps_of(content.results),
-        opened=_opened(drawn),
+        opened=_opened(content, drawn),
         not_drawn=_not_drawn(content, drawn),
-        words=_words(content.results),
-        tally=tally(content.results),
+        words=_words(content),
         plots=plots_json(),
         with_plots=bool(drawn),
-        explanation=explanation,
+        baseline_lines=_baseline_lines(content.baseline),
         failing_first=failing_first,
         figures_of=figures_of,
         gauge_of=gauge_of,
-        verdict_word=verdict_word,
+        number=number,
+        value_text=value_text,
     )
 
 
@@ -43,22 +45,33 @@ def _drawn(content: RunContent) -> list[CaseView]:
     traced = [result for result in content.results if result.id in content.traces]
     shown = {result.id for result in worst_first(traced)[:DRAWN]}
     return [
-        case_view(f"case-{place}", result, content.subject(result.id), content.traces[result.id])
+        case_view(
+            f"case-{place}",
+            result,
+            content.subject(result.id),
+            content.traces[result.id],
+            content.differences(result.id),
+        )
         for place, result in enumerate(traced, start=1)
         if result.id in shown
     ]
 
 
-def _opened(drawn: Sequence[CaseView]) -> str:
-    """Return the key of the case that is open at first: the first that is not met, or the only one."""
+def _opened(content: RunContent, drawn: Sequence[CaseView]) -> str:
+    """Return the key of the case that is open at first: the first that does not pass, or the only one."""
     if len(drawn) == 1:
         return drawn[0].key
-    return next((view.key for view in drawn if not view.result.met), "")
+    return next((view.key for view in drawn if not content.passes(view.result)), "")
 
 
-def _words(results: Sequence[CaseResult]) -> dict[str, int]:
-    words = [verdict_word(result) for result in results]
-    return {word: words.count(word) for word in ("met", "MISSED", "ERROR") if word in words}
+def _words(content: RunContent) -> dict[str, int]:
+    words = [content.word(result) for result in content.results]
+    return {word: words.count(word) for word in ("met", "MISSED", "ERROR", DIFFERS) if word in words}
+
+
+def _baseline_lines(baseline: BaselineComparison | None) -> list[str]:
+    """Return how the run compares with its baseline and what was not compared."""
+    return [baseline_summary(baseline), *not_compared_sentences(baseline)] if baseline else []
 
 
 def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:

@@ -20,7 +20,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, explanation, failing_first, verdict_word
+from uictest.report.wording import counted, failing_first
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent
@@ -53,13 +53,11 @@ def sweep_page_html(content: SweepContent) -> str:
         alone=command_alone(content.manifest),
         circumstances_words=circumstances_words,
         counted=counted,
-        explanation=explanation,
         failing_first=failing_first,
         figure_words=figure_words,
         figures_of=figures_of,
         gauge_of=gauge_of,
         share_words=share_words,
-        verdict_word=verdict_word,
     )
 
 

@@ -1,0 +1,151 @@
+"""A run against the results that were accepted before."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+from uictest.comparison.runs import case_differences, run_notes
+from uictest.comparison.tolerance import Tolerances
+from uictest.report.baseline import BaselineComparison
+from uictest.report.difference import Difference
+from uictest.report.manifest import without_machine
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+    from uictest.report import RunContent
+
+_TABLES = ("subjects", "parts")
+"""What a results document holds by name beside its cases."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """Which cases a run was asked for.
+
+    Args:
+        selected: ids of the cases to be run.
+        searched: scenario files and folders of which every case was selected; none where an expression, a tag
+            or the last failures chose among them.
+
+    """
+
+    selected: frozenset[str]
+    searched: Sequence[str] = ()
+
+    def misses(self, case_id: str, scenario: str) -> bool:
+        """Return whether a case was to be expected from the files searched, and is in none of them."""
+        path = PurePosixPath(scenario)
+        places = (path, *path.parents)
+        return case_id not in self.selected and any(PurePosixPath(each) in places for each in self.searched)
+
+
+@dataclass(frozen=True, slots=True)
+class Baseline:
+    """Accepted results, and how a run is compared with them."""
+
+    folder: str
+    sha256: str
+    run: RunContent
+    results: Mapping[str, CaseResult] = field(repr=False)
+    document: Mapping[str, Any] = field(repr=False)
+    scope: Scope
+    tolerances: Tolerances
+
+    def compare(self, run: RunContent) -> BaselineComparison:
+        """Compare every result of a run, and say which cases of the baseline were not compared."""
+        quantities = {result.id: list(self._quantities(result)) for result in run.results}
+        apart = {case_id: [each for each in found if each] for case_id, found in quantities.items()}
+        rest = [result for result in self.run.results if result.id not in quantities]
+        missing = {each.id: each.scenario for each in rest if self.scope.misses(each.id, each.scenario)}
+        others = [each.id for each in rest if each.id not in missing]
+        beyond = {case_id: _beyond(each) for case_id, each in apart.items()}
+        beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
+        return BaselineComparison(
+            without_machine(self.folder),
+            self.sha256,
+            compared=sum(map(len, quantities.values())) + len(missing),
+            within=sum(each.within for found in apart.values() for each in found),
+            differences={case_id: each for case_id, each in beyond.items() if each},
+            missing=missing,
+            not_run=[case_id for case_id in others if case_id in self.scope.selected],
+            not_selected=[case_id for case_id in others if case_id not in self.scope.selected],
+            notes=list(run_notes(self._inputs_limited(run), run)),
+        )
+
+    def differences(self, result: CaseResult) -> list[Difference]:
+        """Return the quantities of a case that are out of tolerance."""
+        return _beyond([each for each in self._quantities(result) if each])
+
+    def _quantities(self, result: CaseResult) -> Iterator[Difference | None]:
+        """Yield one item per quantity compared: None where both sides are the same."""
+        accepted = self.results.get(result.id)
+        if accepted is None:
+            remark = "the baseline has no such case; --accept adds it"
+            yield Difference(result.id, "case", "missing", result.outcome, within=False, remark=remark)
+        else:
+            yield from case_differences(accepted, result, self.tolerances)
+
+    def _inputs_limited(self, run: RunContent) -> RunContent:
+        """Return the accepted run as if it had read nothing that this one did not select."""
+        inputs = run.manifest.get("inputs", {})
+        known = {name: each for name, each in self.run.manifest.get("inputs", {}).items() if name in inputs}
+        return dataclasses.replace(self.run, manifest={**self.run.manifest, "inputs": known})
+
+
+def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baseline:
+    """Return the baseline in a folder. Raises OSError or ValueError where there is none."""
+    from uictest.report.run_contents import run_content
+    from uictest.report.run_report import RESULTS
+
+    path = folder / RESULTS
+    content = path.read_bytes()
+    try:
+        document = json.loads(content)
+        run = run_content(document, folder.name)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the results of a run: {error}") from error
+    results = {result.id: result for result in run.results}
+    sha256 = hashlib.sha256(content).hexdigest()
+    return Baseline(str(folder), sha256, run, results, document, scope, tolerances)
+
+
+def accepted_document(run: Mapping[str, Any], baseline: Baseline | None) -> dict[str, Any]:
+    """Return the results of a run as a baseline: the cases that it did not select stay as they are.
+
+    `run` is the results document. Cases that the scenario files no longer have are dropped.
+    """
+    cases = {case["id"]: case for case in run["cases"]}
+    kept = (
+        [case for case in baseline.document["cases"] if _stays(case, cases, baseline.scope)]
+        if baseline
+        else []
+    )
+    if baseline is None or not kept:
+        return dict(run)
+    accepted = baseline.document
+    order = [case["id"] for case in accepted["cases"]]
+    cases |= {case["id"]: case for case in kept}
+    ids = [*(each for each in order if each in cases), *(each for each in cases if each not in order)]
+    inputs = {**baseline.run.manifest.get("inputs", {}), **run["manifest"].get("inputs", {})}
+    tables = {name: {**accepted.get(name, {}), **run[name]} for name in _TABLES if name in run}
+    manifest = {**run["manifest"], "inputs": inputs, "cases": len(ids)}
+    return {**run, **tables, "manifest": manifest, "cases": [cases[each] for each in ids]}
+
+
+def _stays(case: Mapping[str, Any], run: Mapping[str, Any], scope: Scope) -> bool:
+    return case["id"] not in run and not scope.misses(case["id"], case["scenario"])
+
+
+def _beyond(differences: Sequence[Difference]) -> list[Difference]:
+    return [each for each in differences if not each.within]
+
+
+def _missing(accepted: CaseResult) -> Difference:
+    remark = f"{accepted.scenario} no longer has this case; --accept drops it"
+    return Difference(accepted.id, "case", accepted.outcome, "missing", within=False, remark=remark)

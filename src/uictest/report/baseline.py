@@ -1,0 +1,125 @@
+"""How a run compares with its baseline: data that every report of the run shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from uictest.report.difference import Difference, difference_sentence, worst_of_wheelsets
+from uictest.report.escaping import printable
+from uictest.report.wording import DIFFERS, counted, explanation, tally, verdict_word
+
+if TYPE_CHECKING:
+    from uictest.evaluation import CaseResult
+
+_NAMED_CASES = 3  # of those that are not compared
+
+
+@dataclass(frozen=True, slots=True)
+class BaselineComparison:
+    """A run against its baseline.
+
+    Args:
+        folder: the baseline's folder, without the machine's folders.
+        sha256: digest of the baseline's results.json.
+        compared: how many quantities were compared.
+        within: how many of them differ within their tolerance.
+        differences: quantities out of tolerance by case id; `first` is the baseline, `second` the run.
+        missing: cases that the scenario files no longer have, id -> file; they are in `differences`, too.
+        not_run: ids of cases of the baseline that were selected and not run.
+        not_selected: ids of cases of the baseline that were not selected.
+        notes: what went in differently.
+
+    """
+
+    folder: str
+    sha256: str
+    compared: int = 0
+    within: int = 0
+    differences: Mapping[str, Sequence[Difference]] = field(default_factory=dict)
+    missing: Mapping[str, str] = field(default_factory=dict)
+    not_run: Sequence[str] = ()
+    not_selected: Sequence[str] = ()
+    notes: Sequence[str] = ()
+
+    @property
+    def agrees(self) -> bool:
+        """Whether everything that was compared is within tolerance."""
+        return not self.differences
+
+    @property
+    def all_differences(self) -> list[Difference]:
+        """The quantities out of tolerance, case after case."""
+        return [difference for each in self.differences.values() for difference in each]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON form."""
+        return {
+            "folder": self.folder,
+            "sha256": self.sha256,
+            "agrees": self.agrees,
+            "compared": self.compared,
+            "within": self.within,
+            "differences": [difference.to_dict() for difference in self.all_differences],
+            "missing": dict(self.missing),
+            "not_run": list(self.not_run),
+            "not_selected": list(self.not_selected),
+            "notes": list(self.notes),
+        }
+
+    @classmethod
+    def from_dict(cls, content: Mapping[str, Any]) -> BaselineComparison:
+        """Return the comparison whose `to_dict` is `content`."""
+        by_case: dict[str, list[Difference]] = {}
+        for each in content["differences"]:
+            by_case.setdefault(each["case"], []).append(Difference.from_dict(each))
+        fields = {name: value for name, value in content.items() if name != "agrees"}
+        return cls(**{**fields, "differences": by_case})
+
+
+def case_word(result: CaseResult, differences: Sequence[Difference]) -> str:
+    """Return how a case stands: `DIFFERS` where only its baseline says otherwise, else the verdict's word."""
+    return DIFFERS if differences and result.met else verdict_word(result)
+
+
+def case_explanation(result: CaseResult, differences: Sequence[Difference]) -> list[str]:
+    """Return why a case came out as it did, and which quantities left their tolerance."""
+    outcome, *reasons = explanation(result)
+    if differences:
+        outcome += ", differs from the baseline"
+    return [outcome, *reasons, *difference_sentences(differences)]
+
+
+def difference_sentences(differences: Sequence[Difference]) -> list[str]:
+    """Return one line per quantity of a case that is out of tolerance."""
+    return [f"baseline: {difference_sentence(each)}" for each in worst_of_wheelsets(differences)]
+
+
+def run_tally(results: Iterable[CaseResult], baseline: BaselineComparison | None) -> str:
+    """Return the counts of a run, e.g. `3 cases: 2 met, 1 different from the baseline; 1 case missing`."""
+    counts = tally(results, baseline.differences if baseline else ())
+    missing = len(baseline.missing) if baseline else 0
+    return f"{counts}; {counted(missing, 'case')} of the baseline missing" if missing else counts
+
+
+def baseline_summary(baseline: BaselineComparison) -> str:
+    """Return one line that says how the run compares with its baseline."""
+    quantities = "1 quantity" if baseline.compared == 1 else f"{baseline.compared} quantities"
+    beyond = len(baseline.all_differences)
+    counts = f"{beyond} out of tolerance, {baseline.within} different within tolerance"
+    result = counts if beyond or baseline.within else "no difference"
+    return f"{quantities} compared with the baseline {printable(baseline.folder)}: {result}"
+
+
+def not_compared_sentences(baseline: BaselineComparison) -> Iterator[str]:
+    """Yield which cases of the baseline were not compared, and why."""
+    for ids, reason in ((baseline.not_run, "not run"), (baseline.not_selected, "not selected")):
+        if ids:
+            yield f"not compared with the baseline: {counted(len(ids), 'case')} {reason} ({_named(ids)})"
+
+
+def _named(ids: Sequence[str]) -> str:
+    more = len(ids) - _NAMED_CASES
+    names = ", ".join(map(printable, ids[:_NAMED_CASES]))
+    return f"{names} and {more} more" if more > 0 else names

@@ -1,0 +1,103 @@
+"""A quantity that is not the same on two sides, in data and in words."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from uictest.report.escaping import printable
+from uictest.report.wording import number, quantity
+
+Value = float | str
+"""A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One quantity that is not the same on both sides.
+
+    `case` is empty for a recording. `first`, `second`, `deviation` and `allowed` are in `unit`; the last two
+    are None where the sides cannot be subtracted. `remark` says where or why.
+    """
+
+    case: str
+    quantity: str
+    first: Value
+    second: Value
+    within: bool
+    unit: str = ""
+    deviation: float | None = None
+    allowed: float | None = None
+    remark: str = ""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON form, NaN as None."""
+        from uictest.evaluation.json_form import json_form
+
+        form: dict[str, Any] = json_form(dataclasses.asdict(self))
+        return form
+
+    @classmethod
+    def from_dict(cls, content: Mapping[str, Any]) -> Difference:
+        """Return the difference whose `to_dict` is `content`."""
+        sides = {side: _value(content[side]) for side in ("first", "second")}
+        return cls(**{**content, **sides})
+
+
+def _value(written: Value | None) -> Value:
+    return math.nan if written is None else written
+
+
+def value_text(value: Value) -> str:
+    """Return one side of a difference without its unit."""
+    return value if isinstance(value, str) else number(value)
+
+
+def difference_sentence(difference: Difference) -> str:
+    """Return one line: `outcome was pass, is fail`, for numbers with deviation and tolerance."""
+    first, second = (_with_unit(side, difference.unit) for side in (difference.first, difference.second))
+    sentence = f"{difference.quantity} was {first}, is {second}"
+    if difference.deviation is not None and difference.allowed is not None:
+        deviation, allowed = (
+            quantity(size, difference.unit) for size in (difference.deviation, difference.allowed)
+        )
+        sentence += f"; deviation {deviation}, tolerance {allowed}"
+    return printable(f"{sentence} ({difference.remark})" if difference.remark else sentence)
+
+
+def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
+    """Return the differences; of a figure that the wheelsets of a stop have, the worst stands for all."""
+    from uictest.evaluation import WheelsetFigures
+
+    of_wheelsets = frozenset(field.name for field in dataclasses.fields(WheelsetFigures))
+    by_figure: dict[tuple[str, str], list[Difference]] = {}
+    for difference in differences:
+        figure = _figure(difference.quantity, of_wheelsets)
+        by_figure.setdefault((difference.case, figure), []).append(difference)
+    return list(_worst_of_each(by_figure.values()))
+
+
+def _worst_of_each(groups: Iterable[Sequence[Difference]]) -> Iterator[Difference]:
+    for group in groups:
+        worst = max(group, key=_excess)
+        remark = worst.remark if len(group) == 1 else f"worst of {len(group)} wheelsets"
+        yield dataclasses.replace(worst, remark=remark)
+
+
+def _figure(name: str, of_wheelsets: frozenset[str]) -> str:
+    """Return the name of a figure, less the number of the wheelset."""
+    figure, _, number_of_wheelset = name.rpartition("_")
+    return figure if number_of_wheelset.isdigit() and figure in of_wheelsets else name
+
+
+def _excess(difference: Difference) -> float:
+    if difference.deviation is None or not difference.allowed:
+        return math.inf
+    return difference.deviation / difference.allowed
+
+
+def _with_unit(value: Value, unit: str) -> str:
+    return value if isinstance(value, str) else quantity(value, unit)
