@@ -43,9 +43,27 @@ def test_recordings_are_compared_channel_by_channel(call: Call) -> None:
     assert answer.code == 1
     assert "speed" in answer.out
     assert 'class="panels"' in Path("page.html").read_text()
-    assert call("compare", first, second, "--tolerance", "speed=0.6").code == 0
+    assert call("compare", first, second, "--tolerance", "speed=1.9").code == 0
     document = json.loads(call("compare", first, second, "--format", "json").out)
     assert [each["quantity"] for each in document["differences"]] == ["speed"]
+
+
+def test_channels_are_chosen_for_the_page(call: Call) -> None:
+    first, second = _recording("a.parquet"), _recording("b.parquet", shift=0.5)
+    assert call("compare", first, second, "--channel", "speed").code == 4
+    answer = call("compare", first, second, "--html", "page.html", "--channel", "sped")
+    assert (answer.code, Path("page.html").exists()) == (4, False)
+    assert "did you mean 'speed'? both have: speed" in answer.err
+
+
+def test_stops_without_two_recordings_are_named(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    call("run", "-o", "one")
+    scenario("a", "tags: [fail]\n")
+    call("run", "-o", "other")
+    answer = call("compare", "one/latest", "other/latest", "--html", "page.html")
+    assert "not drawn: a: neither run has a recording; run both with --record all" in answer.err
+    assert "a: neither run has a recording" in Path("page.html").read_text()
 
 
 @pytest.mark.parametrize(

@@ -31,9 +31,9 @@ def test_a_channel_that_moved_is_named_with_the_time_of_its_largest_deviation(
     moved = first["speed"] + np.where(np.isclose(first["time"], 4.0), 0.6, 0.0)
     found = compare_recordings(first, make_recording(speed=moved), NAMES, DEFAULT)
     (difference,) = found.beyond
-    assert (difference.quantity, difference.unit, difference.remark) == ("speed", "m/s", "largest at 4 s")
-    assert difference.deviation == pytest.approx(0.6)
-    assert difference.allowed == pytest.approx(0.01)  # a thousandth of the range of 10 m/s
+    assert (difference.quantity, difference.unit, difference.remark) == ("speed", "km/h", "largest at 4 s")
+    assert difference.deviation == pytest.approx(0.6 * 3.6)
+    assert difference.allowed == pytest.approx(0.036)  # a thousandth of the range of 10 m/s
 
 
 def test_a_relative_tolerance_is_of_the_range_of_the_channel(make_recording: MakeRecording) -> None:
@@ -50,10 +50,71 @@ def test_a_shorter_recording_is_compared_as_far_as_it_goes(make_recording: MakeR
 
 def test_channels_of_other_units_or_on_one_side_only_differ(make_recording: MakeRecording) -> None:
     first, second = make_recording(), make_recording(extra=np.zeros(101))
-    other = Recording(second.channels, {**second.units, "speed": "km/h"}, {})
+    other = Recording(second.channels, {**second.units, "speed": "knot"}, {})
     found = compare_recordings(first, other, NAMES, DEFAULT)
-    shown = {each.quantity: (each.first, each.second) for each in found.beyond}
-    assert shown == {"speed": ("m/s", "km/h"), "extra": ("none", "1")}
+    shown = {each.quantity: (each.first, each.second, each.remark) for each in found.beyond}
+    assert shown == {
+        "speed": ("km/h", "knot", "different units"),
+        "extra": ("none", "1", "only one side has the channel"),
+    }
+    assert (found.overlays[0].only_first, found.overlays[0].only_second) == ([], ["extra"])
+
+
+def test_the_same_speed_in_another_unit_agrees(make_recording: MakeRecording) -> None:
+    first = make_recording()
+    channels = {**first.channels, "speed": 3.6 * first["speed"]}
+    other = Recording(channels, {**first.units, "speed": "km/h"}, {})
+    assert compare_recordings(first, other, NAMES, DEFAULT).agrees
+
+
+def test_quantities_are_compared_and_drawn_in_the_units_of_the_page(make_recording: MakeRecording) -> None:
+    time = make_recording()["time"]
+    channels = {
+        "time": (time, "s"),
+        "speed": (30.0 - time, "m/s"),
+        "slide_2": (0.01 * time, "1"),
+        "tank_pressure_1": (1e5 * time, "Pa"),
+        "caliper_force_1": (1e3 * time, "N"),
+        "adhesion_1": (0.01 * time, "1"),
+    }
+    first = Recording({n: s for n, (s, _) in channels.items()}, {n: u for n, (_, u) in channels.items()})
+    (overlay,) = compare_recordings(first, first, NAMES, DEFAULT, ["*"]).overlays
+    ends = {
+        panel.title: (overlay.trace.curves[lines[0].series].y[-1], panel.unit)
+        for panel, lines in overlay.panels
+    }
+    assert ends == {
+        "speed": (pytest.approx(72.0), "km/h"),
+        "slide_2": (pytest.approx(10.0), "%"),
+        "tank_pressure_1": (pytest.approx(10.0), "bar"),
+        "caliper_force_1": (pytest.approx(10.0), "kN"),
+        "adhesion_1": (pytest.approx(0.1), "1"),
+    }
+
+
+@pytest.mark.parametrize("ends", [(10.0, 8.0), (8.0, 10.0)])
+def test_each_side_is_drawn_to_its_own_end(make_recording: MakeRecording, ends: tuple[float, float]) -> None:
+    first, second = (make_recording(end=end) for end in ends)
+    (overlay,) = compare_recordings(first, second, NAMES, DEFAULT).overlays
+    _, lines = overlay.panels[0]
+    times = [overlay.trace.curves[line.series].x for line in lines]
+    assert [(float(time[0]), float(time[-1])) for time in times] == [(0.0, ends[0]), (0.0, ends[1])]
+    assert (overlay.trace.start, overlay.trace.end) == (0.0, 10.0)
+
+
+def test_any_common_channel_can_be_chosen_and_the_others_are_named(make_recording: MakeRecording) -> None:
+    many = {f"channel_{n}": np.zeros(101) for n in range(30)}
+    recording = make_recording(**many)
+    (overlay,) = compare_recordings(recording, recording, NAMES, DEFAULT, ["slide_1", "channel_2*"]).overlays
+    titles = [panel.title for panel, _ in overlay.panels]
+    assert titles == ["slide_1", "channel_2", *(f"channel_2{n}" for n in range(10))]
+    assert len(overlay.not_drawn) == 32 - len(titles)
+
+
+def test_a_channel_that_is_not_there_is_answered_with_those_that_are(make_recording: MakeRecording) -> None:
+    recording = make_recording()
+    with pytest.raises(ValueError, match=r"'slid_1'.*did you mean 'slide_1'.*both have: speed, slide_1"):
+        compare_recordings(recording, recording, NAMES, DEFAULT, ["slid_1"])
 
 
 def test_gaps_at_the_same_samples_agree_and_others_do_not(make_recording: MakeRecording) -> None:
@@ -73,4 +134,4 @@ def test_the_overlay_draws_the_speed_and_what_differs_as_far_as_there_is_room(
     found = compare_recordings(make_recording(**many), make_recording(**moved), NAMES, DEFAULT)
     (overlay,) = found.overlays
     assert [panel.title for panel, _ in overlay.panels][:2] == ["speed", "channel_0"]
-    assert (len(overlay.panels), overlay.left_out) == (DRAWN, 31 - DRAWN)
+    assert (len(overlay.panels), len(overlay.not_drawn)) == (DRAWN, 32 - DRAWN)

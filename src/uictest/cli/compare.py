@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -23,6 +24,14 @@ def compare(
     first: Annotated[Path, typer.Argument(metavar="A", help="A run's folder, or a recording.")],
     second: Annotated[Path, typer.Argument(metavar="B", help="Another of the same kind.")],
     tolerance: ToleranceTexts = None,
+    channels: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--channel",
+            metavar="NAME",
+            help="Draw this channel on the page; NAME may hold *. May be repeated.",
+        ),
+    ] = None,
     page: Annotated[
         Path | None, typer.Option("--html", metavar="FILE", help="Write a page with overlay plots, too.")
     ] = None,
@@ -32,7 +41,9 @@ def compare(
     """Show what differs between two runs or two recordings; exit 1 where something is out of tolerance."""
     from uictest.comparison import comparison_html, comparison_json, comparison_lines, verdict_line
 
-    compared = _compared(first, second, tolerances_of(tolerance))
+    if channels and page is None:
+        raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
+    compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])
     if shown is PlainFormat.JSON:
         data(comparison_json(compared))
     else:
@@ -42,30 +53,39 @@ def compare(
         from uictest.recording import write_text_atomic
 
         write_text_atomic(page, comparison_html(compared))
+        for line in compared.undrawn:
+            message(f"uictest: not drawn: {line}")
     message(f"uictest: {verdict_line(compared)}")
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
-def _compared(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
+def _compared(
+    first: Path, second: Path, tolerances: Tolerances, channels: Sequence[str] | None
+) -> Comparison:
+    """Compare two runs or two recordings; `channels` are patterns to draw, None where there is no page."""
     from uictest.comparison import compare_recordings
 
     places = [run_folder(place) for place in (first, second)]
     if any(place.is_dir() for place in places):
-        return _runs(places[0], places[1], tolerances)
-    names = _names(first, second)
-    return compare_recordings(_recording(places[0]), _recording(places[1]), names, tolerances)
+        return _runs(places[0], places[1], tolerances, channels)
+    recordings = _recording(places[0]), _recording(places[1])
+    try:
+        return compare_recordings(*recordings, _names(first, second), tolerances, channels or ())
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: --channel: {error}") from error
 
 
-def _runs(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
+def _runs(first: Path, second: Path, tolerances: Tolerances, channels: Sequence[str] | None) -> Comparison:
     """Compare two runs, and draw the stops that both have recorded and that differ."""
-    from uictest.comparison import compare_run_folders
+    from uictest.comparison import compare_run_folders, with_overlays
 
     if reason := why_no_run(first) or why_no_run(second):
         raise InvalidInputError(
             f"uictest: {reason}; compare takes the folders of two runs, or two recordings"
         )
     try:
-        return compare_run_folders(first, second, tolerances)
+        compared = compare_run_folders(first, second, tolerances)
+        return compared if channels is None else with_overlays(compared, first, second, channels)
     except (OSError, ValueError) as error:
         raise InvalidInputError(f"uictest: cannot compare as runs: {error}") from error
 

@@ -2,7 +2,7 @@
 
 from uictest.comparison.baseline import Baseline, Scope, accepted_document, read_baseline
 from uictest.comparison.difference import Comparison
-from uictest.comparison.folders import compare_run_folders
+from uictest.comparison.folders import compare_run_folders, with_overlays
 from uictest.comparison.overlay import Overlay
 from uictest.comparison.page import comparison_html
 from uictest.comparison.recordings import compare_recordings
@@ -26,4 +26,5 @@ __all__ = [
     "comparison_lines",
     "read_baseline",
     "verdict_line",
+    "with_overlays",
 ]

@@ -22,6 +22,7 @@ class Comparison:
         differences: those that are not the same, within tolerance or not.
         notes: what is known to be different about how they came about.
         overlays: both drawn over each other.
+        undrawn: which stops are not drawn, and why.
 
     """
 
@@ -31,6 +32,7 @@ class Comparison:
     differences: Sequence[Difference]
     notes: Sequence[str] = ()
     overlays: Sequence[Overlay] = field(default=(), repr=False)
+    undrawn: Sequence[str] = ()
 
     @property
     def beyond(self) -> list[Difference]:

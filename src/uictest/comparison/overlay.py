@@ -2,41 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from uictest.comparison.channels import common_channels, only_in
 from uictest.report.escaping import printable
 from uictest.report.page.quantities import Line, Panel
-from uictest.report.page.trace import Trace, curve_of, interval_of
+from uictest.report.page.trace import Curve, Trace, curve_of, interval_of
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
 
 DRAWN = 12
-"""Channels drawn at most; the speed and those out of tolerance come first."""
+"""Channels drawn where none are chosen."""
 
-_SPEED = "speed"
+FIRST_DRAWN = ("speed", *(f"slide_{n}" for n in (1, 2, 3, 4)), "tank_pressure_1", "clamping_force_1")
+"""Channels that tell most about a stop: they come first where none are chosen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """Panels with a line for each side. `left_out` counts remarkable channels that are not drawn."""
+    """Panels with a line for each side.
+
+    `not_drawn` are channels of both sides without a panel; `only_first` and `only_second` those of one side.
+    """
 
     title: str
     trace: Trace
     panels: Sequence[tuple[Panel, Sequence[Line]]]
-    left_out: int
+    not_drawn: Sequence[str] = ()
+    only_first: Sequence[str] = ()
+    only_second: Sequence[str] = ()
+
+
+def default_channels(remarkable: Sequence[str], common: Sequence[str]) -> list[str]:
+    """Return what is drawn where no channels are chosen: the speed and the remarkable channels."""
+    first = [name for name in FIRST_DRAWN if name == "speed" or name in remarkable]
+    return [name for name in dict.fromkeys([*first, *remarkable]) if name in common][:DRAWN]
 
 
 def overlay_of(
-    title: str, first: Recording, second: Recording, names: tuple[str, str], remarkable: Sequence[str]
+    title: str, first: Recording, second: Recording, names: tuple[str, str], channels: Sequence[str]
 ) -> Overlay:
-    """Return the speed and the remarkable channels of both recordings, each to its own end."""
-    channels = [name for name in dict.fromkeys([_SPEED, *remarkable]) if _in_both(name, first, second)]
+    """Return channels that both recordings have, drawn over each other, each to its own end."""
     curves = {}
     panels = []
-    for name in channels[:DRAWN]:
+    for name in channels:
         curves[f"first {name}"] = curve_of(first["time"], first[name])
         curves[f"second {name}"] = curve_of(second["time"], second[name])
         lines = (
@@ -45,10 +57,20 @@ def overlay_of(
         )
         shown = printable(name)
         panels.append((Panel(shown, shown, printable(first.units[name]), (name,), include=()), lines))
-    end = max(float(first["time"][-1]), float(second["time"][-1]))
-    trace = Trace(float(first["time"][0]), end, interval_of(first["time"]), curves)
-    return Overlay(title, trace, panels, max(len(channels) - DRAWN, 0))
+    common = common_channels(first.units, second.units)
+    return Overlay(
+        title,
+        _trace(first, second, curves),
+        panels,
+        [name for name in common if name not in channels],
+        only_in(first.units, second.units),
+        only_in(second.units, first.units),
+    )
 
 
-def _in_both(name: str, first: Recording, second: Recording) -> bool:
-    return first.units.get(name) is not None and first.units.get(name) == second.units.get(name)
+def _trace(first: Recording, second: Recording, curves: Mapping[str, Curve]) -> Trace:
+    times = first["time"], second["time"]
+    intervals = {interval_of(time) for time in times}
+    start, end = (float(pick(time[place] for time in times)) for pick, place in ((min, 0), (max, -1)))
+    # Times of another interval than the other side's would be rounded to it.
+    return Trace(start, end, intervals.pop() if len(intervals) == 1 else 0.0, curves)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def comparison_html(comparison: Comparison) -> str:
     """Return one page with the differences and both sides drawn over each other; it loads nothing."""
     overlays = [
-        overlay_view(f"overlay-{place}", overlay.title, overlay.trace, overlay.panels, overlay.left_out)
+        (overlay, overlay_view(f"overlay-{place}", overlay.title, overlay.trace, overlay.panels))
         for place, overlay in enumerate(comparison.overlays, start=1)
     ]
     return render(

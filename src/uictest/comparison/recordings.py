@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.comparison.channels import common_channels, in_shown_units, select_channels
 from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
-from uictest.comparison.overlay import overlay_of
+from uictest.comparison.overlay import default_channels, overlay_of
 from uictest.comparison.tolerance import Tolerances
 from uictest.report.difference import Difference
 from uictest.report.wording import number
@@ -22,42 +23,57 @@ Samples = NDArray[np.float64]
 
 
 def compare_recordings(
-    first: Recording, second: Recording, names: tuple[str, str], tolerances: Tolerances, case: str = ""
+    first: Recording,
+    second: Recording,
+    names: tuple[str, str],
+    tolerances: Tolerances,
+    channels: Sequence[str] = (),
 ) -> Comparison:
-    """Compare two recordings; `names` is what they are called, `case` the case both belong to.
+    """Compare two recordings in the units of the page.
 
     Samples are compared at the times of the first recording as far as the second reaches; where their times
     differ the second is read off straight lines between its samples.
+
+    Args:
+        first, second: the recordings.
+        names: what they are called.
+        tolerances: what may differ, in the units of the page.
+        channels: patterns of the channels to draw; the speed and those that differ where there are none.
+
+    Raises:
+        ValueError: a pattern matches no channel that both recordings have.
+
     """
-    found = [_durations(case, first, second, tolerances), *_channels(case, first, second, tolerances)]
+    first, second = in_shown_units(first), in_shown_units(second)
+    found = [_durations(first, second, tolerances), *_channels(first, second, tolerances)]
     differences = [difference for difference in found if difference is not None]
+    common = common_channels(first.units, second.units)
     remarkable = [difference.quantity for difference in differences if not difference.within]
-    overlay = overlay_of(case or "Recordings", first, second, names, remarkable)
+    drawn = select_channels(channels, common) if channels else default_channels(remarkable, common)
+    overlay = overlay_of("Recordings", first, second, names, drawn)
     return Comparison(*names, len(found), differences, overlays=[overlay])
 
 
-def _durations(case: str, first: Recording, second: Recording, tolerances: Tolerances) -> Difference | None:
+def _durations(first: Recording, second: Recording, tolerances: Tolerances) -> Difference | None:
     ours, theirs = (float(recording["time"][-1]) for recording in (first, second))
-    return compare_numbers(case, "duration", ours, theirs, tolerances, unit="s")
+    return compare_numbers("", "duration", ours, theirs, tolerances, unit="s")
 
 
-def _channels(
-    case: str, first: Recording, second: Recording, tolerances: Tolerances
-) -> Iterator[Difference | None]:
+def _channels(first: Recording, second: Recording, tolerances: Tolerances) -> Iterator[Difference | None]:
     """Yield one item per channel compared: None where both sides are the same."""
     for name in dict.fromkeys([*first.channels, *second.channels]):
         if name == "time":
             continue
         ours, theirs = (recording.units.get(name, "none") for recording in (first, second))
         if ours != theirs:
-            remark = "the channel has different units, or is on one side only"
-            yield Difference(case, name, ours, theirs, within=False, remark=remark)
+            remark = "different units" if "none" not in (ours, theirs) else "only one side has the channel"
+            yield Difference("", name, ours, theirs, within=False, remark=remark)
         else:
-            yield _channel(case, name, ours, first, second, tolerances)
+            yield _channel(name, ours, first, second, tolerances)
 
 
 def _channel(
-    case: str, name: str, unit: str, first: Recording, second: Recording, tolerances: Tolerances
+    name: str, unit: str, first: Recording, second: Recording, tolerances: Tolerances
 ) -> Difference | None:
     time, ours, theirs = common_samples(name, first, second)
     apart = np.abs(theirs - ours)
@@ -69,7 +85,7 @@ def _channel(
     known = ours[np.isfinite(ours)]
     allowed = tolerances.of(name).allowed(float(np.ptp(known)) if len(known) else 0.0)
     return Difference(
-        case,
+        "",
         name,
         float(ours[worst]),
         float(theirs[worst]),

@@ -21,11 +21,10 @@ class OverlayView:
     title: str
     sketch: Sketch
     data: str
-    left_out: int
 
 
 def overlay_view(
-    key: str, title: str, trace: Trace, panels: Sequence[tuple[Panel, Sequence[Line]]], left_out: int
+    key: str, title: str, trace: Trace, panels: Sequence[tuple[Panel, Sequence[Line]]]
 ) -> OverlayView:
     """Return the view of panels with the lines they show."""
     drawn = panels_over_time(trace, panels, [])
@@ -38,7 +37,7 @@ def overlay_view(
         "marks": [],
         "panels": [panel_form(panel, lines) for panel, lines in panels],
     }
-    return OverlayView(key, title, drawn, script_json(data), left_out)
+    return OverlayView(key, title, drawn, script_json(data))
 
 
 def panel_form(panel: Panel, lines: Sequence[Line]) -> dict[str, object]:

@@ -1,0 +1,66 @@
+"""Channels of two recordings: in the units of the page, and which of them are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from fnmatch import fnmatchcase
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
+
+from uictest.report.page.quantities import QUANTITIES
+from uictest.scenario.wording import nearest
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+
+_SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
+"""Unit of a recording -> unit that every page shows it in."""
+
+
+def in_shown_units(recording: Recording) -> Recording:
+    """Return the recording in the units of the page: km/h, bar, kN, slides in %."""
+    from uictest.evaluation.units import UNITS
+    from uictest.recording import Recording
+
+    units = {name: _shown_unit(name, unit) for name, unit in recording.units.items()}
+    channels = {
+        name: samples if units[name] == recording.units[name] else samples / UNITS[units[name]]
+        for name, samples in recording.channels.items()
+    }
+    return Recording(channels, units, recording.metadata)
+
+
+def _shown_unit(channel: str, unit: str) -> str:
+    name, _, wheelset = channel.rpartition("_")
+    quantity = QUANTITIES.get(name if wheelset.isdigit() else channel)
+    if unit == "1" and quantity is not None and quantity.unit == "%":
+        return "%"
+    return _SHOWN.get(unit, unit)
+
+
+def common_channels(first: Mapping[str, str], second: Mapping[str, str]) -> list[str]:
+    """Return the channels that both recordings have in the same unit, time left out; from their units."""
+    return [name for name, unit in first.items() if name != "time" and second.get(name) == unit]
+
+
+def only_in(first: Mapping[str, str], second: Mapping[str, str]) -> list[str]:
+    """Return the channels that only the first recording has; from the units of both."""
+    return [name for name in first if name not in second]
+
+
+def select_channels(patterns: Sequence[str], channels: Iterable[str]) -> list[str]:
+    """Return the channels that match a pattern, in the order of the patterns; `*` stands for any text.
+
+    Raises ValueError with the nearest name and all names where a pattern matches none.
+    """
+    names = list(dict.fromkeys(channels))
+    selected: dict[str, None] = {}
+    for pattern in patterns:
+        matching = [name for name in names if fnmatchcase(name, pattern)]
+        if not matching:
+            guess = nearest(pattern, names)
+            hint = f"did you mean {guess!r}? " if guess else ""
+            accepted = ", ".join(names) or "none"
+            raise ValueError(f"no channel {pattern!r} on both sides; {hint}both have: {accepted}")
+        selected |= dict.fromkeys(matching)
+    return list(selected)
