@@ -17,6 +17,7 @@ import pytest
 from uictest.sweep import Plan, Selection, Store, Worker
 from uictest.sweep.assembling import Assembler
 from uictest.sweep.findings import Findings, gather, read_result, write_findings
+from uictest.sweep.map_text import map_lines
 from uictest.sweep.trends import MOST_VALUES
 
 from .conftest import GRID, Load, formula
@@ -139,7 +140,7 @@ def test_maps(finished: Callable[..., tuple[Findings, Path]]) -> None:
         ["0.10", "1.0", "1.0"],
         ["0.12", "1.0", "1.0"],
     ]
-    assert list(findings.maps[0].lines())[1:] == [
+    assert list(map_lines(findings.maps[0], None))[1:] == [
         "      80 %  100 %",
         "0.08     .      #",
         "0.10     .      .",
@@ -154,7 +155,7 @@ def test_a_large_map_is_shown_coarser_and_written_whole(
         "ranges:\n  rail.friction: {first: 0.05, last: 0.15, count: 60}\n"
         "  brake.command: {first: 70 %, last: 100 %, step: 30 %}\n"
     )
-    assert len(list(findings.maps[0].lines())) == 2 + 20
+    assert len(list(map_lines(findings.maps[0], None))) == 3 + 20
     assert len(table(folder / "map-met.csv")) == 1 + 60
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import shutil
 import sys
 from typing import TextIO
 
@@ -27,6 +28,11 @@ def data(text: str) -> bool:
     except OSError as error:
         raise OSError(error.errno, error.strerror, "stdout") from error
     return True
+
+
+def terminal_width(stream: TextIO) -> int | None:
+    """Return the characters that a line of the terminal holds, None for a stream that is no terminal."""
+    return shutil.get_terminal_size().columns if stream.isatty() else None
 
 
 def message(text: str) -> None:

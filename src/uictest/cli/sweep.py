@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -24,7 +25,7 @@ from uictest.cli.options import (
     report_formats,
 )
 from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import data, message
+from uictest.cli.streams import data, message, terminal_width
 from uictest.report import counted, no_command, printable
 
 if TYPE_CHECKING:
@@ -257,7 +258,7 @@ def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -
         return
     if quiet and shown is Format.GITHUB:
         return
-    for line in missed_lines(findings) if quiet else finding_lines(findings):
+    for line in missed_lines(findings) if quiet else finding_lines(findings, terminal_width(sys.stdout)):
         text = printable(line) if line else line
         data(no_command(text) if shown is Format.GITHUB else text)
 

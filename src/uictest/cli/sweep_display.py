@@ -17,10 +17,15 @@ if TYPE_CHECKING:
 _MOST_ROWS = 30
 
 
-def finding_lines(findings: Findings) -> Iterator[str]:
-    """Yield maps, met cases per parameter, sensitivities and the frontier, a blank line between them."""
+def finding_lines(findings: Findings, width: int | None = None) -> Iterator[str]:
+    """Yield maps, met cases per parameter, sensitivities and the frontier, a blank line between them.
+
+    Maps keep to `width` characters, None for any width.
+    """
+    from uictest.sweep.map_text import map_lines
+
     for found in findings.maps:
-        yield from found.lines()
+        yield from map_lines(found, width)
         yield ""
     yield from _rates(findings.tally)
     yield from _sensitivities(findings)
