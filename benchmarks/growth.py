@@ -70,13 +70,19 @@ _RSS_UNIT = 1e-9 if sys.platform == "darwin" else 1024e-9
 """GB per unit of ru_maxrss."""
 
 
-def table(runs: list[Run]) -> None:
-    """Print what each run took, and how one and several threads compare at each size."""
-    print(f"{'cases':>8} {'threads':>8} {'s':>9} {'cases/s':>9} {'peak GB':>8} {'speed-up':>9}")
-    for run in runs:
-        alone = [other for other in runs if (other.cases, other.jobs) == (run.cases, 1)]
-        gain = f"{alone[0].seconds / run.seconds:9.2f}" if alone and run.jobs > 1 else ""
-        print(f"{run.cases:8} {run.jobs:8} {run.seconds:9.2f} {run.rate:9.1f} {run.memory:8.3f} {gain}")
+def table(sizes: list[int], jobs: list[int]) -> list[Run]:
+    """Run all sizes; print what each run took as soon as it is measured, and the gain over one thread."""
+    print(f"{'cases':>8} {'threads':>8} {'s':>9} {'cases/s':>9} {'peak GB':>8} {'speed-up':>9}", flush=True)
+    runs: list[Run] = []
+    for cases in sizes:
+        for each in sorted(jobs):
+            run = measured(cases, each)
+            runs.append(run)
+            alone = [other for other in runs if (other.cases, other.jobs) == (run.cases, 1)]
+            gain = f"{alone[0].seconds / run.seconds:9.2f}" if alone and run.jobs > 1 else ""
+            row = f"{run.cases:8} {run.jobs:8} {run.seconds:9.2f} {run.rate:9.1f} {run.memory:8.3f} {gain}"
+            print(row, flush=True)
+    return runs
 
 
 def judgement(runs: list[Run]) -> None:
@@ -100,10 +106,9 @@ def main() -> None:
     parser.add_argument("--jobs", default="1,2")
     arguments = parser.parse_args()
     sizes, jobs = ([int(text) for text in given.split(",")] for given in (arguments.cases, arguments.jobs))
-    print(machine.description("numba", "llvmlite", "numpy", "pyarrow"))
+    print(machine.description("numba", "llvmlite", "numpy", "pyarrow"), flush=True)
     measured(1, 1)  # compiles the rig where it is not yet compiled
-    runs = [measured(cases, each) for cases in sizes for each in jobs]
-    table(runs)
+    runs = table(sizes, jobs)
     if len(sizes) > 1:
         judgement(runs)
 

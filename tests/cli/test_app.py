@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -28,3 +29,15 @@ def test_a_usage_error_exits_4_and_shows_the_way_to_help(call: Call, arguments: 
     assert (answer.code, answer.out) == (4, "")
     assert "--help" in answer.err
     assert "\x1b" not in answer.err
+
+
+@pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
+@pytest.mark.parametrize("group", [[], ["identify"], ["library"]])
+def test_the_list_of_commands_holds_whole_sentences(
+    call: Call, monkeypatch: pytest.MonkeyPatch, columns: str, group: list[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    _, _, commands = call(*group, "--help").out.partition("Commands:\n")
+    listed = re.split(r"\n  (?=[a-z])", commands.partition("\n\n")[0].rstrip())
+    assert listed
+    assert [each for each in listed if not each.endswith(".") or each.endswith("...")] == []

@@ -3,6 +3,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 
+import pytest
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
@@ -15,8 +16,8 @@ MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
 
 
-def _table(*results: CaseResult) -> Table:
-    return verdict_table(results, RunContent("run", results, {}).word)
+def _table(*results: CaseResult, width: int = 120) -> Table:
+    return verdict_table(results, RunContent("run", results, {}).word, width)[0]
 
 
 def _explanation(result: CaseResult, *, every_criterion: bool = False) -> Text:
@@ -36,9 +37,9 @@ def test_a_row_holds_verdict_and_figures(make_result: MakeResult) -> None:
 
 
 def test_a_long_id_is_folded_and_not_cut(make_result: MakeResult) -> None:
-    case_id = "slip-" + "0123456789" * 5
-    shown = _rendered(_table(make_result(id=case_id)), width=90)
-    first_column = "".join(line.split(" ", 1)[0] for line in shown.splitlines()[2:])
+    case_id = "slip-" + "0123456789" * 10
+    shown = _rendered(_table(make_result(id=case_id), width=90), width=90)
+    first_column = "".join(line.split(" ", 1)[0] for line in shown.splitlines()[1:])
     assert first_column == case_id
 
 
@@ -64,3 +65,24 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
 
 def test_every_criterion_is_explained_when_asked(make_result: MakeResult) -> None:
     assert "braking-distance (validity) pass" in _rendered(_explanation(make_result(), every_criterion=True))
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
+def test_figures_give_way_to_the_names_of_cases(make_result: MakeResult, width: int) -> None:
+    ids = ["dry-120", "slide-80[compensation=hysteresis]", "wet-80-friction[friction=0.10]"]
+    results = [make_result(id=case_id) for case_id in ids]
+    table, not_shown = verdict_table(results, RunContent("run", results, {}).word, width)
+    lines = _rendered(table, width).splitlines()
+    assert max(map(len, lines)) <= width
+    assert "…" not in "".join(lines)
+    names = "".join(line[: line.index("verdict")] if "verdict" in line else _name(line) for line in lines)
+    assert [case_id for case_id in ids if case_id not in names] == []
+    shown = [name for name in ("distance", "time", "adhesion", "slide", "vents") if name in lines[0]]
+    assert {name for name in ("distance", "time", "adhesion", "slide", "vents") if name in not_shown} == {
+        name for name in ("distance", "time", "adhesion", "slide", "vents") if name not in shown
+    }
+    assert ("summary.csv" in not_shown) == (len(shown) < 5)
+
+
+def _name(line: str) -> str:
+    return line.split("  ")[0].strip()

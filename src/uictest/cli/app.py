@@ -17,6 +17,7 @@ from uictest.cli.identify import identify
 from uictest.cli.init import init
 from uictest.cli.library import library
 from uictest.cli.list import list_cases
+from uictest.cli.registration import command
 from uictest.cli.report import report
 from uictest.cli.reproduce import reproduce
 from uictest.cli.run import run
@@ -38,21 +39,25 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog=_EPILOG,
 )
-app.command("run")(run)
-app.command("sweep")(sweep)
-app.command("check")(check)
-app.command("list")(list_cases)
-app.command("evaluate")(evaluate)
-app.command("export")(export)
-app.command("fit")(fit)
-app.command("bench")(bench)
-app.add_typer(identify, name="identify")
-app.command("reproduce")(reproduce)
-app.command("report")(report)
-app.command("compare")(compare)
-app.command("schema")(schema)
-app.command("init")(init)
-app.add_typer(library, name="library")
+
+for _name, _function in (
+    ("run", run),
+    ("sweep", sweep),
+    ("check", check),
+    ("list", list_cases),
+    ("evaluate", evaluate),
+    ("export", export),
+    ("fit", fit),
+    ("bench", bench),
+    ("reproduce", reproduce),
+    ("report", report),
+    ("compare", compare),
+    ("schema", schema),
+    ("init", init),
+):
+    command(app, _name)(_function)
+for _name, _group in (("identify", identify), ("library", library)):
+    app.add_typer(_group, name=_name, short_help=_group.info.help)
 
 
 def _show_version(wanted: bool) -> None:

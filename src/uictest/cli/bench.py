@@ -60,7 +60,7 @@ def bench(
     ] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Test the caliper on the bench and write a recording of pressures, forces, stroke and commands."""
+    """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
     from uictest.rig import bench_loading
 
     if listed:

@@ -30,7 +30,7 @@ def check(
     ] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Validate scenario and sweep files and what they refer to; every error with its place."""
+    """Validate scenario and sweep files and what they refer to. Every error is shown with its place."""
     given = scenario_paths(paths)
     found, sound = _scenarios([path for path in given if not is_sweep(path)])
     sweeps = list(sweep_files(given))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,7 +14,7 @@ from uictest.cli.folders import why_no_run
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.report import run_folder
-from uictest.cli.streams import data, message
+from uictest.cli.streams import data, message, terminal_width
 
 if TYPE_CHECKING:
     from uictest.comparison import Comparison, Tolerances
@@ -38,7 +39,7 @@ def compare(
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Show what differs between two runs or two recordings; exit 1 where something is out of tolerance."""
+    """Show what differs between two runs or two recordings. Exit 1 where something is out of tolerance."""
     from uictest.comparison import comparison_html, comparison_json, comparison_lines, verdict_line
 
     if channels and page is None:
@@ -47,7 +48,7 @@ def compare(
     if shown is PlainFormat.JSON:
         data(comparison_json(compared))
     else:
-        for line in comparison_lines(compared, every=verbosity > 0):
+        for line in comparison_lines(compared, every=verbosity > 0, width=terminal_width(sys.stdout)):
             data(line)
     if page is not None:
         from uictest.recording import write_text_atomic

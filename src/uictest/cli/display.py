@@ -116,7 +116,10 @@ class VerdictTable:
         )
         shown = _shown(content, quiet=self._quiet)
         if shown:
-            console.print(verdict_table(shown, content.word))
+            table, not_shown = verdict_table(shown, content.word, console.width)
+            console.print(table)
+            if not_shown:
+                console.print(not_shown, markup=False, style="dim")
         for result in shown:
             if self._verbose or not content.passes(result):
                 console.print(explanation_text(content, result, every_criterion=self._verbose))

@@ -85,7 +85,7 @@ def evaluate(
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
-    """Judge measured or simulated recordings; reports and exit codes are those of 'run'.
+    """Judge measured or simulated recordings. Reports and exit codes are those of 'run'.
 
     A recording does not hold the rail condition, the brake position, the state of the WSP or the criteria:
     state them by a scenario, or by options.

@@ -30,7 +30,7 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there already.")] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet; shows the files it wrote."""
+    """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Shows the files it wrote."""
     from uictest.recording.formats import SUFFIXES, writer_of
 
     wanted = _formats(formats)

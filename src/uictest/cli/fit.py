@@ -69,7 +69,7 @@ def fit(
     ] = Path("reports"),
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Find the friction of the rail under a recorded stop, and write the scenario that has it.
+    """Find the friction of the rail under a recorded stop. Writes the scenario that has it.
 
     Exit code 1 says that the record cannot tell all of it: where nothing slid there is only a lower bound.
     """

@@ -11,6 +11,7 @@ import typer
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.problems import InvalidInputError
+from uictest.cli.registration import command
 from uictest.cli.streams import data, message
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 identify = typer.Typer(
     rich_markup_mode=None,
-    help="Identify the compensation's hysteresis or cylinder dynamics from a recording.",
+    help="Identify hysteresis or cylinder dynamics from a recording.",
 )
 
 Record = Annotated[
@@ -40,7 +41,7 @@ HeldOut = Annotated[
 ]
 
 
-@identify.command("hysteresis")
+@command(identify, "hysteresis")
 def hysteresis(
     context: typer.Context,
     record: Record,
@@ -100,7 +101,7 @@ def hysteresis(
     return ExitCode.MET
 
 
-@identify.command("cylinder")
+@command(identify, "cylinder")
 def cylinder(
     context: typer.Context,
     record: Record,

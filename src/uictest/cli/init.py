@@ -42,7 +42,7 @@ def init(
     folder: Annotated[Path, typer.Argument(help="Where to put scenarios/ and schema/.")] = Path(),
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write a first scenario and the schema that lets an editor complete it; nothing is overwritten."""
+    """Write a first scenario, and the schema that lets editors complete it. Nothing is overwritten."""
     texts = {folder / SCENARIO: _FIRST_STOP, folder / SCHEMA: schema_text()}
     existing = [path for path in texts if path.exists()]
     if existing:

@@ -10,6 +10,7 @@ import typer
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.problems import InvalidInputError
+from uictest.cli.registration import command
 from uictest.cli.streams import data
 from uictest.report import printable
 
@@ -20,14 +21,14 @@ if TYPE_CHECKING:
 library = typer.Typer(rich_markup_mode=None, help="Show the parts that come with the program.")
 
 
-@library.command("list")
+@command(library, "list")
 def list_parts(verbosity: Verbosity = 0) -> ExitCode:
     """List the parts, one per line, each with its title."""
     data(_aligned([(reference, _title(reference)) for reference in _references()]))
     return ExitCode.MET
 
 
-@library.command("show")
+@command(library, "show")
 def show_part(
     reference: Annotated[str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180.")],
     verbosity: Verbosity = 0,

@@ -20,7 +20,7 @@ def list_cases(
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """List the ids of all cases, one per line; with -v their titles and tags. A sweep must be named."""
+    """List the ids of all cases, one per line. With -v, their titles and tags. A sweep must be named."""
     if paths and all(map(is_sweep, paths)):
         return _list_sweeps(paths, expression, overrides)
     cases = load_cases(paths, overrides, seed=None)

@@ -32,7 +32,7 @@ def report(
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write a finished run or sweep in further formats; shows the files it wrote.
+    """Write a finished run or sweep in further formats. Shows the files it wrote.
 
     The page draws the stops whose recordings lie in the run's folder; --record all keeps all of them.
     """

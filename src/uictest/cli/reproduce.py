@@ -41,7 +41,10 @@ def reproduce(
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
-    """Run the studies of the source and print source beside here; exit 0 when every band holds, else 1."""
+    """Run the studies of the source and print its values next to ours.
+
+    Exit 0 when every band holds, else 1.
+    """
     studies = _chosen(names or ())
     if listed:
         _list(studies, shown)

@@ -90,7 +90,7 @@ def run(
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
-    """Run scenarios through the simulated rig, judge each case and write the reports."""
+    """Run scenarios, judge each case and write the reports."""
     wanted = report_formats(formats, "--report")
     tolerances = tolerances_of(tolerance)
     if accept and baseline is None:

@@ -30,7 +30,7 @@ def schema(
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Print the JSON Schema (draft-07) of scenario or sweep files, for editors."""
+    """Print the JSON Schema (draft-07) of scenario or sweep files."""
     text = schema_text(subject)
     if output is None:
         data(text.rstrip("\n"))

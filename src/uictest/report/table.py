@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
+from uictest.report.text_table import Column, columns_not_shown, fitted
 from uictest.report.wording import DIFFERS, criterion_sentences
 
 if TYPE_CHECKING:
+    from rich.console import JustifyMethod
     from rich.table import Table
     from rich.text import Text
 
@@ -19,29 +21,58 @@ if TYPE_CHECKING:
 
 _STYLES = {"met": "green", "MISSED": "bold red", "ERROR": "bold magenta", DIFFERS: "bold red"}
 _MEASURES = {
-    "distance\nm": ("braking_distance_m", ".1f"),
-    "time\ns": ("braking_time_s", ".1f"),
-    "mean\nm/s2": ("mean_deceleration_mps2", ".2f"),
-    "adhesion\ng": ("initial_adhesion_g", ".3f"),
+    "distance\nm": ("braking_distance_m", ".1f", 2),
+    "time\ns": ("braking_time_s", ".1f", 5),
+    "mean\nm/s2": ("mean_deceleration_mps2", ".2f", 4),
+    "adhesion\ng": ("initial_adhesion_g", ".3f", 6),
 }
+"""Heading -> figure, its format, and the rank in which it gives way on a narrow terminal."""
+
+ALL_COLUMNS = "summary.csv and wheelsets.csv have all figures"
 
 
-def verdict_table(results: Sequence[CaseResult], word: Callable[[CaseResult], str]) -> Table:
-    """Return the table of all cases, one row each, with the word of each.
+def verdict_table(
+    results: Sequence[CaseResult], word: Callable[[CaseResult], str], width: int
+) -> tuple[Table, str]:
+    """Return the table of all cases in so many characters, and a line that says which columns gave way.
 
-    User text enters as text, never as markup.
+    `word` gives the word of each case. User text enters as text, never as markup.
     """
     from rich.table import Table
+    from rich.text import Text
 
+    columns, given_way = fitted(_columns(results, word), width)
     table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("case", overflow="fold")
-    for heading in ("verdict", "outcome"):
-        table.add_column(heading, no_wrap=True)
-    for heading in (*_MEASURES, "slide\nmax %", "vents\nmax"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for result in results:
-        table.add_row(*_row(result, word(result)))
-    return table
+    for column in columns:
+        justify: JustifyMethod = "right" if column.right else "left"
+        table.add_column(column.title, justify=justify, no_wrap=not column.wraps, overflow="fold")
+    styles = [_STYLES[word(result)] for result in results]
+    for style, row in zip(styles, zip(*(column.cells for column in columns), strict=True), strict=True):
+        texts = zip(columns, row, strict=True)
+        table.add_row(
+            *(Text(cell, style=style if column.title == "verdict" else "") for column, cell in texts)
+        )
+    return table, columns_not_shown(given_way, ALL_COLUMNS)
+
+
+def _columns(results: Sequence[CaseResult], word: Callable[[CaseResult], str]) -> list[Column]:
+    columns = [
+        Column("case", [printable(result.id) for result in results], wraps=True),
+        Column("verdict", list(map(word, results))),
+        Column("outcome", [result.outcome for result in results], rank=1),
+    ]
+    for title, (name, form, rank) in _MEASURES.items():
+        cells = [_figure(getattr(result.measures, name, None), form) for result in results]
+        columns.append(Column(title, cells, rank, right=True))
+    slides = [_largest(result, "maximum_slide") for result in results]
+    vents = [_largest(result, "valve_actuations") for result in results]
+    columns.append(Column("slide\nmax %", [_figure(s and 100.0 * s, ".0f") for s in slides], 3, right=True))
+    columns.append(Column("vents\nmax", [_figure(each, "d") for each in vents], 7, right=True))
+    return columns
+
+
+def _largest(result: CaseResult, figure: str) -> float | None:
+    return max((getattr(wheelset, figure) for wheelset in result.wheelsets), default=None)
 
 
 def explanation_text(content: RunContent, result: CaseResult, *, every_criterion: bool = False) -> Text:
@@ -57,21 +88,6 @@ def explanation_text(content: RunContent, result: CaseResult, *, every_criterion
     for line in lines:
         text.append(f"\n  {line}", style="not bold default")
     return text
-
-
-def _row(result: CaseResult, word: str) -> list[Text]:
-    from rich.text import Text
-
-    slide = max((wheelset.maximum_slide for wheelset in result.wheelsets), default=None)
-    actuations = max((wheelset.valve_actuations for wheelset in result.wheelsets), default=None)
-    return [
-        Text(printable(result.id)),
-        Text(word, style=_STYLES[word]),
-        Text(result.outcome),
-        *(Text(_figure(getattr(result.measures, name, None), form)) for name, form in _MEASURES.values()),
-        Text(_figure(slide and 100.0 * slide, ".0f")),
-        Text(_figure(actuations, "d")),
-    ]
 
 
 def _figure(value: float | None, form: str) -> str:

@@ -1,0 +1,115 @@
+"""A table that keeps to the width of a terminal: names stay whole, figures give way."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+GAP = "  "
+"""What stands between two columns."""
+
+_PIECE = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
+"""A part of a name that is not broken: lines end before an opening bracket and behind what joins words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table.
+
+    Args:
+        title: what it is called; a line feed begins the second line of its heading.
+        cells: its texts, one for each row; shown as they are, so printable.
+        rank: the column with the highest rank gives way first; one of rank 0 never does.
+        right: whether it holds figures, which are aligned to the right.
+        wraps: whether its texts may continue on the next line.
+
+    """
+
+    title: str
+    cells: Sequence[str]
+    rank: int = 0
+    right: bool = False
+    wraps: bool = False
+
+    @property
+    def width(self) -> int:
+        """How wide the longest text is."""
+        return max(map(len, (*self.title.split("\n"), *self.cells)))
+
+
+def fitted(columns: Sequence[Column], width: int | None) -> tuple[list[Column], list[Column]]:
+    """Return the columns as they fit into so many characters, and those that gave way.
+
+    Columns give way until every text that wraps has its whole length, or half of the width shared with the
+    others. Texts that are still longer are wrapped.
+    """
+    if width is None:
+        return list(columns), []
+    shown, given_way = list(columns), []
+    for column in sorted(columns, key=lambda each: -each.rank):
+        if column.rank == 0 or _least_width(shown, width) <= width:
+            break
+        shown.remove(column)
+        given_way.append(column)
+    return _wrapped(shown, width), [column for column in columns if column in given_way]
+
+
+def aligned(columns: Sequence[Column]) -> Iterator[str]:
+    """Yield the lines of a table, the titles first."""
+    texts = [[cell.split("\n") for cell in (column.title, *column.cells)] for column in columns]
+    widths = [max(len(line) for cell in cells for line in cell) for cells in texts]
+    for row in zip(*texts, strict=True):
+        for line in range(max(map(len, row))):
+            parts = [cell[line] if line < len(cell) else "" for cell in row]
+            yield GAP.join(map(str.ljust, parts, widths)).rstrip()
+
+
+def wrapped_name(name: str, width: int) -> list[str]:
+    """Return a name in lines of at most so many characters; a word is broken only where it is longer."""
+    lines = [""]
+    for piece in filter(None, _PIECE.findall(name)):
+        if lines[-1] and len(f"{lines[-1]}{piece}".rstrip()) > width:
+            lines.append("")
+        lines[-1] += piece
+        while len(lines[-1].rstrip()) > width:
+            lines[-1:] = [lines[-1][:width], lines[-1][width:]]
+    return [line.rstrip() for line in lines]
+
+
+def columns_not_shown(given_way: Sequence[Column], place: str) -> str:
+    """Return the line that names the columns that gave way, and where they are; empty where none did."""
+    names = ", ".join(column.title.partition("\n")[0] for column in given_way)
+    return f"not shown for lack of room: {names}; {place}" if given_way else ""
+
+
+def _least_width(columns: Sequence[Column], width: int) -> int:
+    """Return how much room columns need at least, if texts that wrap may take their share of the width."""
+    share = _share(columns, width)
+    widths = [min(column.width, _room(column, share)) if column.wraps else column.width for column in columns]
+    return sum(widths) + len(GAP) * (len(columns) - 1)
+
+
+def _share(columns: Sequence[Column], width: int) -> int:
+    return width // 2 // max(sum(column.wraps for column in columns), 1)
+
+
+def _room(column: Column, share: int) -> int:
+    """Return the width a column should have: its share, more where one of its words is longer."""
+    longest = max(len(piece.rstrip()) for cell in column.cells for piece in _PIECE.findall(cell))
+    return max(share, longest, max(map(len, column.title.split("\n"))))
+
+
+def _wrapped(columns: Sequence[Column], width: int) -> list[Column]:
+    """Return the columns with texts wrapped where there is no room for all of them."""
+    fixed = sum(column.width for column in columns if not column.wraps) + len(GAP) * (len(columns) - 1)
+    names = sorted((column for column in columns if column.wraps), key=lambda each: each.width)
+    room, texts = max(width - fixed, len(names)), {}
+    for place, column in enumerate(names):
+        own = max(min(column.width, room // (len(names) - place)), 1)
+        room -= own
+        texts[column.title] = ["\n".join(wrapped_name(cell, own)) for cell in column.cells]
+    return [
+        Column(each.title, texts[each.title], each.rank, each.right, wraps=True) if each.wraps else each
+        for each in columns
+    ]
