@@ -1,9 +1,12 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -45,3 +48,14 @@ def test_json(call: Call, scenario: Write) -> None:
 def test_nothing_selected_exits_5(call: Call, scenario: Write) -> None:
     scenario("a")
     assert call("list", "-m", "wet").code == 5
+
+
+@pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
+def test_described_cases_keep_to_a_terminal_and_their_ids_stay_whole(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    scenario("slide-80-four-caliper", "title: Slide test, a caliper in every module\ntags: [slide]\n")
+    monkeypatch.setattr("uictest.cli.list.terminal_width", lambda stream: int(columns))
+    table = [line for line in call("list", "-v").out.splitlines() if not line.startswith("not shown")]
+    assert max(map(len, table)) <= int(columns)
+    assert "slide-80-four-caliper" in "".join(re.split("  +", line)[0] for line in table[1:])

@@ -5,6 +5,7 @@ import json
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 
 from uictest.comparison import (
     Tolerances,
@@ -31,6 +32,19 @@ def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run: MakeRun) 
     assert line.split()[:5] == ["DIFFERS", "dry-120", "braking_distance_m", "465", "470"]
     assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["DIFFERS", "within"]
     assert verdict_line(found) == "22 quantities compared: 1 out of tolerance, 1 different within tolerance"
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
+def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run: MakeRun, width: int) -> None:
+    case_id = "wet-80-friction[friction=0.10,command=80]"
+    changes = {"braking_distance_m": 470.0, "verdict": "fail"}
+    found = compare_runs(make_run(case_id=case_id), make_run(case_id=case_id, **changes), DEFAULT)
+    lines = list(comparison_lines(found, width=width))
+    assert max(len(line) for line in lines if not line.startswith("not shown")) <= width
+    assert case_id in "".join(line.strip() for line in lines[:2])
+    assert any({"465", "470"} <= set(line.split()) for line in lines)
+    hidden = [name for name in ("deviation", "allowed", "unit") if name not in "".join(lines[:3])]
+    assert [name for name in hidden if name not in lines[-1]] == []
 
 
 def test_nothing_is_shown_of_what_is_the_same(make_run: MakeRun) -> None:

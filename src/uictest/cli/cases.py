@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import typer
 
 from uictest.cli.problems import InvalidInputError
 from uictest.report import counted, printable
+from uictest.report.text_table import Column, aligned, columns_not_shown, fitted
 
 if TYPE_CHECKING:
     from uictest.scenario import Case
@@ -65,6 +66,19 @@ def nothing_selected(cases: Sequence[Case]) -> str:
 def case_lines(cases: Sequence[Case], *, described: bool = False) -> str:
     """Return the ids, one per line; where described, title and tags behind a tab stop each."""
     return "\n".join(_described(case) if described else printable(case.id) for case in cases)
+
+
+def case_table(cases: Sequence[Case], width: int) -> Iterator[str]:
+    """Yield ids, titles and tags as a table in lines of at most so many characters."""
+    columns = [
+        Column("case", [printable(case.id) for case in cases], wraps=True),
+        Column("title", [printable(case.scenario.title) for case in cases], rank=1, wraps=True),
+        Column("tags", [printable(" ".join(case.scenario.tags)) for case in cases], rank=2, wraps=True),
+    ]
+    shown, given_way = fitted(columns, width)
+    yield from aligned(shown)
+    if given_way:
+        yield columns_not_shown(given_way, "--format json has them")
 
 
 def _described(case: Case) -> str:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest.cli.cases import case_lines, cases_json, load_cases, nothing_selected, select_cases
+from uictest.cli.cases import case_lines, case_table, cases_json, load_cases, nothing_selected, select_cases
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Verbosity
-from uictest.cli.streams import data, message
+from uictest.cli.streams import data, message, terminal_width
 from uictest.cli.sweep_files import is_sweep
 
 
@@ -28,7 +29,13 @@ def list_cases(
     if not selected:
         message(nothing_selected(cases))
         return ExitCode.NOTHING_SELECTED
-    data(cases_json(selected) if shown is PlainFormat.JSON else case_lines(selected, described=verbosity > 0))
+    width = terminal_width(sys.stdout)
+    if shown is PlainFormat.JSON:
+        data(cases_json(selected))
+    elif verbosity and width is not None:
+        data("\n".join(case_table(selected, width)))
+    else:
+        data(case_lines(selected, described=verbosity > 0))
     return ExitCode.MET
 
 

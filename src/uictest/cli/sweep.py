@@ -27,6 +27,7 @@ from uictest.cli.options import (
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import data, message, terminal_width
 from uictest.report import counted, no_command, printable
+from uictest.report.text_table import wrapped_name
 
 if TYPE_CHECKING:
     from uictest.cli.sweep_run import SweepRun
@@ -258,9 +259,13 @@ def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -
         return
     if quiet and shown is Format.GITHUB:
         return
-    for line in missed_lines(findings) if quiet else finding_lines(findings, terminal_width(sys.stdout)):
+    width = terminal_width(sys.stdout)
+    for line in missed_lines(findings) if quiet else finding_lines(findings, width):
         text = printable(line) if line else line
-        data(no_command(text) if shown is Format.GITHUB else text)
+        if shown is Format.GITHUB:
+            data(no_command(text))
+        else:
+            data(text if width is None else "\n".join(wrapped_name(text, width)))
 
 
 def show_annotations(content: SweepContent) -> None:

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.escaping import printable
-from uictest.report.text_table import Column, aligned, columns_not_shown, fitted
+from uictest.report.text_table import (
+    Column,
+    aligned,
+    columns_not_shown,
+    fitted,
+    table_width,
+    wrapped_name,
+)
 from uictest.report.wording import counted, number
 
 if TYPE_CHECKING:
@@ -26,12 +34,27 @@ def comparison_lines(
     """
     shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
     if shown:
-        columns, given_way = fitted(_columns(shown), width)
-        yield from aligned(columns)
-        if given_way:
-            yield columns_not_shown(given_way, "--format json has them")
+        yield from _table(shown, width)
     for note in comparison.notes:
         yield f"note: {printable(note)}"
+
+
+def _table(differences: Sequence[Difference], width: int | None) -> Iterator[str]:
+    """Yield the differences as one table; where that is too wide, as one below the id of each case."""
+    columns = _columns(differences)
+    if width is None or table_width(columns) <= width:
+        yield from aligned(columns)
+        return
+    given_way: dict[str, Column] = {}
+    for case_id, group in groupby(differences, key=lambda each: each.case):
+        if case_id:
+            yield from wrapped_name(printable(case_id), width)
+        own = [column for column in _columns(list(group)) if column.title != "case"]
+        shown, hidden = fitted(own, width)
+        given_way |= {column.title: column for column in hidden}
+        yield from aligned(shown)
+    if line := columns_not_shown(list(given_way.values()), "--format json has them"):
+        yield line
 
 
 def comparison_json(comparison: Comparison) -> str:
@@ -51,9 +74,11 @@ def verdict_line(comparison: Comparison) -> str:
 def _columns(differences: Sequence[Difference]) -> list[Column]:
     """Return the table of differences; without a case for recordings."""
     words = ["within" if difference.within else "DIFFERS" for difference in differences]
+    # A word that all rows share is the first to give way.
+    rank_of_words = 5 if len(set(words)) == 1 else 0
     cases = [printable(difference.case) for difference in differences]
     columns = [
-        Column("", words),
+        Column("", words, rank_of_words),
         Column("case", cases, wraps=True),
         Column("quantity", [printable(difference.quantity) for difference in differences], wraps=True),
         Column("first", [printable(value_text(difference.first)) for difference in differences]),

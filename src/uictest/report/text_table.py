@@ -55,6 +55,11 @@ def fitted(columns: Sequence[Column], width: int | None) -> tuple[list[Column], 
     return _wrapped(shown, width), [column for column in columns if column in given_way]
 
 
+def table_width(columns: Sequence[Column]) -> int:
+    """Return how wide the lines of a table are."""
+    return sum(column.width for column in columns) + len(GAP) * (len(columns) - 1)
+
+
 def aligned(columns: Sequence[Column]) -> Iterator[str]:
     """Yield the lines of a table, the titles first."""
     texts = [[cell.split("\n") for cell in (column.title, *column.cells)] for column in columns]
@@ -79,8 +84,8 @@ def wrapped_name(name: str, width: int) -> list[str]:
 
 def columns_not_shown(given_way: Sequence[Column], place: str) -> str:
     """Return the line that names the columns that gave way, and where they are; empty where none did."""
-    names = ", ".join(column.title.partition("\n")[0] for column in given_way)
-    return f"not shown for lack of room: {names}; {place}" if given_way else ""
+    names = ", ".join(title for column in given_way if (title := column.title.partition("\n")[0]))
+    return f"not shown for lack of room: {names}; {place}" if names else ""
 
 
 def _least_width(columns: Sequence[Column], width: int) -> int:
