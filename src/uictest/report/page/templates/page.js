@@ -202,7 +202,7 @@
       yanchor: mark.y === null ? (mark.kind === "window" ? "bottom" : "top")
         : behind || before || mark.kind === "interval" ? "middle" : "bottom",
       showarrow: false,
-      bgcolor: mark.y === null ? "rgba(0,0,0,0)" : colour("paper"),
+      bgcolor: mark.y === null && mark.kind !== "instant" ? "rgba(0,0,0,0)" : colour("paper"),
       borderpad: 1,
       font: { size: 11, color: inkOf(mark) },
     };
