@@ -8,7 +8,10 @@ import pytest
 
 from uictest.evaluation import error_result, evaluate, result_document, results_of, to_json
 
-CASE = ["id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"]
+CASE = [
+    *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
+    "parts",
+]
 MEASURES = [
     "braking_distance_m",
     "braking_time_s",

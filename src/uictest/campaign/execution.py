@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from uictest.campaign.examination import Examined, RecordingWish, examine
+from uictest.campaign.parts import PartsOfCases, with_parts
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
@@ -32,10 +33,12 @@ def run(
     jobs: int = 1,
     recording: RecordingWish | None = None,
     maxfail: int | None = None,
+    parts: PartsOfCases | None = None,
     on_result: Callable[[Examined], None] = lambda examined: None,
 ) -> Campaign:
     """Examine the cases on `jobs` threads, and return the results in the order of the cases.
 
+    Each result carries the `parts` of its case.
     `on_result` is called in this thread, once per case, in the order of the cases. After `maxfail` cases that
     did not meet their expectation nothing further is reported, so that the results do not depend on `jobs`.
     A KeyboardInterrupt ends the campaign: what is finished by then is kept.
@@ -44,16 +47,21 @@ def run(
     pool = ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="rig")
     pending: deque[Future[Examined]] = deque()
     missed = 0
+
+    def add(examined: Examined) -> None:
+        examined = with_parts(examined, parts or {})
+        campaign.results.append(examined.result)
+        on_result(examined)
+
     try:
         for examined in _in_order(pool, cases, recording or RecordingWish(), pending, jobs * _AHEAD):
-            campaign.results.append(examined.result)
-            on_result(examined)
+            add(examined)
             missed += not examined.result.met
             if maxfail is not None and missed >= maxfail:
                 break
     except KeyboardInterrupt:
         campaign.interrupted = True
-        _keep_finished(campaign, pending, on_result)
+        _keep_finished(pending, add)
     finally:
         # A stop under way cannot be broken off; after an interrupt nobody waits for it.
         pool.shutdown(wait=not campaign.interrupted, cancel_futures=True)
@@ -76,11 +84,7 @@ def _in_order(
         pending.extend(pool.submit(examine, case, wish) for case in itertools.islice(waiting, 1))
 
 
-def _keep_finished(
-    campaign: Campaign, pending: deque[Future[Examined]], on_result: Callable[[Examined], None]
-) -> None:
+def _keep_finished(pending: deque[Future[Examined]], add: Callable[[Examined], None]) -> None:
     for future in pending:
         if future.done() and not future.cancelled():
-            examined = future.result()
-            campaign.results.append(examined.result)
-            on_result(examined)
+            add(future.result())

@@ -10,7 +10,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from uictest import campaign, report
-from uictest.campaign import Campaign, Examined, RecordingWish
+from uictest.campaign import Campaign, Examined, PartsOfCases, RecordingWish
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import Display
 from uictest.cli.drawing import Drawing
@@ -29,6 +29,7 @@ class Batch:
     """What is to be run, how, and where its reports go."""
 
     cases: Sequence[Case]
+    parts: PartsOfCases
     manifest: dict[str, Any]
     recording: RecordingWish
     jobs: int
@@ -124,7 +125,12 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
             advance()
 
         return campaign.run(
-            batch.cases, jobs=batch.jobs, recording=drawing.recording, maxfail=batch.maxfail, on_result=take
+            batch.cases,
+            jobs=batch.jobs,
+            recording=drawing.recording,
+            maxfail=batch.maxfail,
+            parts=batch.parts,
+            on_result=take,
         )
 
 

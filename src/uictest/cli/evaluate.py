@@ -100,7 +100,7 @@ def evaluate(
     statements = [*(f"{key}={text}" for key, text in given.items() if text is not None), *(overrides or ())]
     stated = _stated(scenario, expression, statements)
 
-    from uictest.campaign import RecordingWish
+    from uictest.campaign import RecordingWish, parts_of_recorded, with_parts
     from uictest.cli.display import chosen_display
     from uictest.cli.measured_batch import judge_all, publish, read_all, subjects_of, tell, traces_of
     from uictest.report import manifest, tally
@@ -108,11 +108,12 @@ def evaluate(
     recordings = read_all(files, mapped)
     cases = [_checked(lambda m=measured: m.case(stated, inputs)) for measured in recordings]  # type: ignore[misc]
     read = {name: digest for case in cases for name, digest in case.inputs.items()}
-    examined = judge_all(recordings, cases)
+    parts = parts_of_recorded(cases)
+    examined = [with_parts(each, parts) for each in judge_all(recordings, cases)]
     done, place = publish(
         examined,
         RecordingWish(recorded.value),
-        manifest(context.obj.arguments, None, read, len(cases)),
+        manifest(context.obj.arguments, None, read, len(cases), parts.values()),
         output,
         junit,
         chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0),

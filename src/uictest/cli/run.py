@@ -113,14 +113,16 @@ def run(
         searched = () if expression or tag or last_failed else scenario_paths(paths)
         accepted = open_baseline(baseline, scope_of(selected, searched), tolerances, accepting=accept)
 
-    from uictest.campaign import RecordingWish
+    from uictest.campaign import RecordingWish, parts_of_cases
     from uictest.cli.batch import Batch, run_batch
     from uictest.cli.display import chosen_display
     from uictest.report import manifest
 
+    parts = parts_of_cases(selected)
     batch = Batch(
         cases=selected,
-        manifest=manifest(context.obj.arguments, seed, _inputs(selected), len(selected)),
+        parts=parts,
+        manifest=manifest(context.obj.arguments, seed, _inputs(selected), len(selected), parts.values()),
         recording=RecordingWish(recorded.value, every=1.0 / record_rate),
         jobs=min(jobs, len(selected)),
         maxfail=1 if exit_first else maxfail,

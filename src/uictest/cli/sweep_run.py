@@ -238,7 +238,7 @@ def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
     """
     import shutil
 
-    from uictest.campaign import RecordingWish, shortest_cycle, subjects_of
+    from uictest.campaign import RecordingWish, parts_of_cases, shortest_cycle, subjects_of
     from uictest.campaign import run as examine
     from uictest.report import write_recording
     from uictest.report.run_report import RECORDINGS
@@ -253,7 +253,7 @@ def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
 
     wish = RecordingWish("all")
     wish = replace(wish, every=min(wish.every, shortest_cycle(cases)))
-    campaign = examine(cases, jobs=run.jobs, recording=wish, on_result=keep)
+    campaign = examine(cases, jobs=run.jobs, recording=wish, parts=parts_of_cases(cases), on_result=keep)
     if campaign.interrupted:
         raise KeyboardInterrupt
     findings.worst, findings.subjects = campaign.results, subjects_of(cases)

@@ -2,9 +2,17 @@
 
 from uictest.evaluation.case import JUDGED_KEYS, error_result, evaluate
 from uictest.evaluation.coverage import Coverage, MissingData
-from uictest.evaluation.document import SCHEMA, result_document, results_of, to_json
+from uictest.evaluation.document import (
+    SCHEMA,
+    parts_document,
+    parts_of,
+    result_document,
+    results_of,
+    to_json,
+)
 from uictest.evaluation.judgement import judge
 from uictest.evaluation.margin import narrowest_margin, relative_margin
+from uictest.evaluation.parameters import EffectivePart, Parameter, parts_table
 from uictest.evaluation.result import (
     CaseResult,
     Expectation,
@@ -21,12 +29,14 @@ __all__ = [
     "AppliedDefinition",
     "CaseResult",
     "Coverage",
+    "EffectivePart",
     "Expectation",
     "Figures",
     "Judgement",
     "Layer",
     "MissingData",
     "Outcome",
+    "Parameter",
     "Sensitivity",
     "Stretch",
     "Verdict",
@@ -35,6 +45,9 @@ __all__ = [
     "evaluate",
     "judge",
     "narrowest_margin",
+    "parts_document",
+    "parts_of",
+    "parts_table",
     "relative_margin",
     "result_document",
     "results_of",

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
 from uictest.evaluation.json_form import json_form, or_nan
+from uictest.evaluation.parameters import EffectivePart
 from uictest.evaluation.verdict import Verdict
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
@@ -86,8 +87,9 @@ class CaseResult:
     """One case, judged. `scenario` is the file as the case names it (forward slashes).
 
     `reason` says why the outcome is what it is. `measures` is None and `wheelsets` empty when the simulation
-    failed. `duration` (seconds of wall clock) is for progress and JUnit only, never part of the document: a
-    result must not depend on the machine.
+    failed. `parts` maps a role (`controller`, ...) to the part that the case was run with; it is empty where
+    an earlier version wrote the result. `duration` (seconds of wall clock) is for progress and JUnit only,
+    never part of the document: a result must not depend on the machine.
     """
 
     id: str
@@ -99,6 +101,7 @@ class CaseResult:
     measures: Figures | None = None
     wheelsets: tuple[WheelsetFigures, ...] = ()
     reason: str = ""
+    parts: Mapping[str, EffectivePart] = field(default_factory=dict)
     duration: float = field(default=0.0, compare=False)
 
     @property
@@ -107,7 +110,10 @@ class CaseResult:
         return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form: the fields of the result document, NaN as None, without `duration`."""
+        """Return the JSON form: the fields of the result document, NaN as None, without `duration`.
+
+        Parts are named by their ids; :func:`parts_table` has them in full.
+        """
         return {
             "id": self.id,
             "scenario": self.scenario,
@@ -118,15 +124,20 @@ class CaseResult:
             "criteria": [verdict.to_dict() for verdict in self.criteria],
             "measures": self.measures.to_dict() if self.measures else None,
             "wheelsets": [wheelset.to_dict() for wheelset in self.wheelsets],
+            "parts": {role: part.id for role, part in self.parts.items()},
         }
 
     @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> CaseResult:
-        """Return the result whose `to_dict` is `content` (None in a figure becomes NaN)."""
+    def from_dict(cls, content: Mapping[str, Any], parts: Mapping[str, EffectivePart]) -> CaseResult:
+        """Return the result whose `to_dict` is `content` (None in a figure becomes NaN).
+
+        `parts` are those that it may name, by id. Raises KeyError where it names another.
+        """
         measures = content["measures"]
-        parts = {
+        own = {
             "criteria": tuple(map(Verdict.from_dict, content["criteria"])),
             "measures": Figures.from_dict(measures) if measures else None,
             "wheelsets": tuple(map(WheelsetFigures.from_dict, content["wheelsets"])),
+            "parts": {role: parts[part_id] for role, part_id in content.get("parts", {}).items()},
         }
-        return cls(**{**content, **parts})
+        return cls(**{**content, **own})

@@ -5,16 +5,25 @@ from __future__ import annotations
 import hashlib
 import json
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from uictest.report.parameters import part_sentence
+
+if TYPE_CHECKING:
+    from uictest.evaluation import EffectivePart
 
 SCHEMA = "uictest/manifest/1"
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
 
 
 def manifest(
-    command: Sequence[str], seed: int | None, inputs: Mapping[str, str], cases: int
+    command: Sequence[str],
+    seed: int | None,
+    inputs: Mapping[str, str],
+    cases: int,
+    parts: Iterable[Mapping[str, EffectivePart]] = (),
 ) -> dict[str, Any]:
     """Return the manifest of a run.
 
@@ -23,6 +32,7 @@ def manifest(
         seed: the seed given for all cases, None where each scenario has its own.
         inputs: every file read -> its SHA-256.
         cases: how many cases were selected.
+        parts: of each case, by role.
     """
     return {
         "schema": SCHEMA,
@@ -31,7 +41,16 @@ def manifest(
         "cases": cases,
         "versions": _versions(),
         "inputs": {without_machine(name): digest for name, digest in sorted(inputs.items())},
+        "parts": named_parts(parts),
     }
+
+
+def named_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, str]:
+    """Return every distinct part of some cases in words, by id; the sections of a scenario are no parts."""
+    from uictest.evaluation import parts_table
+
+    table = sorted(parts_table(cases).items())
+    return {part_id: part_sentence(part) for part_id, part in table if part.name}
 
 
 def digest(content: Mapping[str, Any]) -> str:

@@ -12,6 +12,8 @@ from uictest.scenario.tree import Document, Map, Place
 
 LARGEST: Final = 256 * 1024
 """Largest file that is read, bytes."""
+LIBRARY: Final = "library:"
+"""How the shown name of a library file begins."""
 _BEGINNING: Final = "start with `schema: uictest/scenario/1`"
 
 
@@ -27,7 +29,7 @@ def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
 
 def read_library(folder: str, name: str) -> Map:
     """The tree of a library file."""
-    return _tree(f"library:{folder}/{name}.yaml", Path(), library.content(folder, name))
+    return _tree(f"{LIBRARY}{folder}/{name}.yaml", Path(), library.content(folder, name))
 
 
 def display_name(path: Path) -> str:

@@ -1,17 +1,17 @@
 """References to parts: a library name, a relative path, or an inline mapping that may extend either."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path, PureWindowsPath
+from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, Final
 
 from uictest import library
-from uictest.scenario.diagnostics import refusal
+from uictest.scenario.diagnostics import ScenarioErrors, refusal
 from uictest.scenario.inheritance import inherit
 from uictest.scenario.model_keys import models_in
 from uictest.scenario.parts.model import Key
-from uictest.scenario.reading import is_file, read_file, read_library
+from uictest.scenario.reading import LIBRARY, is_file, read_file, read_library
 from uictest.scenario.tree import Document, Map, Node, Scalar, describe, plain
 from uictest.scenario.validation import validated
 from uictest.scenario.wording import nearest, quoted, suggestion
@@ -86,6 +86,7 @@ class Parts:
         self._by_name: dict[tuple[str, str], Resolved] = {}
         # Keyed by identity; the node is kept beside the part so that its identity stays taken.
         self._inline: dict[int, tuple[Node, Resolved]] = {}
+        self._originals: dict[int, tuple[Map, Any]] = {}
 
     def resolve(self, node: Node, model: Any, key: Key) -> Resolved:
         """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
@@ -108,10 +109,34 @@ class Parts:
         return self._inline[id(node)][1]
 
     def _made(self, tree: Map, model: Any, key: Key, dotted: str) -> Resolved:
-        merged, documents = inherit(
-            tree, lambda reference: self._fetch(reference, model, f"{dotted}.extends")
-        )
-        return Resolved(validated(model, plain(merged), merged, key), documents)
+        generations = [tree]
+
+        def fetch(reference: Scalar) -> Map:
+            generations.append(self._fetch(reference, model, f"{dotted}.extends"))
+            return generations[-1]
+
+        merged, documents = inherit(tree, fetch)
+        part = validated(model, plain(merged), merged, key)
+        return Resolved(self._with_origin(part, generations, model), documents)
+
+    def _with_origin(self, part: Any, generations: Sequence[Map], model: Any) -> Any:
+        root = generations[-1]
+        display = root.place.document.display
+        file = PurePosixPath(display)
+        if display.startswith(LIBRARY):
+            original = part if len(generations) == 1 else self._original(root, model)
+            return part.with_origin(file.stem, original)
+        return part if len(generations) == 1 else part.with_origin(file.name, self._original(root, model))
+
+    def _original(self, root: Map, model: Any) -> Any:
+        """The part that a file at the root of `extends` describes; None where it is not a whole part."""
+        if id(root) not in self._originals:
+            try:
+                original = validated(model, plain(root), root)
+            except ScenarioErrors:
+                original = None
+            self._originals[id(root)] = (root, original)
+        return self._originals[id(root)][1]
 
     def _fetch(self, reference: Scalar, model: Any, dotted: str) -> Map:
         folder = folder_of(model)

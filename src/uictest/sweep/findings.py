@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.evaluation import CaseResult, to_json
+from uictest.evaluation import CaseResult, parts_document, to_json
+from uictest.evaluation.effective_parts import EffectiveParts
 from uictest.evaluation.json_form import json_form
 from uictest.recording import atomic_path, write_text_atomic
 from uictest.report.csv_table import Cell, csv_text
@@ -160,6 +161,7 @@ def result_document(findings: Findings) -> dict[str, Any]:
     """Return what a page or a program needs of a sweep: counts, maps, sensitivities, the frontier."""
     tally, stretches = findings.tally, list(map(dataclasses.asdict, findings.frontier))
     total = tally.total()
+    base = EffectiveParts().of(tally.plan.base.scenario)
     return {
         "schema": RESULT_SCHEMA,
         "name": tally.plan.name,
@@ -172,6 +174,9 @@ def result_document(findings: Findings) -> dict[str, Any]:
         "maps": [_map_form(each) for each in findings.maps],
         "distributions": [each.form() for each in findings.distributions],
         "trends": [form for each in findings.trends for form in each.forms()],
+        "base": {role: part.id for role, part in base.items()},
+        "varied": list(tally.plan.keys),
+        "parts": parts_document([base, *(result.parts for result in findings.worst)]),
         "worst": [result.to_dict() for result in findings.worst],
         "subjects": {name: subject.to_dict() for name, subject in findings.subjects.items()},
         "sensitivities": [dataclasses.asdict(each) for each in findings.sensitivities],

@@ -11,6 +11,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, Final
 
+from uictest.evaluation.effective_parts import EffectiveParts
+from uictest.report.manifest import named_parts
 from uictest.sweep.selection import Selection
 
 SCHEMA: Final = "uictest/sweep-manifest/1"
@@ -45,6 +47,7 @@ def sweep_manifest(
         "seed": seed,
         "device": selection.device,
         "parameters": list(plan.keys),
+        "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
         "inputs": {_seen_from(folder, name): digest for name, digest in plan.inputs.items()},
         "versions": _versions(),
         "program": program_digest(),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from uictest.report.subject import Subject
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
+    from uictest.evaluation import CaseResult, EffectivePart
     from uictest.report.page import Trace
 
 
@@ -25,6 +25,7 @@ class SweepContent:
         worst: the cases most worth looking at, those not met first.
         subjects: what they are about, by id.
         traces: what there is to draw of them, by id.
+        base: the parts of the case whose values are varied, by role; none where an earlier version wrote it.
 
     """
 
@@ -34,6 +35,7 @@ class SweepContent:
     worst: Sequence[CaseResult] = ()
     subjects: Mapping[str, Subject] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
+    base: Mapping[str, EffectivePart] = field(default_factory=dict)
 
     def subject(self, case_id: str) -> Subject:
         """Return what a case is about; an empty subject where that is not known."""

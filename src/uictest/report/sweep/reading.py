@@ -27,17 +27,19 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
         ValueError: one of them is not what it should be.
 
     """
-    from uictest.evaluation import CaseResult
+    from uictest.evaluation import CaseResult, parts_of
 
     path = folder / SWEEP_RESULTS
     document = _findings(path)
     try:
-        worst = [CaseResult.from_dict(case) for case in document["worst"]]
+        parts = parts_of(document)
+        worst = [CaseResult.from_dict(case, parts) for case in document["worst"]]
+        base = {role: parts[part_id] for role, part_id in document.get("base", {}).items()}
         subjects = {name: Subject.from_dict(each) for name, each in document["subjects"].items()}
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ValueError(f"{path}: not the result of a sweep: {error}") from error
     drawn = read_traces(folder, [result.id for result in worst]) if traces else {}
-    return SweepContent(folder, document, _mapping(folder / _MANIFEST), worst, subjects, drawn)
+    return SweepContent(folder, document, _mapping(folder / _MANIFEST), worst, subjects, drawn, base)
 
 
 def _findings(path: Path) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, ClassVar, Literal, NamedTuple, Self
 
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from uictest.scenario.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
@@ -83,6 +83,29 @@ class Part(Model):
         default_factory=dict,
         description="Where the numbers come from; each number names a key of this mapping.",
     )
+
+    # Beside the fields, so that a copy with other numbers still knows what it was changed from.
+    _based_on: str | None = PrivateAttr(default=None)
+    _original: "Part | None" = PrivateAttr(default=None)
+
+    @property
+    def based_on(self) -> str | None:
+        """Name of the library part at the root of `extends`, else of the file there.
+
+        A library part is based on itself. None for a part that extends nothing.
+        """
+        return self._based_on
+
+    @property
+    def original(self) -> "Part | None":
+        """The part called `based_on` as its file has it; None where that file is not a whole part."""
+        return self._original
+
+    def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
+        """A copy that knows the part at the root of `extends`."""
+        part = self.model_copy()
+        part._based_on, part._original = based_on, original
+        return part
 
     def undescribed(self) -> Iterator[Contradiction]:
         """Yield every number whose source is not described."""

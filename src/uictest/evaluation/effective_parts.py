@@ -1,0 +1,158 @@
+"""The effective parameters of a case, computed from its resolved scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+from uictest.evaluation.parameters import EffectivePart, Parameter
+from uictest.scenario import Quantity, Scenario
+from uictest.scenario.parts.model import Key, Model, Part
+from uictest.scenario.values import DESCRIPTIVE, Value, mark_of, values_in
+
+_PARTS: Final = {
+    "vehicle": "vehicle",
+    "brake": "brake.system",
+    "rail": "rail.condition",
+    "caliper": "rig.caliper",
+    "compensation": "rig.compensation_model",
+    "sensors": "rig.sensors",
+    "controller": "controller",
+    "measures": "measures",
+}
+"""Kind of a part -> where it stands in a scenario."""
+
+_CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
+"""What a scenario states of a recorded stop, besides rail condition, criteria and measures."""
+
+_SECTIONS: Final = ("brake", "rail", "rig", "simulation")
+_FRICTION: Final = ("friction",)
+
+
+class EffectiveParts:
+    """Computes the parts of scenarios; a part that many scenarios share is computed once."""
+
+    def __init__(self) -> None:
+        # Keyed by identity; the part is kept beside the result so that its identity stays taken.
+        self._computed: dict[tuple[int, Key], tuple[Part, EffectivePart]] = {}
+
+    def of(self, scenario: Scenario) -> dict[str, EffectivePart]:
+        """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
+        parts = {"scenario": EffectivePart("scenario", "", "", None, tuple(_stop(scenario)))}
+        for name in ("brake", "rail", "rig"):
+            own = tuple(_section(scenario, name))
+            parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
+        for kind, key in _PARTS.items():
+            overridden = _FRICTION if kind == "rail" and scenario.rail.friction is not None else ()
+            parts[kind] = self.part(_at(scenario, key), kind, key, overridden)
+        return parts | self._criteria(scenario)
+
+    def of_recorded(self, scenario: Scenario) -> dict[str, EffectivePart]:
+        """Return what a recorded stop is judged under: conditions, measures, criteria; nothing of a rig."""
+        condition = scenario.rail.condition
+        stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
+        for name in ("brake", "rail", "rig"):
+            stated += [each for each in _section(scenario, name) if each.key in _CONDITIONS]
+        return {
+            "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
+            "measures": self.part(scenario.measures, "measures", "measures"),
+            **self._criteria(scenario),
+        }
+
+    def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
+        """Return one part that stands at `key`, without the parameter that the scenario overrides."""
+        kept = self._computed.get((id(part), overridden))
+        if kept is None:
+            kept = part, _effective(part, kind, key, overridden)
+            self._computed[id(part), overridden] = kept
+        return kept[1]
+
+    def _criteria(self, scenario: Scenario) -> dict[str, EffectivePart]:
+        return {
+            f"criteria.{place}": self.part(profile, "criteria", "")
+            for place, profile in enumerate(scenario.criteria)
+        }
+
+
+def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePart:
+    values, original = dict(values_in(part)), dict(values_in(part.original))
+    if overridden:
+        for each in (values, original):
+            each.pop(overridden, None)
+    above = f"{key}." if key else ""
+    library = original if part.original else None
+    parameters = tuple(
+        _parameter(above, place, value, library, _mark(part, place, value, original))
+        for place, value in values.items()
+    )
+    removed = tuple(f"{above}{_dotted(place)}" for place in original if place not in values)
+    used = {each.source for each in parameters if each.source}
+    sources = {name: source.text for name, source in part.sources.items() if name in used}
+    return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
+
+
+def _mark(part: Part, place: Key, value: Value, original: Mapping[Key, Value]) -> str:
+    if isinstance(value, Quantity):
+        return mark_of(value, part.sources)
+    return "" if original.get(place) == value else "user"
+
+
+def _stop(scenario: Scenario) -> Iterator[Parameter]:
+    yield from _own(scenario, "", {})
+    yield from _own(scenario.simulation, "simulation.", {})
+
+
+def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
+    # A friction that is left out is the condition's.
+    defaults = {"friction": scenario.rail.condition.friction} if name == "rail" else {}
+    return _own(getattr(scenario, name), f"{name}.", defaults)
+
+
+def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
+    """Yield what a scenario says itself; what it may leave out is held against the default."""
+    for name, declared in type(model).model_fields.items():
+        value = getattr(model, name)
+        if name in DESCRIPTIVE or (name in _SECTIONS and isinstance(value, Model)):
+            continue
+        default = None if declared.is_required() else dict(values_in(defaults.get(name, declared.default)))
+        setting = "user" if name in model.model_fields_set else "default"
+        for place, each in values_in(value, (name,)):
+            mark = mark_of(each, {}) if isinstance(each, Quantity) else setting
+            below = None if default is None else {(name, *key): other for key, other in default.items()}
+            yield _parameter(above, place, each, below, mark)
+
+
+def _parameter(
+    above: str, place: Key, value: Value, library: Mapping[Key, Value] | None, mark: str
+) -> Parameter:
+    """Return a parameter held against the values of the library part, None where there is no such part."""
+    source = value.source if isinstance(value, Quantity) and mark not in ("user", "default") else ""
+    other = None if library is None else library.get(place)
+    key, unit = f"{above}{_dotted(place)}", value.unit if isinstance(value, Quantity) else ""
+    own = (key, _plain(value), unit, _written(value), mark, source)
+    if library is None or other == value:
+        return Parameter(*own)
+    if other is None:
+        return Parameter(*own, differs=True)
+    return Parameter(*own, differs=True, library_value=_plain(other), library_written=_written(other))
+
+
+def _plain(value: Value) -> float | str:
+    return float(value) if isinstance(value, float) else value
+
+
+def _written(value: Value) -> str:
+    if isinstance(value, Quantity):
+        return value.text
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _dotted(key: Key) -> str:
+    return ".".join(map(str, key))
+
+
+def _at(scenario: Scenario, key: str) -> Any:
+    value: Any = scenario
+    for element in key.split("."):
+        value = getattr(value, element)
+    return value

@@ -1,0 +1,48 @@
+"""Every value of a part or a section of a scenario that a stop can depend on, numbers and settings alike."""
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+from pydantic import BaseModel
+
+from uictest.scenario.parts.model import Key, Part, Source
+from uictest.scenario.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
+
+Value = Quantity | str | int | float
+
+DESCRIPTIVE: Final = frozenset(
+    {
+        *("schema_id", "id", "name", "title", "description", "tags", "extends"),
+        *("sources", "source", "clause", "provenance"),
+        *("matrix", "zip", "include", "exclude", "expect"),
+    }
+)
+"""Fields that say what something is, where it comes from or what is expected of it."""
+
+
+def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
+    """Yield every number and setting inside a model, tuple or mapping with its key.
+
+    A criterion is named by its id. Parts inside are passed over, and so is what is not set.
+    """
+    if isinstance(value, str | int | float):
+        yield key, value
+    elif isinstance(value, BaseModel):
+        if key and isinstance(value, Part):
+            return
+        for name, inner in value:
+            if name not in DESCRIPTIVE:
+                yield from values_in(inner, (*key, name))
+    elif isinstance(value, dict):
+        for name, inner in value.items():
+            yield from values_in(inner, (*key, name))
+    elif isinstance(value, tuple):
+        for index, inner in enumerate(value):
+            yield from values_in(inner, (*key, getattr(inner, "id", index)))
+
+
+def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
+    """The mark of the source; `user` for a number given without one, `default` for one that nobody wrote."""
+    if quantity.source in sources:
+        return sources[quantity.source].mark
+    return {SCENARIO_SOURCE: "user", DEFAULT_SOURCE: "default"}[quantity.source]
