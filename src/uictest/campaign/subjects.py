@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from uictest.report import Subject
     from uictest.scenario import Case, Scenario
+    from uictest.scenario.parts.model import Part
 
 
 def subjects_of(cases: Iterable[Case]) -> dict[str, Subject]:
@@ -25,14 +26,21 @@ def subject_of(scenario: Scenario) -> Subject:
 def _settings(scenario: Scenario) -> dict[str, str]:
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     return {
-        "vehicle": scenario.vehicle.name,
+        "vehicle": _named(scenario.vehicle),
         "initial speed": scenario.initial_speed.text,
-        "brake": f"{brake.system.name}, position {brake.position}, {brake.command.text}",
-        "rail": f"{rail.condition.name}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
-        "WSP": f"{rig.wsp}, controller {scenario.controller.name}",
-        "rig": f"{rig.topology}, compensation {rig.compensation}",
+        "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command.text}",
+        "rail": f"{_named(rail.condition)}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
+        "WSP": f"{rig.wsp}, controller {_named(scenario.controller)}",
+        "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",
         "criteria": ", ".join(profile.name for profile in scenario.criteria),
     }
+
+
+def _named(part: Part) -> str:
+    """Return the name of a part, and whether it is another than the part of that name in the library."""
+    from uictest.scenario.values import is_changed
+
+    return f"{part.name} (changed)" if is_changed(part) else part.name
 
 
 def _friction(scenario: Scenario) -> str:

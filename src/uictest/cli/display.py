@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Protocol, TextIO
 
 from uictest.cli.options import Colour, Format
@@ -18,6 +18,7 @@ from uictest.report import (
     definition_lines,
     missing_annotations,
     missing_lines,
+    part_lines,
 )
 
 if TYPE_CHECKING:
@@ -56,11 +57,11 @@ class Lines:
                 data(line)
 
     def end(self, content: RunContent, document: str) -> None:
-        """Show the missing cases of the baseline, and what the criteria were taken to mean."""
+        """Show the missing cases of the baseline; with -v what criteria mean and what cases were run with."""
         for line in missing_lines(content.baseline) if content.baseline else ():
             self._show(DIFFERS, line)
         if self._verbose:
-            for line in definition_lines(_shown(content, quiet=self._quiet)):
+            for line in _common_lines(_shown(content, quiet=self._quiet)):
                 data(line)
 
     def _show(self, word: str, line: str) -> None:
@@ -126,8 +127,14 @@ class VerdictTable:
         for line in missing_lines(content.baseline) if content.baseline else ():
             console.print(line, markup=False)
         if self._verbose:
-            for line in definition_lines(shown):
+            for line in _common_lines(shown):
                 console.print(line, markup=False)
+
+
+def _common_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+    """Yield what cases have in common: the meaning of criteria, and parts."""
+    yield from definition_lines(results)
+    yield from part_lines(results)
 
 
 def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool) -> Display:

@@ -5,6 +5,7 @@ from uictest.comparison.difference import Comparison
 from uictest.comparison.folders import compare_run_folders, with_overlays
 from uictest.comparison.overlay import Overlay
 from uictest.comparison.page import comparison_html
+from uictest.comparison.parameters import ParameterChange
 from uictest.comparison.recordings import compare_recordings
 from uictest.comparison.runs import compare_runs
 from uictest.comparison.tolerance import Tolerance, Tolerances
@@ -14,6 +15,7 @@ __all__ = [
     "Baseline",
     "Comparison",
     "Overlay",
+    "ParameterChange",
     "Scope",
     "Tolerance",
     "Tolerances",

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from uictest.report.difference import Difference
 
 if TYPE_CHECKING:
     from uictest.comparison.overlay import Overlay
+    from uictest.comparison.parameters import ParameterChange
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,7 @@ class Comparison:
         notes: what is known to be different about how they came about.
         overlays: both drawn over each other.
         undrawn: which stops are not drawn, and why.
+        parameters: what the cases of two runs were run with differently.
 
     """
 
@@ -33,6 +35,7 @@ class Comparison:
     notes: Sequence[str] = ()
     overlays: Sequence[Overlay] = field(default=(), repr=False)
     undrawn: Sequence[str] = ()
+    parameters: Sequence[ParameterChange] = ()
 
     @property
     def beyond(self) -> list[Difference]:
@@ -53,5 +56,6 @@ class Comparison:
             "agrees": self.agrees,
             "compared": self.compared,
             "notes": list(self.notes),
+            "parameters": [asdict(change) for change in self.parameters],
             "differences": [difference.to_dict() for difference in self.differences],
         }

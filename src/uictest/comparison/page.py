@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from uictest.comparison.wording import verdict_line
 from uictest.report.difference import value_text
+from uictest.report.lines import listed
 from uictest.report.page.overlay_view import overlay_view
 from uictest.report.page.rendering import render
 from uictest.report.wording import number
@@ -27,5 +28,6 @@ def comparison_html(comparison: Comparison) -> str:
         verdict_line=verdict_line(comparison),
         number=number,
         value_text=value_text,
+        listed=listed,
         with_plots=bool(overlays),
     )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
+from uictest.comparison.parameters import parameter_changes
 from uictest.comparison.tolerance import Tolerances
 from uictest.evaluation.result import unit_of
 from uictest.report.difference import Difference
@@ -27,7 +28,15 @@ def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) 
         found = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
         compared += len(found)
         differences += [difference for difference in found if difference is not None]
-    return Comparison(first.name, second.name, compared, differences, list(run_notes(first, second)))
+    both = [(ours[case_id], theirs[case_id]) for case_id in ours if case_id in theirs]
+    return Comparison(
+        first.name,
+        second.name,
+        compared,
+        differences,
+        [*run_notes(first, second), *_unknown_parameters(both)],
+        parameters=parameter_changes(both),
+    )
 
 
 def _case(
@@ -75,10 +84,19 @@ def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
     """Yield what went into the runs differently: it explains differences and is none by itself."""
     for what in ("seed", "versions", "inputs"):
         yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
+    # With parts the settings are told parameter by parameter.
+    told = {result.id for run in (first, second) for result in run.results if result.parts}
     for case_id in first.subjects:
-        if case_id in second.subjects:
+        if case_id in second.subjects and case_id not in told:
             ours, theirs = first.subjects[case_id].settings, second.subjects[case_id].settings
             yield from _changes(case_id, dict(ours), dict(theirs))
+
+
+def _unknown_parameters(both: Sequence[tuple[CaseResult, CaseResult]]) -> Iterator[str]:
+    """Yield which run has no parameters to compare, where the other one has."""
+    for place, word in enumerate(("first", "second")):
+        if both and all(pair[1 - place].parts and not pair[place].parts for pair in both):
+            yield f"the {word} run does not hold its parameters: an earlier version of uictest made it"
 
 
 def _changes(what: str, first: Any, second: Any) -> Iterator[str]:

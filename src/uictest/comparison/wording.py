@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.escaping import printable
+from uictest.report.lines import listed
 from uictest.report.text_table import (
     Column,
     aligned,
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from uictest.comparison.difference import Comparison
     from uictest.report.difference import Difference
 
+_MOST_PARAMETERS = 20
+"""Changed parameters that a reader is told of at first; two vehicles differ in some 25."""
+
 
 def comparison_lines(
     comparison: Comparison, *, every: bool = False, width: int | None = None
@@ -35,8 +39,19 @@ def comparison_lines(
     shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
     if shown:
         yield from _table(shown, width)
+    yield from _parameter_lines(comparison, every=every)
     for note in comparison.notes:
         yield f"note: {printable(note)}"
+
+
+def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
+    """Yield what was changed between two runs, and in which cases."""
+    changes = comparison.parameters
+    shown = changes if every else changes[:_MOST_PARAMETERS]
+    for change in shown:
+        yield f"parameter {printable(str(change))} (in {listed(change.cases)})"
+    if len(shown) < len(changes):
+        yield f"parameters: {len(changes) - len(shown)} more differ; -v lists them"
 
 
 def _table(differences: Sequence[Difference], width: int | None) -> Iterator[str]:

@@ -8,7 +8,7 @@ from uictest.report.formats import ReportFormat, write_formats
 from uictest.report.github import annotation, case_annotations, missing_annotations, no_command
 from uictest.report.junit import junit_xml
 from uictest.report.latest import latest_run, point_latest
-from uictest.report.lines import case_line, criterion_lines, definition_lines, missing_lines
+from uictest.report.lines import case_line, criterion_lines, definition_lines, missing_lines, part_lines
 from uictest.report.manifest import manifest
 from uictest.report.markdown import append_step_summary
 from uictest.report.run_contents import read_run
@@ -52,6 +52,7 @@ __all__ = [
     "missing_lines",
     "no_command",
     "not_compared_sentences",
+    "part_lines",
     "point_latest",
     "printable",
     "read_run",

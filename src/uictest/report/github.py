@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import workflow_message, workflow_property
+from uictest.report.parameters import changes_line
 from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
@@ -22,7 +23,8 @@ def case_annotations(result: CaseResult, differences: Sequence[Difference] = ())
     """Yield an `::error` command for a case that misses its expectation or differs from the baseline."""
     if differences or not result.met:
         title = f"{case_word(result, differences)} {result.id}"
-        yield annotation(result.scenario, title, "\n".join(case_explanation(result, differences)))
+        lines = (*case_explanation(result, differences), *changes_line(result))
+        yield annotation(result.scenario, title, "\n".join(lines))
 
 
 def missing_annotations(baseline: BaselineComparison) -> Iterator[str]:

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import xml_text
+from uictest.report.parameters import changes_line
 from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
@@ -42,9 +43,12 @@ def junit_xml(results: Sequence[CaseResult], baseline: BaselineComparison | None
 def _testcase(result: CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
     element = _empty_testcase(result.id, result.scenario, result.duration)
     tag = _child_tag(result, differs=bool(differences))
+    changes = changes_line(result)
     if tag is not None:
         kind = "baseline" if case_word(result, differences) == DIFFERS else ""
-        _add_child(element, tag, case_explanation(result, differences), kind)
+        _add_child(element, tag, [*case_explanation(result, differences), *changes], kind)
+    elif changes:
+        ElementTree.SubElement(element, "system-out").text = xml_text(changes[0])
     return element
 
 

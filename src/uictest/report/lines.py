@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import printable
+from uictest.report.parameters import part_sentences
 from uictest.report.wording import (
     DIFFERS,
     criterion_sentences,
@@ -54,12 +55,24 @@ def definition_lines(results: Sequence[CaseResult]) -> Iterator[str]:
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
     meanings = [criterion for criterion, _ in cases]
     for (criterion, sentence), names in cases.items():
-        where = f" (in {_listed(names)})" if meanings.count(criterion) > 1 else ""
+        where = f" (in {listed(names)})" if meanings.count(criterion) > 1 else ""
         if sentence:
             yield f"definition {printable(criterion)}{where}: {sentence}"
 
 
-def _listed(names: Sequence[str]) -> str:
+def part_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+    """Yield the parts that cases were run with and what was changed in them, once for all cases alike."""
+    cases: dict[tuple[str, str], list[str]] = {}
+    for result in results:
+        for role, sentence in part_sentences(result.parts).items():
+            cases.setdefault((role, sentence), []).append(result.id)
+    for (role, sentence), names in cases.items():
+        where = "" if len(names) == len(results) else f" (in {listed(names)})"
+        yield f"part {role}{where}: {sentence}"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return the first names, and how many more there are."""
     left = len(names) - _NAMED_CASES
     shown = ", ".join(map(printable, names[:_NAMED_CASES]))
     return f"{shown} and {left} more" if left > 0 else shown

@@ -9,6 +9,7 @@ from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.markdown_table import MarkdownTable, row
 from uictest.report.markdown_text import code, figure, prose
+from uictest.report.parameters import changed_parameters
 from uictest.report.step_summary import LIMIT, append_to_step_summary
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ _DIFFERENCES_SHOWN = 100
 _COLUMNS = (
     *("verdict", "case", "outcome"),
     *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide, %"),
-    "why",
+    *("changed parameters", "why"),
 )
 
 
@@ -43,7 +44,7 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
         text += "**Incomplete**: selected cases were not run.\n\n"
     text += _baseline(content.baseline, limit // 2) if content.baseline else ""
     rows = [_row(content, result) for result in sorted(content.results, key=content.passes)]
-    table = MarkdownTable(_COLUMNS, "lllrrrrrl", rows, "more cases are in `summary.csv` and `results.json`.")
+    table = MarkdownTable(_COLUMNS, "lllrrrrrll", rows, "more cases are in `summary.csv` and `results.json`.")
     return text + table.within(limit - len(text.encode()))
 
 
@@ -78,5 +79,6 @@ def _row(content: RunContent, result: CaseResult) -> str:
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
     outcome = f"{result.outcome}{recorded}"
-    cells = (word if passes else f"**{word}**", code(result.id), outcome, *figures, why)
+    changed = prose("; ".join(changed_parameters(result.parts)))
+    cells = (word if passes else f"**{word}**", code(result.id), outcome, *figures, changed, why)
     return row(cells)

@@ -2,45 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
-    from uictest.evaluation import EffectivePart, Parameter
+    from uictest.evaluation import CaseResult, EffectivePart
 
 _PATHS = (".yaml", ".yml")
 
 
-def part_sentence(part: EffectivePart) -> str:
-    """Return name and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`."""
-    changes = "; ".join(_changes(part, part.key))
-    return printable(", changed: ".join(text for text in (part.name or part.kind, changes) if text))
+def part_sentence(part: EffectivePart, setting: str = "") -> str:
+    """Return name, setting and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`.
+
+    A section of a scenario has no name; the text is empty where it changes nothing.
+    """
+    changes = "; ".join(_changes(part, part.key if part.name else ""))
+    texts = (part.name, setting, changes and f"changed: {changes}")
+    return printable(", ".join(text for text in texts if text))
 
 
-def changed_parameters(parts: Mapping[str, EffectivePart]) -> list[str]:
+def part_sentences(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
+    """Return the sentence of each part of a case by role; that of the compensation names its setting, too."""
+    settings = {"compensation": _setting(parts)} if "compensation" in parts else {}
+    sentences = {role: part_sentence(part, settings.get(role, "")) for role, part in parts.items()}
+    return {role: sentence for role, sentence in sentences.items() if sentence}
+
+
+def changed_parameters(parts: Mapping[str, EffectivePart], varied: Collection[str] = ()) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
-    What the scenario says itself is held against its defaults.
+    What the scenario says itself is held against its defaults. The keys of `varied` are left out.
     """
-    return [printable(change) for part in parts.values() for change in _changes(part, "")]
+    return [printable(change) for part in parts.values() for change in _changes(part, "", varied)]
 
 
-def _changes(part: EffectivePart, above: str) -> Iterator[str]:
-    for parameter in part.changed:
-        key = parameter.key.removeprefix(f"{above}.")
-        yield f"{key} {parameter.written} ({_base(part)}: {_library(parameter)})"
-    for key in part.removed:
-        yield f"{key.removeprefix(f'{above}.')} removed"
+def changes_line(result: CaseResult) -> list[str]:
+    """Return one line with the changed parameters of a case, none where nothing differs."""
+    changed = changed_parameters(result.parts)
+    return [f"changed parameters: {'; '.join(changed)}"] if changed else []
 
 
-def _base(part: EffectivePart) -> str:
-    """Return what the part it is based on is called."""
+def base_word(part: EffectivePart) -> str:
+    """Return what the values are called that a part is held against."""
     if part.based_on is None:
         return "default"
     return part.based_on if part.based_on.endswith(_PATHS) else "library"
 
 
-def _library(parameter: Parameter) -> str:
-    return parameter.library_written or "none"
+def _changes(part: EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
+    for parameter in (each for each in part.changed if each.key not in varied):
+        key = parameter.key.removeprefix(f"{above}.")
+        yield f"{key} {parameter.written} ({base_word(part)}: {parameter.library_written or 'none'})"
+    for key in part.removed:
+        yield f"{key.removeprefix(f'{above}.')} removed"
+
+
+def _setting(parts: Mapping[str, EffectivePart]) -> str:
+    settings = {each.key: each.written for each in parts["scenario.rig"].parameters}
+    if settings["rig.topology"] == "four-caliper":
+        return "not in use with four calipers"
+    return f"setting {settings['rig.compensation']}"

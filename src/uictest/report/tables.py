@@ -7,20 +7,22 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from uictest.report.csv_table import Cell, csv_text
+from uictest.report.parameters import changed_parameters
 from uictest.report.wording import definition_sentence
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
 
+CHANGED = "changed_parameters"
 CRITERION_FIELDS = ("layer", "verdict", "value", "unit", "lower", "upper", "margin", "reason")
 
 
 def summary_csv(results: Sequence[CaseResult]) -> str:
-    """Return one row per case: parameters (as written), expectation, outcome, measures."""
+    """Return one row per case: swept parameters (as written), outcome, changed parameters, measures."""
     from uictest.evaluation import Figures
 
     keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
-    columns = ["id", "scenario", *keys, "expect", "outcome", "met", "reason", *_names(Figures)]
+    columns = ["id", "scenario", *keys, "expect", "outcome", "met", "reason", CHANGED, *_names(Figures)]
     return csv_text(columns, map(_summary_row, results))
 
 
@@ -40,7 +42,7 @@ def _summary_row(result: CaseResult) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
     own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
     measures = dataclasses.asdict(result.measures) if result.measures is not None else {}
-    return {**parameters, **own, **measures}
+    return {**parameters, **own, CHANGED: "; ".join(changed_parameters(result.parts)), **measures}
 
 
 def _wheelset_rows(results: Sequence[CaseResult]) -> Iterator[dict[str, Cell]]:

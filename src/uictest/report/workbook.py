@@ -1,20 +1,21 @@
-"""The workbook: cases, wheelsets, criteria, provenance. Text stays text, whatever it begins with."""
+"""The workbook: cases, wheelsets, criteria, parts with their parameters, provenance. Text stays text."""
 
 from __future__ import annotations
 
 import dataclasses
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest.report.parameters import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.tables import CRITERION_FIELDS
+from uictest.report.tables import CHANGED, CRITERION_FIELDS
 from uictest.report.wording import definition_sentence
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
+    from uictest.evaluation import CaseResult, EffectivePart
     from uictest.report.content import RunContent
     from uictest.report.difference import Difference
 
@@ -35,6 +36,8 @@ def _sheets(content: RunContent) -> dict[str, list[Row]]:
         "Wheelsets": list(_wheelsets(content)),
         "Criteria": list(_criteria(content)),
         **_baseline_sheet(content),
+        "Parts": [{"case": result.id, **_part_ids(result)} for result in content.results],
+        "Parameters": list(parameter_rows(result.parts for result in content.results)),
         "Provenance": list(_provenance(content)),
     }
 
@@ -57,7 +60,8 @@ def result_row(result: CaseResult) -> Row:
     row: Row = {"met": "met" if result.met else "missed"}
     row |= {"outcome": result.outcome, "expect": result.expect}
     row |= dataclasses.asdict(result.measures) if result.measures is not None else {}
-    return row | dict(result.parameters) | {"reason": result.reason}
+    row |= dict(result.parameters)
+    return row | {CHANGED: "; ".join(changed_parameters(result.parts)), "reason": result.reason}
 
 
 def _wheelsets(content: RunContent) -> Iterator[Row]:
@@ -92,6 +96,23 @@ def _difference_row(difference: Difference) -> Row:
         "unit": difference.unit,
         "remark": difference.remark,
     }
+
+
+def _part_ids(result: CaseResult) -> Row:
+    return {role: part.id for role, part in result.parts.items()}
+
+
+def parameter_rows(cases: Iterable[Mapping[str, EffectivePart]]) -> Iterator[Row]:
+    """Yield every parameter of every distinct part of some cases."""
+    from uictest.evaluation import parts_table
+
+    for part_id, part in parts_table(cases).items():
+        own: Row = {"part": part_id, "name": part.name, "based on": part.based_on}
+        for each in part.parameters:
+            row = own | {"parameter": each.key, "value": each.value, "unit": each.unit}
+            row |= {"as written": each.written, "mark": each.mark, "differs": each.differs}
+            library = each.library_written or ("none" if each.differs else "")
+            yield row | {"library": library, "source": part.sources.get(each.source, "")}
 
 
 def _provenance(content: RunContent) -> Iterator[Row]:

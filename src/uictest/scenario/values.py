@@ -46,3 +46,9 @@ def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
     if quantity.source in sources:
         return sources[quantity.source].mark
     return {SCENARIO_SOURCE: "user", DEFAULT_SOURCE: "default"}[quantity.source]
+
+
+def is_changed(part: Part) -> bool:
+    """Whether a value of a part is another than in the part at the root of its `extends`."""
+    original = part.original
+    return original is not None and dict(values_in(part)) != dict(values_in(original))

@@ -9,6 +9,7 @@ from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.difference import value_text
 from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge_of, plots_json
 from uictest.report.page.matrix import maps_of
+from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.ranking import DRAWN, worst_first
 from uictest.report.page.rendering import render
 from uictest.report.wording import DIFFERS, counted, failing_first, number
@@ -29,6 +30,9 @@ def page_html(content: RunContent) -> str:
         maps=maps_of(content.results),
         opened=_opened(content, drawn),
         not_drawn=_not_drawn(content, drawn),
+        parts=shown_parts([view.result.parts for view in drawn] or [each.parts for each in content.results]),
+        varied=(),
+        of_which="the drawn stops" if drawn else "the cases",
         words=_words(content),
         plots=plots_json(),
         with_plots=bool(drawn),
@@ -38,6 +42,7 @@ def page_html(content: RunContent) -> str:
         gauge_of=gauge_of,
         number=number,
         value_text=value_text,
+        **PARAMETER_WORDS,
     )
 
 

@@ -9,6 +9,7 @@ from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge
 from uictest.report.page.frontier_plot import FrontierPlot, frontier_plot, frontier_rows
 from uictest.report.page.heat import HeatMap, heat_map
 from uictest.report.page.histogram import histogram
+from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.notable import notable_cases
@@ -48,6 +49,9 @@ def sweep_page_html(content: SweepContent) -> str:
         drawn=drawn,
         keys=keys,
         opened=next((view.key for view in drawn if not view.result.met), ""),
+        parts=shown_parts([content.base, *(view.result.parts for view in drawn)]),
+        varied=document.get("varied", ()),
+        of_which="the scenario that is varied and the drawn stops",
         plots=plots_json(),
         with_plots=bool(drawn),
         alone=command_alone(content.manifest),
@@ -58,6 +62,7 @@ def sweep_page_html(content: SweepContent) -> str:
         figures_of=figures_of,
         gauge_of=gauge_of,
         share_words=share_words,
+        **PARAMETER_WORDS,
     )
 
 

@@ -12,7 +12,7 @@ from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.trends import trend_rows
 from uictest.report.sweep.wording import swept_words
-from uictest.report.workbook import manifest_rows, result_row
+from uictest.report.workbook import manifest_rows, parameter_rows, result_row
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent
@@ -46,8 +46,16 @@ def _tables(content: SweepContent) -> dict[str, list[Row]]:
         "Frontier": list(_frontier(document["frontier"] or {"stretches": ()})),
         "Sensitivity": list(_sensitivities(document["sensitivities"])),
         "Worst cases": list(_worst(content)),
+        "Parameters": list(_parameters(content)),
         "Provenance": list(manifest_rows(content.manifest)),
     }
+
+
+def _parameters(content: SweepContent) -> Iterator[Row]:
+    """Yield the parameters of the scenario that is varied."""
+    varied = content.document.get("varied", ())
+    for each in parameter_rows([content.base]):
+        yield each | {"varied": each["parameter"] in varied}
 
 
 def _summary(document: Mapping[str, Any], most_cases: int) -> Iterator[Row]:
