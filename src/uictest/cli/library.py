@@ -1,8 +1,9 @@
-"""`uictest library`: the parts that come with the program."""
+"""`uictest library`: the parts that come with the program, and those of its users."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -30,14 +31,19 @@ def list_parts(verbosity: Verbosity = 0) -> ExitCode:
 
 @command(library, "show")
 def show_part(
-    reference: Annotated[str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180.")],
+    reference: Annotated[
+        str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180, or the file of a part.")
+    ],
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published or chosen) and source.
 
-    Below them stand what the sources are and, of numbers that were identified, how. Of a channel map, the
-    names that a channel may have in a file.
+    Of a part that extends another, what differs from it. Below the numbers stand what the sources are and,
+    of numbers that were identified, how. Of a channel map, the names that a channel may have in a file.
     """
+    if reference.endswith((".yaml", ".yml")):
+        _show_file(Path(reference))
+        return ExitCode.MET
     if reference not in _references():
         raise InvalidInputError(f"uictest: no part {reference!r} in the library; {_hint(reference)}")
     folder, _, name = reference.partition("/")
@@ -49,11 +55,36 @@ def show_part(
     return ExitCode.MET
 
 
+def _show_file(path: Path) -> None:
+    """Show the file of a part, a bench recipe or a channel map. Raises InvalidInputError for any other."""
+    from uictest.scenario import ScenarioErrors, load_part_file
+    from uictest.scenario.reading import read_file
+    from uictest.scenario.tree import plain
+
+    try:
+        written = plain(read_file(path))
+        title = written.get("title", "")
+        heading = printable(f"{path}: {title}")
+        schema = written.get("schema")
+        if schema == "uictest/channel-map/1":
+            channels = _channels(str(path))
+            data(f"{heading}\n{_aligned(channels)}")
+            return
+        part = _part("benches", str(path)) if schema == "uictest/bench/1" else load_part_file(path)
+    except ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+    data(f"{heading}\nbased on {part.based_on}" if part.based_on else heading)
+    _show_numbers(part)
+
+
 def _show_numbers(part: Part) -> None:
     from uictest.scenario import numbers
 
     shown = list(numbers(part))
-    data(_aligned([_row(number) for number in shown]))
+    original = {} if part.original is None else {each.key: each for each in numbers(part.original)}
+    data(_aligned([(*_row(number), _difference(number, original, part)) for number in shown]))
+    if removed := original.keys() - {number.key for number in shown}:
+        data(f"removed: {', '.join(sorted(removed))}")
     used = {number.quantity.source for number in shown}
     sources = [(name, each.text) for name, each in part.sources.items() if name in used]
     provenance = list(getattr(part, "provenance", {}).items())
@@ -64,9 +95,22 @@ def _show_numbers(part: Part) -> None:
 
 def _row(number: Number) -> tuple[str, ...]:
     """Return key, number, mark and the name of the source, which may be called like its mark."""
-    name = number.quantity.source
-    mark = name if number.source is None else number.source.mark
+    from uictest.scenario.values import mark_of
+
+    if number.source is None:
+        return (number.key, number.quantity.text, mark_of(number.quantity, {}), "")
+    mark, name = number.source.mark, number.quantity.source
     return (number.key, number.quantity.text, mark, "" if name == mark else name)
+
+
+def _difference(number: Number, original: Mapping[str, Number], part: Part) -> str:
+    """Return what the part that this one extends has instead; empty where it has the same."""
+    if part.original is None:
+        return ""
+    other = original.get(number.key)
+    if other is not None and other.quantity == number.quantity:
+        return ""
+    return f"({part.based_on}: {'none' if other is None else other.quantity.text})"
 
 
 def _channels(name: str) -> list[tuple[str, ...]]:

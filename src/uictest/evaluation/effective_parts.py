@@ -85,10 +85,22 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
         _parameter(above, place, value, library, _mark(part, place, value, original))
         for place, value in values.items()
     )
-    removed = tuple(f"{above}{_dotted(place)}" for place in original if place not in values)
+    removed = tuple(f"{above}{_dotted(place)}" for place in _removed(original, values))
     used = {each.source for each in parameters if each.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
     return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
+
+
+def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list[Key]:
+    """Return what a part lacks of its original; where a whole section is gone, the section alone."""
+    kept = {place[:depth] for place in values for depth in range(len(place) + 1)}
+    return list(
+        dict.fromkeys(
+            next(place[:depth] for depth in range(len(place) + 1) if place[:depth] not in kept)
+            for place in original
+            if place not in values
+        )
+    )
 
 
 def _mark(part: Part, place: Key, value: Value, original: Mapping[Key, Value]) -> str:

@@ -65,5 +65,5 @@ def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:
 
 
 def _mark(source: str, sources: Mapping[str, Source]) -> str:
-    """Return how far a number can be trusted: stated, published or chosen. A user's own number is chosen."""
-    return sources[source].mark if source in sources else "chosen"
+    """Return how far a number can be trusted: the mark of its source; `user` for a user's own number."""
+    return sources[source].mark if source in sources else "user"

@@ -62,7 +62,7 @@ class EffectivePart:
         based_on: name of the library part at the root of `extends`, or of the file there; None where it
             extends nothing.
         parameters: all of them, in the order of the model.
-        removed: keys of parameters that the part at the root has and this one has not.
+        removed: keys of parameters, or of whole sections, that the part at the root has and this one has not.
         sources: text of each source that a parameter names.
 
     """

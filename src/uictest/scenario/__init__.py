@@ -3,7 +3,7 @@
 from uictest.scenario.case import Case
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors
 from uictest.scenario.json_schema import json_schema
-from uictest.scenario.library_parts import Number, load_part, numbers
+from uictest.scenario.library_parts import Number, load_part, load_part_file, numbers
 from uictest.scenario.loading import load
 from uictest.scenario.model import Scenario
 from uictest.scenario.quantities import Quantity
@@ -18,5 +18,6 @@ __all__ = [
     "json_schema",
     "load",
     "load_part",
+    "load_part_file",
     "numbers",
 ]

@@ -4,11 +4,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from uictest.scenario.diagnostics import refusal
 from uictest.scenario.part_keys import PART_KEYS
 from uictest.scenario.parts.model import Key, Part, Source, quantities_in
 from uictest.scenario.quantities import Quantity
-from uictest.scenario.references import Files, Parts, folder_of
+from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, folder_of
 from uictest.scenario.tree import Document, Place, Scalar
+from uictest.scenario.wording import quoted
 
 
 class Number(NamedTuple):
@@ -17,6 +19,20 @@ class Number(NamedTuple):
     key: str
     quantity: Quantity
     source: Source | None
+
+
+def load_part_file(path: Path) -> Part:
+    """The part that a file describes, whatever kind it is of. Raises ScenarioErrors."""
+    tree = Files().at(path)
+    schema = tree.get("schema")
+    models = {f"uictest/{KIND_OF_FOLDER[folder_of(each.model)]}/1": each.model for each in PART_KEYS.values()}
+    if not isinstance(schema, Scalar) or schema.text not in models:
+        found = quoted(schema.text) if isinstance(schema, Scalar) else "none"
+        place = tree.place if schema is None else schema.place
+        raise refusal(place, f"not a part: its schema is {found}", "schema", f"accepted: {', '.join(models)}")
+    name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
+    part: Part = Parts(Files()).resolve(name, models[schema.text], ()).part
+    return part
 
 
 def load_part(reference: str) -> Part:
