@@ -36,6 +36,18 @@ def test_a_run_and_itself_agree_and_another_differs(call: Call, scenario: Write,
     assert "note: inputs: scenarios/a.yaml" in differing.out
 
 
+def test_the_parameter_that_changed_is_named_and_so_it_is_against_a_baseline(
+    call: Call, scenario: Write, made_up: list[str]
+) -> None:
+    scenario("a", "controller: {extends: threshold, slip_threshold: 4 km/h}\n")
+    call("run", "-o", "one", "--baseline", "kept", "--accept")
+    changed = ["--set", "controller.slip_threshold=3 km/h"]
+    against = call("run", "-o", "other", "--baseline", "kept", *changed)
+    line = "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in a)"
+    assert line in against.err
+    assert line in call("compare", "one/latest", "other/latest").out.splitlines()
+
+
 def test_recordings_are_compared_channel_by_channel(call: Call) -> None:
     first, second = _recording("a.parquet"), _recording("b.parquet", shift=0.5)
     assert call("compare", first, first).code == 0

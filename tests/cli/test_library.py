@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -45,6 +46,37 @@ def test_a_number_is_shown_as_written(call: Call) -> None:
     lines = call("library", "show", "vehicles/manchester-benchmark").out.splitlines()
     (mass,) = (line for line in lines if line.startswith("body.mass"))
     assert mass.split()[1:4] == ["32000", "kg", "published"]
+
+
+def test_a_users_part_shows_marks_sources_and_what_it_changes(call: Call) -> None:
+    Path("mine.yaml").write_text(
+        "schema: uictest/controller/1\nname: mine\ntitle: Ours\nextends: threshold\nslip_threshold: 3 km/h\n"
+        "sources: {bench: {mark: published, text: Our bench test of 2024}}\n"
+        "hold_limit: {value: 3 s, source: bench}\n"
+    )
+    answer = call("library", "show", "mine.yaml")
+    lines = [" ".join(line.split()) for line in answer.out.splitlines()]
+    assert answer.code == 0
+    assert lines[:2] == ["mine.yaml: Ours", "based on threshold"]
+    assert "slip_threshold 3 km/h user (threshold: 1.146 m/s)" in lines
+    assert "hold_limit 3 s published bench (threshold: 2 s)" in lines
+    assert "vent_watchdog 5 s chosen" in lines
+    assert "bench Our bench test of 2024" in lines
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("schema: uictest/scenario/1\nname: a\n", "mine.yaml:1:9: schema: not a part"),
+        ("schema: uictest/controller/1\nextends: threshold\nhold_limit: 3\n", "mine.yaml:3:13: hold_limit"),
+        ("name: mine\n", "not a part: its schema is none"),
+    ],
+)
+def test_a_file_that_is_no_part_exits_4_and_says_where(call: Call, text: str, message: str) -> None:
+    Path("mine.yaml").write_text(text)
+    answer = call("library", "show", "mine.yaml")
+    assert (answer.code, answer.out) == (4, "")
+    assert message in answer.err
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,15 @@ import sys
 
 import pytest
 
-from uictest.evaluation import error_result, evaluate, result_document, results_of, to_json
+from uictest.evaluation import (
+    EffectivePart,
+    Parameter,
+    error_result,
+    evaluate,
+    result_document,
+    results_of,
+    to_json,
+)
 
 CASE = [
     *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
@@ -61,6 +69,39 @@ def test_results_come_back_from_their_document(results) -> None:
     assert [result.to_dict() for result in back] == [result.to_dict() for result in results]
     assert back[0].criteria == results[0].criteria
     assert back[0].wheelsets == results[0].wheelsets
+
+
+PART = EffectivePart(
+    *("controller", "controller", "threshold", "threshold"),
+    (
+        Parameter("controller.slip_threshold", 0.8, "m/s", "0.8 m/s", "user", "", True, 1.146, "1.146 m/s"),
+        Parameter("controller.hold_limit", 2.0, "s", "2 s", "chosen", "ours"),
+    ),
+    ("controller.gone",),
+    {"ours": "A surrogate."},
+)
+
+
+def test_a_part_of_many_cases_is_in_the_document_once_and_comes_back(results) -> None:
+    results = [dataclasses.replace(result, parts={"controller": PART}) for result in results]
+    document = json.loads(to_json(result_document(results)))
+    assert list(document["parts"]) == [PART.id]
+    assert [case["parts"] for case in document["cases"]] == [{"controller": PART.id}] * 3
+    assert [result.parts["controller"] for result in results_of(document)] == [PART] * 3
+
+
+def test_a_document_of_before_parts_were_kept_is_read(results) -> None:
+    document = result_document(results)
+    del document["parts"]
+    for case in document["cases"]:
+        del case["parts"]
+    assert [result.parts for result in results_of(document)] == [{}, {}, {}]
+
+
+def test_a_case_that_names_a_part_that_is_not_there_is_refused(results) -> None:
+    document = result_document([dataclasses.replace(results[0], parts={"controller": PART})])
+    with pytest.raises(ValueError, match="not as schema"):
+        results_of({**document, "parts": {}})
 
 
 def test_the_same_results_give_the_same_text_however_long_they_took(results) -> None:

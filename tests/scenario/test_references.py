@@ -55,6 +55,36 @@ def test_several_criteria_keep_their_order(loaded: Loaded, head: str) -> None:
     assert [each.name for each in case.scenario.criteria] == ["uictest-stop", "uic-541-05-appendix-b"]
 
 
+def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
+    loaded: Loaded, write: Write, head: str
+) -> None:
+    write("mine.yaml", "schema: uictest/controller/1\nname: mine\nextends: threshold\nhold_limit: 3 s\n")
+    (case,) = loaded(head + "controller: {extends: mine.yaml, slip_threshold: 3 km/h}\n")
+
+    controller = case.scenario.controller
+    assert (controller.name, controller.based_on) == ("mine", "threshold")
+    assert (controller.original.slip_threshold, controller.original.hold_limit) == (1.146, 2.0)
+
+
+def test_a_copy_with_another_number_still_knows_what_it_was_changed_from(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head)
+
+    controller = case.scenario.controller.model_copy(update={"hold_limit": 9.0})
+    assert (controller.based_on, controller.original.hold_limit) == ("threshold", 2.0)
+
+
+def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(
+    loaded: Loaded, write: Write, head: str
+) -> None:
+    own = "algorithm: slip-band, cycle_time: 10 ms, reference_deceleration: 2 m/s2, minimum_speed: 5 km/h"
+    write("parts/own.yaml", "{schema: uictest/controller/1, name: own, " + own + ", upper_slide: 20 %}")
+    (case,) = loaded(head + "controller: {extends: parts/own.yaml, lower_slide: 8 %}\n")
+    (inline,) = loaded(head + "controller: {" + own + ", lower_slide: 8 %, upper_slide: 20 %}\n")
+
+    assert (case.scenario.controller.based_on, case.scenario.controller.original) == ("own.yaml", None)
+    assert (inline.scenario.controller.based_on, inline.scenario.controller.original) == (None, None)
+
+
 def test_the_errors_of_all_references_are_told(refused: Refused, head: str) -> None:
     found = refused(head + "vehicle: a\ncontroller: b\ncriteria: [c, d]\n")
 

@@ -91,6 +91,17 @@ def test_counts_by_parameter(finished: Callable[..., tuple[Findings, Path]]) -> 
     assert [row[0] for row in findings.tally.missed] == ["study[friction=0.08,command=100]"]
 
 
+def test_the_result_holds_the_parameters_of_the_base_and_says_which_are_varied(
+    finished: Callable[..., tuple[Findings, Path]],
+) -> None:
+    document = read_result(finished()[1])
+    assert document["varied"] == ["rail.friction", "brake.command"]
+    base = {role: document["parts"][part_id] for role, part_id in document["base"].items()}
+    assert base["controller"]["name"] == "threshold"
+    (friction,) = (each for each in base["scenario.rail"]["parameters"] if each["key"] == "rail.friction")
+    assert (friction["value"], friction["library_value"]) == (0.1, 0.3)
+
+
 def test_rows_of_a_zip_that_share_a_value_are_counted_together(
     finished: Callable[..., tuple[Findings, Path]],
 ) -> None:

@@ -36,8 +36,7 @@ def _sheets(content: RunContent) -> dict[str, list[Row]]:
         "Wheelsets": list(_wheelsets(content)),
         "Criteria": list(_criteria(content)),
         **_baseline_sheet(content),
-        "Parts": [{"case": result.id, **_part_ids(result)} for result in content.results],
-        "Parameters": list(parameter_rows(result.parts for result in content.results)),
+        **_parts(content),
         "Provenance": list(_provenance(content)),
     }
 
@@ -95,6 +94,17 @@ def _difference_row(difference: Difference) -> Row:
         "tolerance": difference.allowed,
         "unit": difference.unit,
         "remark": difference.remark,
+    }
+
+
+def _parts(content: RunContent) -> dict[str, list[Row]]:
+    """Return the parts of each case, and the parameters of these; no sheet where none is known."""
+    known = [result for result in content.results if result.parts]
+    if not known:
+        return {}
+    return {
+        "Parts": [{"case": each.id, **_part_ids(each)} for each in known],
+        "Parameters": list(parameter_rows(each.parts for each in known)),
     }
 
 

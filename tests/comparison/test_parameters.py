@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+from uictest.comparison import ParameterChange, Tolerances, compare_runs, comparison_html, comparison_lines
+from uictest.evaluation import EffectivePart, Parameter
+from uictest.report import RunContent
+
+MakeRun = Callable[..., RunContent]
+
+
+def controller(slip: float, name: str = "threshold") -> EffectivePart:
+    parameter = Parameter("controller.slip_threshold", slip / 3.6, "m/s", f"{slip:g} km/h", "user")
+    return EffectivePart("controller", "controller", name, "threshold", (parameter,))
+
+
+def run_with(run: RunContent, part: EffectivePart | None) -> RunContent:
+    (result,) = run.results
+    parts = {} if part is None else {"controller": part}
+    return dataclasses.replace(run, results=[dataclasses.replace(result, parts=parts)])
+
+
+def compared(make_run: MakeRun, first: Any, second: Any, **changes: Any) -> Any:
+    return compare_runs(run_with(make_run(), first), run_with(make_run(**changes), second), Tolerances())
+
+
+def test_the_parameter_that_changed_is_named(make_run: MakeRun) -> None:
+    found = compared(make_run, controller(4), controller(3), braking_distance_m=470.0)
+    assert found.parameters == [
+        ParameterChange("controller.slip_threshold", "4 km/h", "3 km/h", ("dry-120",))
+    ]
+    assert "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in dry-120)" in comparison_lines(found)
+    assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
+    assert "<td>4 km/h</td><td>3 km/h</td>" in comparison_html(found)
+
+
+def test_a_changed_parameter_is_an_explanation_and_no_difference(make_run: MakeRun) -> None:
+    found = compared(make_run, controller(4), controller(3))
+    assert found.agrees
+    assert compared(make_run, controller(4), controller(4)).parameters == []
+
+
+def test_another_part_is_named_as_well_as_its_parameters(make_run: MakeRun) -> None:
+    found = compared(make_run, controller(4), controller(3, "mine"))
+    assert list(map(str, found.parameters)) == [
+        "controller: threshold -> mine",
+        "controller.slip_threshold: 4 km/h -> 3 km/h",
+    ]
+
+
+def test_settings_are_told_once_where_parameters_are_known(make_run: MakeRun) -> None:
+    found = compared(make_run, controller(4), controller(3), friction="0.297")
+    assert list(found.notes) == []
+
+
+def test_a_run_of_before_parameters_were_kept_is_compared_and_named(make_run: MakeRun) -> None:
+    found = compared(make_run, None, controller(3))
+    assert (found.agrees, found.parameters) == (True, [])
+    assert any("first run does not hold its parameters" in note for note in found.notes)

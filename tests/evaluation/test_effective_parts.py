@@ -1,0 +1,136 @@
+"""Every number that a case is run with: whose it is, and whether the library has another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.evaluation import EffectivePart, Parameter
+from uictest.evaluation.effective_parts import EffectiveParts
+from uictest.scenario import Case, load
+
+Cases = Callable[..., list[Case]]
+Parts = dict[str, EffectivePart]
+
+
+@pytest.fixture
+def cases(tmp_path: Path) -> Cases:
+    def write_and_load(text: str, *overrides: str) -> list[Case]:
+        path = tmp_path / "stop.yaml"
+        path.write_text(f"schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n{text}")
+        return load([path], overrides)
+
+    return write_and_load
+
+
+def of(case: Case) -> Parts:
+    return EffectiveParts().of(case.scenario)
+
+
+def changed(parts: Parts) -> dict[str, tuple[str, str]]:
+    found = (each for part in parts.values() for each in part.changed)
+    return {each.key: (each.written, each.library_written) for each in found}
+
+
+def parameters(parts: Parts) -> dict[str, Parameter]:
+    return {each.key: each for part in parts.values() for each in part.parameters}
+
+
+def test_an_inline_controller_differs_from_the_library_in_what_it_names(cases: Cases) -> None:
+    (case,) = cases("controller: {extends: threshold, slip_threshold: 3 km/h}\n")
+    parts = of(case)
+    assert (parts["controller"].name, parts["controller"].based_on) == ("threshold", "threshold")
+    (parameter,) = parts["controller"].changed
+    assert parameter.to_dict() == {
+        "key": "controller.slip_threshold",
+        "value": pytest.approx(3 / 3.6, rel=1e-15),
+        "unit": "m/s",
+        "written": "3 km/h",
+        "mark": "user",
+        "source": "",
+        "differs": True,
+        "library_value": 1.146,
+        "library_written": "1.146 m/s",
+    }
+
+
+def test_the_same_number_in_another_unit_does_not_differ(cases: Cases) -> None:
+    (case,) = cases("controller: {extends: threshold, slip_threshold: 4.1256 km/h}\n")
+    assert changed(of(case)) == {}
+
+
+def test_values_of_the_matrix_and_of_the_command_line_are_among_them(cases: Cases) -> None:
+    text = "matrix: {controller.hold_limit: [1 s, 2 s]}\n"
+    first, second = cases(text, "vehicle.body.mass=40 t", "rig.compensation=none")
+    common = {"vehicle.body.mass": ("40 t", "32370 kg"), "rig.compensation": ("none", "full")}
+    assert changed(of(first)) == {**common, "controller.hold_limit": ("1 s", "2 s")}
+    assert changed(of(second)) == common
+
+
+def test_a_friction_of_the_scenario_stands_in_place_of_the_conditions(cases: Cases) -> None:
+    (wet,) = cases("rail: {condition: wet}\n")
+    (slippery,) = cases("rail: {condition: wet, friction: 0.10}\n")
+    assert parameters(of(wet))["rail.condition.friction"].value == 0.30
+    assert "rail.friction" not in parameters(of(wet))
+    assert "rail.condition.friction" not in parameters(of(slippery))
+    assert changed(of(slippery)) == {"rail.friction": ("0.10", "0.30")}
+    assert of(slippery)["rail"].removed == ()
+
+
+def test_the_mark_says_whose_number_it_is(cases: Cases) -> None:
+    (case,) = cases("rail: {gradient: 0 permille}\nvehicle: crh380a\n")
+    found = parameters(of(case))
+    marks = {key: found[key].mark for key in ("rail.gradient", "brake.command", "vehicle.body.mass")}
+    assert marks == {"rail.gradient": "user", "brake.command": "default", "vehicle.body.mass": "published"}
+    assert not found["rail.gradient"].differs
+    source = found["vehicle.body.mass"].source
+    assert "CRH380A" in of(case)["vehicle"].sources[source]
+
+
+def test_criteria_that_were_left_out_or_added_are_told(cases: Cases) -> None:
+    only = "{id: short, layer: requirement, measure: braking_distance, upper: 400 m}"
+    (case,) = cases(f"criteria: {{extends: uictest-stop, criteria: [{only}]}}\n")
+    profile = of(case)["criteria.0"]
+    assert "criteria.locked-wheels" in profile.removed
+    assert changed({"criteria.0": profile})["criteria.short.upper"] == ("400 m", "")
+
+
+def test_every_number_of_every_part_is_there(cases: Cases) -> None:
+    from uictest.scenario.part_keys import PART_KEYS
+
+    (case,) = cases("")
+    parts = of(case)
+    keys = {".".join(map(str, key)) for key in PART_KEYS}
+    assert {part.key for part in parts.values() if part.based_on} - {""} == keys - {"criteria"}
+    assert parts["criteria.0"].name == "uictest-stop"
+
+
+def test_a_part_that_cases_share_is_computed_once(cases: Cases) -> None:
+    effective = EffectiveParts()
+    first, second = (effective.of(case.scenario) for case in cases("matrix: {seed: [1, 2]}\n"))
+    assert all(first[role] is second[role] for role in first if first[role].name)
+    assert first["scenario"].id != second["scenario"].id
+
+
+def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases: Cases) -> None:
+    (case,) = cases("rail: {condition: wet, friction: 0.10}\nrig: {wsp: bypassed}\n")
+    parts = EffectiveParts().of_recorded(case.scenario)
+    assert list(parts) == ["conditions", "measures", "criteria.0"]
+    stated = {each.key: each.written for each in parts["conditions"].parameters}
+    assert stated == {
+        "rail.condition": "wet",
+        "brake.command": "100 %",
+        "brake.position": "R",
+        "rail.gradient": "0 permille",
+        "rig.wsp": "bypassed",
+    }
+
+
+def test_the_id_is_that_of_the_content(cases: Cases) -> None:
+    (one,), (same,) = cases("title: A\n"), cases("title: B\n")
+    (other,) = cases("controller: {extends: threshold, hold_limit: 3 s}\n")
+    assert [part.id for part in of(one).values()] == [part.id for part in of(same).values()]
+    differing = {role for role in of(one) if of(one)[role].id != of(other)[role].id}
+    assert differing == {"controller"}

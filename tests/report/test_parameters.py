@@ -1,0 +1,116 @@
+"""What a case was run with, in every format that says so."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+from collections.abc import Callable
+from xml.etree import ElementTree
+
+import pytest
+
+from uictest.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.report import RunContent, case_annotations, junit_xml, manifest, part_lines
+from uictest.report.markdown import markdown_summary
+from uictest.report.page import page_html
+from uictest.report.parameters import changed_parameters, part_sentences
+from uictest.report.tables import summary_csv
+from uictest.report.workbook import parameter_rows
+
+MakeResult = Callable[..., CaseResult]
+MakeContent = Callable[..., RunContent]
+
+SLIP = Parameter("controller.slip_threshold", 0.8, "m/s", "3 km/h", "user", "", True, 1.146, "1.146 m/s")
+HOLD = Parameter("controller.hold_limit", 2.0, "s", "2 s", "chosen", "ours")
+CONTROLLER = EffectivePart(
+    "controller", "controller", "threshold", "threshold", (SLIP, HOLD), (), {"ours": "A surrogate."}
+)
+PLAIN = dataclasses.replace(CONTROLLER, parameters=(HOLD,))
+COMPENSATION = EffectivePart("compensation", "rig.compensation_model", "six-inch", "six-inch", ())
+CHANGE = "controller.slip_threshold 3 km/h (library: 1.146 m/s)"
+
+
+def rig(topology: str, compensation: str = "full") -> EffectivePart:
+    settings = {"rig.topology": topology, "rig.compensation": compensation}
+    own = tuple(Parameter(key, text, "", text, "user") for key, text in settings.items())
+    return EffectivePart("scenario.rig", "rig", "", None, own)
+
+
+def test_a_changed_part_is_named_with_what_was_changed() -> None:
+    assert part_sentences({"controller": CONTROLLER}) == {
+        "controller": "threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)"
+    }
+    assert part_sentences({"controller": PLAIN}) == {"controller": "threshold"}
+
+
+def test_what_a_users_own_file_has_instead_is_not_called_the_librarys() -> None:
+    own = dataclasses.replace(CONTROLLER, based_on="mine.yaml", removed=("controller.gone",))
+    assert changed_parameters({"controller": own}) == [
+        "controller.slip_threshold 3 km/h (mine.yaml: 1.146 m/s)",
+        "controller.gone removed",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("topology", "sentence"),
+    [
+        ("one-caliper", "six-inch, setting cylinder"),
+        ("four-caliper", "six-inch, not in use with four calipers"),
+    ],
+)
+def test_the_compensation_is_named_with_its_setting(topology: str, sentence: str) -> None:
+    parts = {"scenario.rig": rig(topology, "cylinder"), "compensation": COMPENSATION}
+    assert part_sentences(parts)["compensation"] == sentence
+
+
+def test_parts_are_listed_once_for_all_cases_alike(make_result: MakeResult) -> None:
+    one, two = make_result(id="one", parts={"controller": CONTROLLER}), make_result(id="two")
+    two = dataclasses.replace(two, parts={"controller": PLAIN})
+    assert list(part_lines([one, one])) == [f"part controller: threshold, changed: {CHANGE[11:]}"]
+    assert list(part_lines([one, two])) == [
+        f"part controller (in one): threshold, changed: {CHANGE[11:]}",
+        "part controller (in two): threshold",
+    ]
+
+
+def test_tables_and_summaries_say_what_was_changed(
+    make_result: MakeResult, make_content: MakeContent
+) -> None:
+    result = make_result(parts={"controller": CONTROLLER}, expect="fail")
+    (row,) = csv.DictReader(io.StringIO(summary_csv([result])))
+    assert row["changed_parameters"] == CHANGE
+    assert "3 km/h" in markdown_summary(make_content(result))
+    assert CHANGE in "".join(case_annotations([result]))
+    rows = {each["parameter"]: each for each in parameter_rows([result.parts])}
+    slip, hold = rows["controller.slip_threshold"], rows["controller.hold_limit"]
+    assert (slip["value"], slip["unit"], slip["library"], slip["mark"]) == (0.8, "m/s", "1.146 m/s", "user")
+    assert (hold["differs"], hold["source"]) == (False, "A surrogate.")
+
+
+def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not(make_result: MakeResult) -> None:
+    parts = {"controller": CONTROLLER}
+    met, missed = ElementTree.fromstring(
+        junit_xml([make_result(parts=parts), make_result(parts=parts, expect="fail")])
+    ).iter("testcase")
+    assert met.findtext("system-out") == f"changed parameters: {CHANGE}"
+    assert (missed.findtext("failure") or "").endswith(f"changed parameters: {CHANGE}")
+
+
+def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once(
+    make_result: MakeResult, make_content: MakeContent
+) -> None:
+    results = [make_result(id=name, parts={"controller": CONTROLLER}) for name in ("one", "two")]
+    html = page_html(make_content(*results))
+    assert html.count(f"changed: {CHANGE}") == 2
+    assert html.count(f'id="{CONTROLLER.id}"') == 1
+    assert html.count("controller.hold_limit") == 1
+    assert "A surrogate." in html
+
+
+def test_the_manifest_names_the_parts_with_their_digests() -> None:
+    content = manifest([], None, {}, 2, [{"controller": CONTROLLER}, {"controller": PLAIN}])
+    assert content["parts"] == {
+        CONTROLLER.id: f"threshold, changed: {CHANGE[11:]}",
+        PLAIN.id: "threshold",
+    }
