@@ -13,8 +13,9 @@ import pytest
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, junit_xml, manifest, part_lines
 from uictest.report.markdown import markdown_summary
-from uictest.report.page import page_html
+from uictest.report.page import page_html, sweep_page_html
 from uictest.report.parameters import changed_parameters, part_sentences
+from uictest.report.sweep.content import SweepContent
 from uictest.report.tables import summary_csv
 from uictest.report.workbook import parameter_rows
 
@@ -106,6 +107,17 @@ def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once(
     assert html.count(f'id="{CONTROLLER.id}"') == 1
     assert html.count("controller.hold_limit") == 1
     assert "A surrogate." in html
+
+
+def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
+    make_sweep: Callable[..., SweepContent],
+) -> None:
+    steady = dataclasses.replace(make_sweep(varied=["rail.friction"]), base={"controller": CONTROLLER})
+    assert f"changed in every case: {CHANGE}" in sweep_page_html(steady)
+    swept = dataclasses.replace(make_sweep(varied=[SLIP.key]), base={"controller": CONTROLLER})
+    html = sweep_page_html(swept)
+    assert "changed in every case" not in html
+    assert "3 km/h <small>varied</small>" in html
 
 
 def test_the_manifest_names_the_parts_with_their_digests() -> None:
