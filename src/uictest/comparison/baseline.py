@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from uictest.comparison.runs import case_differences, run_notes
+from uictest.comparison.parameters import parameter_changes, parameter_lines
+from uictest.comparison.runs import case_differences, run_notes, unknown_parameters
 from uictest.comparison.tolerance import Tolerances
 from uictest.report.baseline import BaselineComparison
 from uictest.report.difference import Difference
@@ -75,7 +76,7 @@ class Baseline:
             missing=missing,
             not_run=[case_id for case_id in others if case_id in self.scope.selected],
             not_selected=[case_id for case_id in others if case_id not in self.scope.selected],
-            notes=list(run_notes(self._inputs_limited(run), run)),
+            notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
         )
 
     def differences(self, result: CaseResult) -> list[Difference]:
@@ -90,6 +91,12 @@ class Baseline:
             yield Difference(result.id, "case", "missing", result.outcome, within=False, remark=remark)
         else:
             yield from case_differences(accepted, result, self.tolerances)
+
+    def _parameters_changed(self, run: RunContent) -> Iterator[str]:
+        """Yield the parameters that the cases were run with differently when they were accepted."""
+        both = [(self.results[each.id], each) for each in run.results if each.id in self.results]
+        yield from parameter_lines(parameter_changes(both))
+        yield from unknown_parameters(both, ("baseline", "run"))
 
     def _inputs_limited(self, run: RunContent) -> RunContent:
         """Return the accepted run as if it had read nothing that this one did not select."""

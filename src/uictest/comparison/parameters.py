@@ -6,6 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from uictest.report.escaping import printable
+from uictest.report.lines import listed
+
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult, EffectivePart, Parameter
 
@@ -37,6 +40,12 @@ def parameter_changes(pairs: Iterable[tuple[CaseResult, CaseResult]]) -> list[Pa
             for change in _changes(first.parts, second.parts):
                 cases.setdefault(change, []).append(first.id)
     return [ParameterChange(*change, tuple(ids)) for change, ids in cases.items()]
+
+
+def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
+    """Yield a line for each change, with the cases it is in."""
+    for change in changes:
+        yield printable(f"parameter {change} (in {listed(change.cases)})")
 
 
 def _changes(

@@ -34,7 +34,7 @@ def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) 
         second.name,
         compared,
         differences,
-        [*run_notes(first, second), *_unknown_parameters(both)],
+        [*run_notes(first, second), *unknown_parameters(both, ("first run", "second run"))],
         parameters=parameter_changes(both),
     )
 
@@ -92,11 +92,13 @@ def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
             yield from _changes(case_id, dict(ours), dict(theirs))
 
 
-def _unknown_parameters(both: Sequence[tuple[CaseResult, CaseResult]]) -> Iterator[str]:
-    """Yield which run has no parameters to compare, where the other one has."""
-    for place, word in enumerate(("first", "second")):
+def unknown_parameters(
+    both: Sequence[tuple[CaseResult, CaseResult]], names: tuple[str, str]
+) -> Iterator[str]:
+    """Yield which of two runs, by its name, has no parameters to compare where the other one has."""
+    for place, name in enumerate(names):
         if both and all(pair[1 - place].parts and not pair[place].parts for pair in both):
-            yield f"the {word} run does not hold its parameters: an earlier version of uictest made it"
+            yield f"the {name} does not hold its parameters: an earlier version of uictest made it"
 
 
 def _changes(what: str, first: Any, second: Any) -> Iterator[str]:

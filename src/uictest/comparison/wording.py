@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from uictest.comparison.parameters import parameter_lines
 from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.escaping import printable
-from uictest.report.lines import listed
 from uictest.report.text_table import (
     Column,
     aligned,
@@ -48,8 +48,7 @@ def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
     """Yield what was changed between two runs, and in which cases."""
     changes = comparison.parameters
     shown = changes if every else changes[:_MOST_PARAMETERS]
-    for change in shown:
-        yield f"parameter {printable(str(change))} (in {listed(change.cases)})"
+    yield from parameter_lines(shown)
     if len(shown) < len(changes):
         yield f"parameters: {len(changes) - len(shown)} more differ; -v lists them"
 
