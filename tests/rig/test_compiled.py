@@ -1,8 +1,6 @@
-"""Plain Python and compiled code give the same bits; the cache finds a place."""
+"""Plain Python and compiled code give the same bits."""
 
-import os
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +10,7 @@ from uictest.controllers import ALGORITHMS
 from uictest.measures import MEASURES, WHEELSET_MEASURES
 from uictest.physics.arithmetic import maximum
 from uictest.physics.flow import mass_flow, orifice_law
-from uictest.rig.compiled import cache_folder, translate
+from uictest.rig.compiled import translate
 from uictest.rig.native import compiled_stop
 from uictest.rig.records import BOGIE, CAR, WHEELSET
 from uictest.rig.stop import stop
@@ -144,56 +142,3 @@ def test_translation_replaces_what_it_is_told_to_replace() -> None:
     """With a larger maximum the pressure upstream is larger, and so is the flow."""
     copy = translate(mass_flow, lambda function: function, {maximum: lambda a, b: 2.0 * max(a, b)})
     assert copy(*THROUGH_AN_ORIFICE) > mass_flow(*THROUGH_AN_ORIFICE)
-
-
-fresh_folder = cache_folder.__wrapped__
-
-
-def test_cache_lies_where_the_user_wants_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "mine"))
-    assert fresh_folder().parent == tmp_path / "mine"
-
-
-def test_cache_goes_elsewhere_where_it_cannot_be_written(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    (tmp_path / "file").write_text("not a folder")
-    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
-    assert fresh_folder().is_relative_to(tmp_path / "temporary")
-
-
-@pytest.mark.skipif("sys.platform == 'win32'")
-def test_cache_goes_elsewhere_for_a_user_without_a_home(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    def homeless(path: Path) -> Path:
-        raise RuntimeError("Could not determine home directory.")
-
-    monkeypatch.delenv("UICTEST_CACHE", raising=False)
-    monkeypatch.setattr(Path, "expanduser", homeless)
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    assert fresh_folder().is_relative_to(tmp_path)
-
-
-@pytest.mark.skipif("sys.platform == 'win32'")
-@pytest.mark.parametrize("prepared", ["written by others", "a link", "a file"])
-def test_a_cache_that_others_may_have_written_is_left_alone(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, prepared: str
-) -> None:
-    """The compiler unpickles what lies there."""
-    trap, elsewhere = tmp_path / f"uictest-{os.getuid()}", tmp_path / "elsewhere"
-    if prepared == "written by others":
-        trap.mkdir()
-        trap.chmod(0o777)
-    elif prepared == "a link":
-        elsewhere.mkdir()
-        trap.symlink_to(elsewhere)
-    else:
-        trap.write_text("")
-    (tmp_path / "file").write_text("not a folder")
-    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    place = fresh_folder()
-    assert place.parent == tmp_path
-    assert place.stat().st_mode & 0o077 == 0

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from uictest.rig.compiled import cache_folder
 from uictest.rig.lanes import BatchMeasures, run_batch
 from uictest.rig.native import compiled_stop
 from uictest.rig.records import PARAMETERS
@@ -37,6 +37,17 @@ VARIANTS: tuple[tuple[str, ...], ...] = (
     ("vehicle=crh380a", "rail.gradient=10 permille"),
     ("brake.position=G", "brake.command=70 %"),
 )
+
+WITHOUT_COMPILER = """
+import sys
+sys.modules["numba"] = None
+from pathlib import Path
+import numpy as np
+from uictest.rig.lanes import is_warm, run_batch
+assert is_warm()
+parameters, rail = (np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "rail"))
+print(run_batch(parameters, rail).measures.tobytes().hex())
+"""
 
 
 class Batch:
@@ -110,9 +121,14 @@ def test_parameters_and_friction_laws_are_only_read(batch: Batch) -> None:
     assert (batch.parameters.tobytes(), batch.rail.tobytes()) == before
 
 
-def test_the_compiled_lanes_are_kept_on_disk(batch: Batch) -> None:
-    batch.in_lanes([0])
-    assert any(cache_folder().glob("**/lane_stops.run_queue-*.nbc"))
+def test_a_warm_start_needs_no_compiler(batch: Batch, tmp_path: Path) -> None:
+    warm = batch.in_lanes([0, 1])
+    for name, array in (("parameters", batch.parameters[:2]), ("rail", batch.rail[:2])):
+        np.save(tmp_path / f"{name}.npy", array, allow_pickle=False)
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT_COMPILER, tmp_path], capture_output=True, text=True, check=False
+    )
+    assert done.stdout.strip() == warm.measures.tobytes().hex(), done.stderr
 
 
 def test_the_compiler_is_loaded_only_for_a_batch() -> None:

@@ -62,6 +62,7 @@ def bench(
 ) -> ExitCode:
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
     from uictest.rig import bench_loading
+    from uictest.rig.bench_run import is_warm
 
     if listed:
         data("\n".join(bench_loading.recipe_names()))
@@ -69,7 +70,7 @@ def bench(
     test = _test(recipe, trace, pressure, command, overrides or (), seed)
     target = output or Path(f"{test.recipe.name}.parquet")
     writer = _writer(target)
-    announce_compilation(warm=_is_warm(), quiet=quiet)
+    announce_compilation(warm=is_warm(), quiet=quiet)
     recording = _run(test)
     writer(recording, target)
     if not quiet:
@@ -116,13 +117,6 @@ def _run(test: BenchTest) -> Recording:
         raise InvalidInputError(f"uictest: {error}") from error
     except FileNotFoundError as error:
         raise InvalidInputError(f"uictest: {error.filename}: no such file") from error
-
-
-def _is_warm() -> bool:
-    """Whether the bench lies compiled in the cache, so that the test starts at once."""
-    from uictest.rig.compiled import cache_folder
-
-    return any(cache_folder().glob("**/bench.bench-*.nbc"))
 
 
 def _writer(target: Path):  # type: ignore[no-untyped-def]

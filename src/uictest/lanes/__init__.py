@@ -6,15 +6,20 @@ the same block it reads and writes plain numbers: what branches runs lane by lan
 lanes at once. Every operation rounds as its scalar counterpart does: a lane gives the bits that scalar code
 gives, whatever its neighbours hold and however wide the register is.
 
-The room rests on internals of numba and is the only one that does. It knows nothing of the rig.
+The room rests on internals of numba and is the only one that does. It knows nothing of the rig. What only
+compiled code calls is imported when it is first used: blocks are filled without a compiler.
 """
 
-import uictest.lanes.integers  # noqa: F401 - gives whole numbers their operators
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from uictest.lanes.block import block
-from uictest.lanes.functions import floor, fma, maximum, minimum, select, sqrt
 from uictest.lanes.host import fuses, register_width
-from uictest.lanes.records import lane, put, take, vectors
-from uictest.lanes.stack import align_stack
+
+if TYPE_CHECKING:
+    from uictest.lanes.functions import floor, fma, maximum, minimum, select, sqrt
+    from uictest.lanes.records import lane, put, take, vectors
+    from uictest.lanes.stack import align_stack
 
 __all__ = [
     "align_stack",
@@ -32,3 +37,17 @@ __all__ = [
     "take",
     "vectors",
 ]
+
+_MODULES = {
+    "functions": ("floor", "fma", "maximum", "minimum", "select", "sqrt"),
+    "records": ("lane", "put", "take", "vectors"),
+    "stack": ("align_stack",),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            import_module("uictest.lanes.integers")  # gives whole numbers their operators
+            return getattr(import_module(f"uictest.lanes.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

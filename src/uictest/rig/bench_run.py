@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+import importlib
 from typing import Any
 
 import numpy as np
@@ -12,20 +12,80 @@ from uictest.rig.assembly import assemble
 from uictest.rig.bench import SETTINGS, bench
 from uictest.rig.bench_inputs import BenchInput, Clock
 from uictest.rig.bench_trace import BENCH_CHANNELS, LOADCELL_SHARES, ROW
-from uictest.rig.compiled import OPTIONS, compiled_operations, translate, use_cache
+from uictest.rig.compiled import OPTIONS, callback, compiled_operations, translate
+from uictest.rig.machine_code import address, is_kept, native_function
 from uictest.rig.records import CAR, PARAMETERS, WHEELSET
 from uictest.scenario import Case
 
+_NAME = "uictest_bench"
+_ARGUMENTS = (CAR, WHEELSET, WHEELSET, PARAMETERS, "f8", "i8", "f8", "f8", int, int)
 
-@cache
-def compiled_bench() -> Any:
-    """Return :func:`uictest.rig.bench.bench` compiled; the first call on a machine takes some seconds."""
-    use_cache()
-    import numba
 
-    njit: Any = numba.njit(**OPTIONS)
-    entry = translate(bench, njit, compiled_operations())
-    return numba.njit(**OPTIONS, cache=True)(entry.py_func)
+def compiled_bench(
+    car: Any,
+    modules: Any,
+    computed: Any,
+    settings: Any,
+    demand: Any,
+    commands: Any,
+    loadcells: Any,
+    trace: Any,
+) -> None:
+    """Run :func:`uictest.rig.bench.bench` compiled; the first call on a machine takes some seconds.
+
+    Raises TypeError where a record or an array is not laid out as the code takes it.
+    """
+    native_function(_NAME, _callback, len(_ARGUMENTS))(
+        address(car, CAR),
+        address(modules, WHEELSET, (2,)),
+        address(computed, WHEELSET, (len(SETTINGS),)),
+        address(settings, PARAMETERS, (len(SETTINGS),)),
+        address(demand, "f8", (len(trace) - 1,)),
+        address(commands, "i8", (len(commands),)),
+        address(loadcells, "f8", (len(LOADCELL_SHARES),)),
+        address(trace, "f8", (len(trace), ROW)),
+        len(commands),
+        len(trace),
+    )
+
+
+def is_warm() -> bool:
+    """Whether the bench lies compiled in the cache, so that the test starts at once."""
+    return is_kept(_NAME)
+
+
+def _callback() -> Any:
+    """Return the bench compiled by numba, as a function of addresses and the lengths behind them."""
+    numba: Any = importlib.import_module("numba")  # its functions have no types
+    carray = numba.carray
+    entry = translate(bench, numba.njit(**OPTIONS), compiled_operations())
+    setting_count, loadcell_count = len(SETTINGS), len(LOADCELL_SHARES)
+
+    def on_addresses(
+        car: Any,
+        modules: Any,
+        computed: Any,
+        settings: Any,
+        demand: Any,
+        commands: Any,
+        loadcells: Any,
+        trace: Any,
+        cycles: int,
+        rows: int,
+    ) -> int:
+        entry(
+            carray(car, 1)[0],
+            carray(modules, 2),
+            carray(computed, setting_count),
+            carray(settings, setting_count),
+            carray(demand, rows - 1),
+            carray(commands, cycles),
+            carray(loadcells, loadcell_count),
+            carray(trace, (rows, ROW)),
+        )
+        return 0
+
+    return callback(on_addresses, *_ARGUMENTS)
 
 
 def clock_of(case: Case) -> Clock:
@@ -46,7 +106,7 @@ def run_bench(case: Case, applied: BenchInput, stepper: Any = None) -> Recording
         The channels of :data:`~uictest.rig.bench_trace.BENCH_CHANNELS`.
     """
     trace = np.empty((len(applied.demand) + 1, ROW))
-    (stepper or compiled_bench())(
+    (stepper or compiled_bench)(
         np.zeros(1, CAR)[0],
         np.zeros(2, WHEELSET),
         np.zeros(4, WHEELSET),

@@ -1,4 +1,4 @@
-"""The rig compiled: the same functions, translated once, kept in a cache on disk.
+"""The rig compiled: the same functions, translated once.
 
 :func:`translate` copies a function and everything of this package that it calls, with each copy wrapped
 by a compiler. The originals stay plain Python, and one source serves several targets. Floating point is
@@ -7,10 +7,8 @@ compiled and plain code give the same bits.
 """
 
 import dis
-import hashlib
 import importlib
 import sys
-import tempfile
 from collections.abc import Callable
 from functools import cache
 from importlib import metadata
@@ -18,7 +16,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, cast
 
-from uictest.user_cache import user_cache
+import numpy as np
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
@@ -65,36 +63,25 @@ def _is_ours(value: object) -> bool:
     )
 
 
-@cache
-def cache_folder() -> Path:
-    """Folder of the compiled rig: one for each state of its sources and of the compiler.
+def callback(function: Function, *arguments: Any) -> Any:
+    """Compile a function of addresses and whole numbers, called as C calls it; it returns a whole number.
 
-    The compiler itself notices neither an edited callee nor a changed option, so both are part of the
-    name. Where the user's cache cannot be written, a folder for this process serves.
+    Args:
+        function: what is compiled.
+        arguments: for each argument the layout of what lies at the address, or `int` for a whole number.
     """
-    digest = hashlib.sha256(repr((OPTIONS, sys.version_info[:2], metadata.version("numba"))).encode())
+    numba: Any = importlib.import_module("numba")  # its functions have no types
+    kinds = [
+        numba.int64 if each is int else numba.types.CPointer(numba.from_dtype(np.dtype(each)))
+        for each in arguments
+    ]
+    return numba.cfunc(numba.int64(*kinds), **OPTIONS)(function)
+
+
+@cache
+def compiler_inputs() -> bytes:
+    """Return everything that compiled code depends on beside the processor: sources, options, versions."""
+    versions = (sys.version_info[:2], *(metadata.version(name) for name in ("numba", "llvmlite", "numpy")))
     package = Path(__file__).parent.parent
-    for room in _SOURCES:
-        for source in sorted((package / room).glob("*.py")):
-            digest.update(source.read_bytes())
-    return user_cache(digest.hexdigest()[:20]) or Path(tempfile.mkdtemp(prefix="uictest-"))
-
-
-def use_cache() -> None:
-    """Point the compiler at our cache folder."""
-    _load_without_blas()
-    from numba.core import config
-
-    cast(Any, config).CACHE_DIR = str(cache_folder())
-
-
-def _load_without_blas() -> None:
-    """Load the compiler's array functions without scipy's BLAS, which is not needed and slow."""
-    blas = "scipy.linalg.cython_blas"
-    if "numba.np.arraymath" in sys.modules or blas in sys.modules:
-        return
-    sys.modules[blas] = None  # type: ignore[assignment]
-    try:
-        importlib.import_module("numba.np.arraymath")
-    finally:
-        del sys.modules[blas]
+    sources = (source for room in _SOURCES for source in sorted((package / room).rglob("*.py")))
+    return b"".join([repr((OPTIONS, versions)).encode(), *(source.read_bytes() for source in sources)])

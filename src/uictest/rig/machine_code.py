@@ -4,16 +4,71 @@ To import numba, and have it find code in its own cache, takes longer than a doz
 generator alone loads a file in a tenth of that.
 """
 
-import hashlib
+import ctypes
+from collections.abc import Callable
+from functools import cache
+from threading import Lock
 from typing import Any
 
+import numpy as np
 
-def processor() -> str:
-    """Return a short name of this processor's kind; object files are made for one of them."""
+from uictest import user_cache
+from uictest.rig.compiled import compiler_inputs
+
+_compiling = Lock()
+_loaded: dict[str, tuple[Any, Callable[..., int]]] = {}
+"""Functions by their name, and what keeps their code in this process."""
+
+
+def native_function(name: str, callback: Callable[[], Any], arguments: int) -> Callable[..., int]:
+    """Return a function in machine code, from the cache, or compiled and kept there.
+
+    Args:
+        name: of the function and of its file.
+        callback: returns the function compiled (:func:`uictest.rig.compiled.callback`); takes some seconds.
+        arguments: how many it has, addresses and whole numbers.
+    """
+    with _compiling:
+        if name not in _loaded:
+            engine = load(_kept(name) or _compiled(name, callback))
+            prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
+            _loaded[name] = engine, prototype(engine.get_function_address(name))
+    return _loaded[name][1]
+
+
+def is_kept(name: str) -> bool:
+    """Whether a function lies compiled in the cache, so that it can be called at once."""
+    return _kept(name) is not None
+
+
+def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
+    """Return where a record or an array begins. Machine code would believe any other layout, too.
+
+    Raises TypeError where it is not laid out so.
+    """
+    if values.dtype != layout or values.shape != shape or not values.flags.c_contiguous:
+        raise TypeError(
+            f"expected {shape} contiguous {np.dtype(layout)}, found {values.shape} {values.dtype}"
+        )
+    return int(values.__array_interface__["data"][0])
+
+
+def _compiled(name: str, callback: Callable[[], Any]) -> bytes:
+    code = object_file(callback(), name)
+    user_cache.write(name, _inputs(), code)
+    return code
+
+
+def _kept(name: str) -> bytes | None:
+    return user_cache.read(name, _inputs())
+
+
+@cache
+def _inputs() -> bytes:
     from llvmlite import binding
 
-    kind = f"{binding.get_host_cpu_name()} {binding.get_host_cpu_features().flatten()}"
-    return hashlib.sha256(kind.encode()).hexdigest()[:12]
+    processor = f"{binding.get_host_cpu_name()} {binding.get_host_cpu_features().flatten()}"
+    return processor.encode() + compiler_inputs()
 
 
 def object_file(callback: Any, name: str) -> bytes:

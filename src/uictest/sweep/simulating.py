@@ -48,6 +48,6 @@ def _why(error: Exception) -> str:
 
 def is_warm() -> bool:
     """Return whether the lanes lie compiled in the cache, so that the first part starts at once."""
-    from uictest.rig.compiled import cache_folder
+    from uictest.rig import lanes
 
-    return any(cache_folder().glob("**/lane_stops.*.nbc"))
+    return lanes.is_warm()

@@ -14,7 +14,7 @@ from uictest.report.page.plotting_script import packed, plotting_script
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    monkeypatch.setattr(module, "user_cache", lambda name: tmp_path)
+    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path))
     plotting_script.cache_clear()
     yield tmp_path
     plotting_script.cache_clear()
@@ -43,13 +43,12 @@ def test_another_version_of_the_script_is_packed_anew(place: Path, monkeypatch: 
         assert plotting_script() == packed(version)
 
 
-@pytest.mark.parametrize("folder", [None, Path("/dev/null/folder")])
-def test_without_a_place_it_is_packed_each_time(
-    place: Path, monkeypatch: pytest.MonkeyPatch, folder: Path | None
-) -> None:
-    monkeypatch.setattr(module, "user_cache", lambda name: folder)
-    monkeypatch.setattr(module, "_source", lambda: Path(__file__))
-    assert plotting_script() == packed(Path(__file__).read_text("utf-8"))
+def test_a_damaged_script_is_packed_anew(place: Path) -> None:
+    first = plotting_script()
+    (kept,) = place.iterdir()
+    kept.write_bytes(kept.read_bytes()[:-100])
+    plotting_script.cache_clear()
+    assert plotting_script() == first
 
 
 def test_without_plotly_the_reason_is_named(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:

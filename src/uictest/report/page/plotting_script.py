@@ -5,13 +5,12 @@ from __future__ import annotations
 import base64
 import hashlib
 import zlib
-from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from uictest.user_cache import user_cache
+from uictest import user_cache
 
 
 class PackedScript(NamedTuple):
@@ -31,12 +30,14 @@ class PackedScript(NamedTuple):
 def plotting_script() -> PackedScript:
     """Return plotly's script. Raises ModuleNotFoundError where plotly is not installed."""
     source = _source()
-    kept = _kept(source)
-    if kept is not None and kept.exists():
-        return PackedScript(*kept.read_text("ascii").split())
+    status = source.stat()
+    inputs = f"{source} {status.st_size} {status.st_mtime_ns}".encode()
+    kept = user_cache.read("plotly", inputs)
+    if kept is not None:
+        return PackedScript(*kept.decode("ascii").split())
     # Reading turns every line end into a line feed, as a browser does before it takes the digest.
     script = packed(source.read_text("utf-8"))
-    _keep(script, kept)
+    user_cache.write("plotly", inputs, "\n".join(script).encode("ascii"))
     return script
 
 
@@ -57,17 +58,3 @@ def _source() -> Path:
     if found is None or found.origin is None:
         raise ModuleNotFoundError("plotly is not installed, and the page needs its script", name="plotly")
     return Path(found.origin).parent / "package_data" / "plotly.min.js"
-
-
-def _kept(source: Path) -> Path | None:
-    folder, found = user_cache("page"), source.stat()
-    return folder and folder / f"plotly-{found.st_size}-{found.st_mtime_ns}.txt"
-
-
-def _keep(script: PackedScript, place: Path | None) -> None:
-    from uictest.recording import write_text_atomic
-
-    # Where it cannot be kept, it is packed again.
-    with suppress(OSError):
-        if place is not None:
-            write_text_atomic(place, "\n".join(script))

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from uictest.report.escaping import printable
 from uictest.report.page.plotting_script import digest, plotting_script
-from uictest.user_cache import user_cache
 
 if TYPE_CHECKING:
-    from jinja2 import BytecodeCache, Environment
+    from jinja2 import Environment
 
 
 def render(template: str, *, with_plots: bool, **context: Any) -> str:
@@ -46,6 +45,8 @@ def _environment() -> Environment:
     from jinja2 import DictLoader, StrictUndefined
     from jinja2 import Environment as JinjaEnvironment
 
+    from uictest.report.page.template_cache import TemplateCache
+
     folder = resources.files(__package__) / "templates"
     sources = {file.name: file.read_text("utf-8") for file in folder.iterdir() if file.name.endswith(".j2")}
     environment = JinjaEnvironment(
@@ -55,18 +56,10 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         finalize=_visible,
-        bytecode_cache=_bytecode_cache(),
+        bytecode_cache=TemplateCache(),
     )
     environment.filters["figure"] = _figure
     return environment
-
-
-def _bytecode_cache() -> BytecodeCache | None:
-    """Return the place for compiled templates, if there can be one."""
-    from jinja2 import FileSystemBytecodeCache
-
-    folder = user_cache("page")
-    return FileSystemBytecodeCache(str(folder)) if folder else None
 
 
 def _visible(value: Any) -> Any:

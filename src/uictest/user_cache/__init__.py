@@ -1,0 +1,10 @@
+"""What is made once and kept for later runs: compiled code, compiled templates, packed scripts.
+
+What is kept is executed, or becomes part of a page. So it is read from and written to folders that nobody
+but this user can write, and only files that are intact and were made of the very inputs at hand are used.
+This room is the only way to these folders.
+"""
+
+from uictest.user_cache.files import read, write
+
+__all__ = ["read", "write"]

@@ -1,0 +1,45 @@
+"""Which folders nobody but this user can write, or swap for another."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+_SYSTEM = 0
+"""User id of the system's administrator, who can do anything anyway."""
+
+
+def why_unsafe(folder: Path) -> str:
+    """Return why others could put files into an existing folder, and what to do; nothing where they cannot.
+
+    The folder must be this user's. So must be every folder above it, or the system's, since who can write one
+    can rename what lies in it; one that is sticky, as /tmp is, protects what lies in it. Where a link leads
+    counts as well. Raises OSError.
+    """
+    if not hasattr(os, "getuid"):  # Windows: both places belong to the user's profile
+        return ""
+    target = Path(os.path.realpath(folder))
+    if target.stat().st_uid != os.getuid():
+        return f"{str(target)!r} belongs to another user; set UICTEST_CACHE to a folder of your own"
+    above = dict.fromkeys((*folder.parents, *target.parents))
+    reasons = (_why_unsafe_place(place, above=place in above) for place in (target, folder, *above))
+    return next((reason for reason in reasons if reason), "")
+
+
+def is_trusted(status: os.stat_result) -> bool:
+    """Return whether a file is this user's and written by nobody else."""
+    if not hasattr(os, "getuid"):
+        return True
+    return status.st_uid == os.getuid() and not status.st_mode & _BY_OTHERS
+
+
+def _why_unsafe_place(place: Path, *, above: bool) -> str:
+    status = place.lstat()
+    if status.st_uid not in (os.getuid(), _SYSTEM):
+        return f"{str(place)!r} belongs to another user; set UICTEST_CACHE to a folder of your own"
+    is_protected = stat.S_ISLNK(status.st_mode) or (above and status.st_mode & stat.S_ISVTX)
+    if status.st_mode & _BY_OTHERS and not is_protected:
+        return f"others can write {str(place)!r}, and what is cached is executed; `chmod go-w` it"
+    return ""

@@ -1,0 +1,39 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from jinja2 import DictLoader, Environment
+
+from uictest.report.page.template_cache import TemplateCache
+
+
+def _rendered(source: str) -> str:
+    environment = Environment(
+        loader=DictLoader({"page": source}), bytecode_cache=TemplateCache(), autoescape=True
+    )
+    return environment.get_template("page").render(name="WSP")
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def test_a_template_is_compiled_once(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert _rendered("the {{ name }}") == "the WSP"
+    monkeypatch.setattr(Environment, "compile", lambda *_: pytest.fail("compiled again"))
+    assert _rendered("the {{ name }}") == "the WSP"
+
+
+def test_another_source_is_compiled_anew(cache: Path) -> None:
+    assert [_rendered("the {{ name }}"), _rendered("a {{ name }}")] == ["the WSP", "a WSP"]
+
+
+def test_damaged_code_is_compiled_anew(cache: Path) -> None:
+    """Half a template is still something that Python would load and run."""
+    _rendered("the {{ name }}")
+    (kept,) = cache.iterdir()
+    kept.write_bytes(kept.read_bytes().replace(b"the ", b"THE "))
+    assert _rendered("the {{ name }}") == "the WSP"

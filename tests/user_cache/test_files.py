@@ -1,0 +1,165 @@
+"""Only what is intact and made of the same inputs is read; whatever lies there, nothing hangs or fails."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from uictest import user_cache
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="files of other kinds and modes are POSIX")
+
+INPUTS, CONTENT = b"sources, versions, options", bytes(range(256)) * 10
+
+
+def only_file(folder: Path) -> Path:
+    (path,) = folder.iterdir()
+    return path
+
+
+def test_content_is_read_for_its_kind_and_inputs_and_no_others(root: Path) -> None:
+    assert user_cache.read("code", INPUTS) is None
+    user_cache.write("code", INPUTS, CONTENT)
+    assert user_cache.read("code", INPUTS) == CONTENT
+    assert user_cache.read("code", INPUTS + b"!") is None
+    assert user_cache.read("page", INPUTS) is None
+
+
+DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+    "a bit of the content": lambda whole: whole[:-1] + bytes([whole[-1] ^ 1]),
+    "a bit of the digest": lambda whole: bytes([whole[0] ^ 1]) + whole[1:],
+    "cut": lambda whole: whole[:-1],
+    "cut within the digest": lambda whole: whole[:20],
+    "longer": lambda whole: whole + b"\0",
+    "empty": lambda whole: b"",
+    "something else": lambda whole: b"\x7fELF" + bytes(500),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_file_is_not_read_and_is_replaced(root: Path, damage: str) -> None:
+    user_cache.write("code", INPUTS, CONTENT)
+    path = only_file(root)
+    path.write_bytes(DAMAGE[damage](path.read_bytes()))
+    assert user_cache.read("code", INPUTS) is None
+    user_cache.write("code", INPUTS, CONTENT)
+    assert user_cache.read("code", INPUTS) == CONTENT
+
+
+def test_an_intact_file_of_other_inputs_is_not_read(root: Path) -> None:
+    """Such as one that was copied from a machine with another processor."""
+    user_cache.write("code", INPUTS, CONTENT)
+    path = only_file(root)
+    path.unlink()
+    user_cache.write("code", b"another processor", CONTENT)
+    only_file(root).rename(path)
+    assert user_cache.read("code", INPUTS) is None
+
+
+@pytest.mark.parametrize("kind", ["FIFO", "socket", "link"])
+def test_what_is_no_ordinary_file_is_not_read_and_is_replaced(root: Path, tmp_path: Path, kind: str) -> None:
+    user_cache.write("code", INPUTS, CONTENT)
+    path = only_file(root)
+    path.rename(tmp_path / "elsewhere")
+    if kind == "FIFO":
+        os.mkfifo(path)
+    elif kind == "socket":
+        with socket.socket(socket.AF_UNIX) as bound:
+            bound.bind(str(path))
+    else:
+        path.symlink_to(tmp_path / "elsewhere")
+    assert user_cache.read("code", INPUTS) is None
+    user_cache.write("code", INPUTS, CONTENT)
+    assert user_cache.read("code", INPUTS) == CONTENT
+
+
+def test_a_folder_in_place_of_the_file_is_left_alone_and_named_once(
+    root: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    user_cache.write("code", INPUTS, CONTENT)
+    path = only_file(root)
+    path.unlink()
+    path.mkdir()
+    for _ in range(2):
+        user_cache.write("code", INPUTS, CONTENT)
+        assert user_cache.read("code", INPUTS) is None
+    assert list(root.iterdir()) == [path]
+    (warning,) = [message for message in caplog.messages if str(root) in message]
+    assert "cannot be written (Is a directory)" in warning
+
+
+def test_a_file_that_others_can_write_is_not_read(root: Path) -> None:
+    user_cache.write("code", INPUTS, CONTENT)
+    only_file(root).chmod(0o666)
+    assert user_cache.read("code", INPUTS) is None
+
+
+def test_files_are_private_whatever_the_mask(root: Path) -> None:
+    before = os.umask(0)
+    try:
+        user_cache.write("code", INPUTS, CONTENT)
+    finally:
+        os.umask(before)
+    assert [path.stat().st_mode & 0o077 for path in (root, only_file(root))] == [0, 0]
+    assert user_cache.read("code", INPUTS) == CONTENT
+
+
+def test_where_the_first_place_takes_nothing_the_next_one_does(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    user_cache.write("code", INPUTS, CONTENT)
+    assert user_cache.read("code", INPUTS) == CONTENT
+    assert only_file(tmp_path / f"uictest-{os.getuid()}").read_bytes().endswith(CONTENT)
+
+
+def test_a_full_disk_is_named_once_and_leaves_nothing(tmp_path: Path) -> None:
+    def small_files() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+
+    program = """if True:
+        from uictest import user_cache
+        for number in b"ab":
+            user_cache.write("code", bytes(number), bytes(1000))
+            assert user_cache.read("code", bytes(number)) is None
+    """
+    places = {"UICTEST_CACHE": str(tmp_path / "cache"), "TMPDIR": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", program],
+        preexec_fn=small_files,
+        env={**os.environ, **places},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    first, second, last = done.stderr.splitlines()
+    assert first == f"uictest: the cache '{tmp_path}/cache' cannot be written (File too large)"
+    assert (
+        second == f"uictest: the cache '{tmp_path}/uictest-{os.getuid()}' cannot be written (File too large)"
+    )
+    assert last.startswith("uictest: nothing is cached")
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+def test_writers_do_not_disturb_each_other(root: Path) -> None:
+    """Whoever comes last wins, and no reader meets half a file."""
+
+    def take_turns(number: int) -> bytes | None:
+        user_cache.write("code", INPUTS, CONTENT)
+        return user_cache.read("code", INPUTS)
+
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(take_turns, range(64))) == {CONTENT}
+    assert len(list(root.iterdir())) == 1
