@@ -1,28 +1,28 @@
 """The command line."""
 
-from __future__ import annotations
-
+# Whoever stops the program while this module is loaded still sees Python's traceback: it imports little.
 import gc
 import os
-import signal
 import sys
-from typing import NoReturn
 
 __all__ = ["main"]
 
 
-def main() -> NoReturn:
+def main() -> None:
     """Run the command line and leave the process with its exit code."""
-    _start_lightly()
-    # A CI server or a batch system that cancels a job asks in this way first.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        from uictest.cli.entry import execute
+    from uictest.cli.signals import leave_when_asked, raise_when_asked
+    from uictest.cli.standard_streams import open_closed_streams
 
+    leave_when_asked()
+    open_closed_streams()
+    _start_lightly()
+    from uictest.cli.entry import execute
+
+    try:
+        raise_when_asked()
         code = int(execute(sys.argv[1:]))
     except KeyboardInterrupt:
-        # Pressed before the program was fully imported: what maps errors to codes may not be there yet.
-        sys.stderr.write("uictest: interrupted\n")
+        # Asked a second time, while the first was being answered.
         code = 2
     # Everything is written by now. Tearing down numba's interpreter state would take longer than a stop does.
     os._exit(code)

@@ -11,7 +11,7 @@ from uictest.cli.app import app
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.invocation import Invocation
 from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message, use_safe_encoding
+from uictest.cli.streams import lost_data, message, use_safe_encoding
 
 _TYPER_INTERRUPTED = 130
 
@@ -19,7 +19,14 @@ _TYPER_INTERRUPTED = 130
 def execute(arguments: Sequence[str]) -> ExitCode:
     """Run one command line, and return its exit code; nothing but the code leaves, not even an exception."""
     use_safe_encoding()
-    invocation = Invocation(arguments)
+    code = _outcome(Invocation(arguments))
+    reason = lost_data()
+    if reason:
+        message(f"uictest: {reason}; data are lost")
+    return ExitCode.ERROR if reason and code is not ExitCode.INTERRUPTED else code
+
+
+def _outcome(invocation: Invocation) -> ExitCode:
     try:
         return _call(invocation)
     except typer.TyperException as error:

@@ -11,28 +11,38 @@ from typing import TextIO
 
 from uictest.report import printable
 
+_losses: list[OSError] = []
+"""Why stdout took no more, the first time that it did not."""
+
 
 def data(text: str) -> bool:
-    """Write data to stdout at once, a line feed at its end. A reader that has gone (`| head`) is no error.
+    """Write data to stdout at once, a line feed at its end.
 
-    Returns whether it was read: who has much more to write need not go on where it was not. Raises OSError
-    where stdout takes no more.
+    Returns whether it was taken: who has much more to write need not go on where it was not. A reader that
+    has gone (`| head`) is no error; any other reason is one, which :func:`lost_data` keeps for the end.
     """
     try:
         sys.stdout.write(f"{text}\n")
         sys.stdout.flush()
-    except BrokenPipeError:
+    except OSError as error:
+        if not isinstance(error, BrokenPipeError):
+            _losses.append(error)
         # What is still in the buffer must not raise again at the next flush.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return False
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, "stdout") from error
     return True
 
 
 def terminal_width(stream: TextIO) -> int | None:
     """Return the characters that a line of the terminal holds, None for a stream that is no terminal."""
     return shutil.get_terminal_size().columns if stream.isatty() else None
+
+
+def lost_data() -> str:
+    """Return why stdout did not take everything since the last call; nothing where it did."""
+    reasons = [error.strerror or str(error) for error in _losses]
+    _losses.clear()
+    return f"stdout: {reasons[0]}" if reasons else ""
 
 
 def message(text: str) -> None:
