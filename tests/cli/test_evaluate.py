@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.recording.formats import writer_of
+from uictest.recording.formats import BrokenOffError, writer_of
 
 Call = Callable[..., Any]
 STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
@@ -204,3 +204,17 @@ def test_files_of_one_name_get_different_ids(call: Call, stop: Path, workplace: 
     (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
     answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
     assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
+
+
+def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
+    call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def broken_off(path: Path, dialect: object = None) -> None:
+        raise BrokenOffError(28, f"No space left on device to read {path}", "/small")
+
+    monkeypatch.setattr("uictest.measured.file.read_contents", broken_off)
+    (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")
+    answer = call("evaluate", "stop.csv", *STATED)
+    assert answer.code == 3
+    assert "/small: No space left on device to read stop.csv" in answer.err
+    assert "damaged" not in answer.err

@@ -92,9 +92,12 @@ def one_case(scenario: Path, expression: str | None, overrides: Sequence[str]) -
 
 
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
-    """Use every file, and return what comes of it. Raises InvalidInputError with every file's error."""
+    """Use every file, and return what comes of it.
+
+    Raises InvalidInputError with every file's error, BrokenOffError where the machine does not let it read.
+    """
     from uictest.measured import MapError
-    from uictest.recording.formats import MissingExtraError, UnreadableError
+    from uictest.recording.formats import BrokenOffError, MissingExtraError, UnreadableError
 
     results: list[Result] = []
     errors: list[str] = []
@@ -103,6 +106,8 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
             results.append(use(path))
         except (UnreadableError, MissingExtraError, MapError) as error:
             errors.append(f"uictest: {path}: {error}")
+        except BrokenOffError:
+            raise  # no fault of the file
         except OSError as error:
             errors.append(f"uictest: {path}: {error.strerror or error}")
     if errors:

@@ -7,11 +7,12 @@ costs a message, never the program.
 from uictest.recording.formats.choice import FORMATS, SUFFIXES, format_of, writer_of
 from uictest.recording.formats.dialect import Dialect
 from uictest.recording.formats.isolation import read_contents
-from uictest.recording.formats.problems import MissingExtraError, UnreadableError
+from uictest.recording.formats.problems import BrokenOffError, MissingExtraError, UnreadableError
 
 __all__ = [
     "FORMATS",
     "SUFFIXES",
+    "BrokenOffError",
     "Dialect",
     "MissingExtraError",
     "UnreadableError",

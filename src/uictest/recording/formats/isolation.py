@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,11 +19,13 @@ from uictest.recording.contents import Contents, Group
 from uictest.recording.formats.choice import format_of
 from uictest.recording.formats.dialect import Dialect
 from uictest.recording.formats.limits import LARGEST_FILE, READING_SECONDS
-from uictest.recording.formats.problems import MissingExtraError, UnreadableError
+from uictest.recording.formats.problems import BrokenOffError, MissingExtraError, UnreadableError
 
 _MODULE = "uictest.recording.formats.reader"
-REFUSED, EXTRA_MISSING, TOO_LARGE = 10, 11, 12
+REFUSED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
 """Exit codes of the reading process, besides 0."""
+_KILLED = {getattr(signal, name, None) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")}
+"""Signals that come from outside; a file that crashes its reader causes others."""
 
 
 def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = READING_SECONDS) -> Contents:
@@ -30,6 +34,7 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
     Raises:
         UnreadableError: the file is no recording, damaged, or too large; the message says which.
         MissingExtraError: the library for its format is not installed.
+        BrokenOffError: the temporary folder is full, or the process that reads was killed.
         OSError: the file cannot be opened.
 
     """
@@ -63,6 +68,11 @@ def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) 
         return
     if done.returncode == EXTRA_MISSING:
         raise MissingExtraError(_refusal(folder))
+    if done.returncode == NO_ROOM:
+        raise BrokenOffError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} to read {path}", str(folder.parent))
+    if -done.returncode in _KILLED:
+        name = signal.Signals(-done.returncode).name
+        raise BrokenOffError(errno.EINTR, f"the process that reads it was killed ({name})", str(path))
     raise UnreadableError(_refusal(folder) or f"reading it as {name} ended abruptly: the file is damaged")
 
 

@@ -9,3 +9,7 @@ class UnreadableError(ValueError):
 
 class MissingExtraError(Exception):
     """A format whose library is not installed; the message is the line that installs it."""
+
+
+class BrokenOffError(OSError):
+    """Reading was broken off by the machine, whatever the file holds: a full disk, a process killed."""

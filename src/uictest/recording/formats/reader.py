@@ -6,7 +6,9 @@ It leaves `contents.json` and one .npy file per channel in its working folder, o
 from __future__ import annotations
 
 import contextlib
+import errno
 import importlib
+import io
 import itertools
 import json
 import sys
@@ -19,18 +21,20 @@ import numpy as np
 from uictest.recording.contents import Contents, Group
 from uictest.recording.formats.choice import FORMATS
 from uictest.recording.formats.dialect import Dialect
-from uictest.recording.formats.isolation import EXTRA_MISSING, REFUSED, TOO_LARGE
+from uictest.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REFUSED, TOO_LARGE
 from uictest.recording.formats.limits import READING_MEMORY, READING_SECONDS
 from uictest.recording.formats.problems import MissingExtraError, UnreadableError
 
 _LONGEST_REFUSAL = 500
+_NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
+"""What writing temporary files fails by, and reading a file never."""
 
 
 def main(name: str, path: str, dialect: str) -> int:
     """Read the file and leave its contents in the working folder; return the exit code."""
     _bound_resources()
     try:
-        leave(read_here(name, Path(path), Dialect.from_dict(json.loads(dialect))), Path.cwd())
+        contents = read_here(name, Path(path), Dialect.from_dict(json.loads(dialect)))
     except MissingExtraError as error:
         return _refuse(str(error), EXTRA_MISSING)
     except UnreadableError as error:
@@ -39,7 +43,13 @@ def main(name: str, path: str, dialect: str) -> int:
         return _refuse("it asks for more memory than reading may take", TOO_LARGE)
     # A library that meets a damaged file may raise anything at all.
     except Exception as error:
+        if isinstance(error, OSError) and error.errno in _NO_ROOM:
+            return NO_ROOM
         return _refuse(f"not a sound {name} file: {type(error).__name__}: {error}", REFUSED)
+    try:
+        leave(contents, Path.cwd())
+    except OSError:
+        return NO_ROOM
     return 0
 
 
@@ -65,8 +75,10 @@ def leave(contents: Contents, folder: Path) -> None:
 
 def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
     def left(samples: Any) -> int:
-        number = next(numbers)
-        np.save(folder / f"{number}.npy", np.ascontiguousarray(samples), allow_pickle=False)
+        number, content = next(numbers), io.BytesIO()
+        np.save(content, np.ascontiguousarray(samples), allow_pickle=False)
+        # numpy itself writes to a full disk without an error
+        (folder / f"{number}.npy").write_bytes(content.getbuffer())
         return number
 
     return {
@@ -79,7 +91,10 @@ def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
 
 def _refuse(reason: str, code: int) -> int:
     text = " ".join(reason.split())[:_LONGEST_REFUSAL]
-    Path("refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
+    try:
+        Path("refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
+    except OSError:
+        return NO_ROOM
     return code
 
 

@@ -1,0 +1,89 @@
+"""A sound file is not called damaged where the machine is what fails."""
+
+from __future__ import annotations
+
+import errno
+import os
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.recording.formats import BrokenOffError, UnreadableError, isolation, read_contents
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
+
+Written = Callable[[str], Path]
+
+
+def reading_under(monkeypatch: pytest.MonkeyPatch, before: Callable[[], None]) -> None:
+    """Call a function in the process that reads before it becomes the reader."""
+    run = subprocess.run
+
+    def prepared(command: Any, **options: Any) -> Any:
+        return run(command, preexec_fn=before, **options)
+
+    monkeypatch.setattr(isolation.subprocess, "run", prepared)
+
+
+def files_up_to(size: int) -> Callable[[], None]:
+    def limit() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    return limit
+
+
+@pytest.mark.parametrize("size", [0, 300, 1700])
+@pytest.mark.parametrize("name", ["mdf", "csv", "parquet"])
+def test_a_full_temporary_folder_is_named(
+    written: Written, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, size: int
+) -> None:
+    path = written(name)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    reading_under(monkeypatch, files_up_to(size))
+    with pytest.raises(BrokenOffError) as caught:
+        read_contents(path)
+    assert caught.value.filename == str(tmp_path)
+    assert caught.value.errno == errno.ENOSPC
+    assert str(path) in str(caught.value)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_full_temporary_folder_excuses_no_damaged_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As long as there is room for the refusal."""
+    path = tmp_path / "stub.mf4"
+    path.write_bytes(b"MDF     4.10    " + bytes(300))
+    reading_under(monkeypatch, files_up_to(1700))
+    with pytest.raises(UnreadableError):
+        read_contents(path)
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_a_reader_that_is_killed_says_nothing_about_the_file(
+    written: Written, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
+    """As the system does where memory runs out."""
+    path = written("csv")
+    reading_under(monkeypatch, lambda: os.kill(os.getpid(), number))
+    with pytest.raises(BrokenOffError, match=rf"was killed \({number.name}\)") as caught:
+        read_contents(path)
+    assert caught.value.filename == str(path)
+
+
+def test_a_reader_that_crashes_does(written: Written, monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash() -> None:
+        signal.signal(signal.SIGSEGV, signal.SIG_DFL)  # pytest's own handler would show where
+        os.kill(os.getpid(), signal.SIGSEGV)
+
+    path = written("csv")
+    reading_under(monkeypatch, crash)
+    with pytest.raises(UnreadableError, match="damaged"):
+        read_contents(path)
