@@ -23,7 +23,13 @@ def test_help_names_commands_and_exit_codes(call: Call, option: str) -> None:
         assert word in " ".join(answer.out.split())
 
 
-@pytest.mark.parametrize("arguments", [[], ["fly"], ["run\x1b[2J"], ["--nonsense"], ["library", "fly"]])
+def test_without_a_command_the_help_is_shown_and_nothing_was_tested(call: Call) -> None:
+    answer = call()
+    assert (answer.code, answer.err) == (4, "")
+    assert answer.out == call("--help").out
+
+
+@pytest.mark.parametrize("arguments", [["fly"], ["run\x1b[2J"], ["--nonsense"], ["library", "fly"]])
 def test_a_usage_error_exits_4_and_shows_the_way_to_help(call: Call, arguments: list[str]) -> None:
     answer = call(*arguments)
     assert (answer.code, answer.out) == (4, "")

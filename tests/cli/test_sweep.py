@@ -325,7 +325,7 @@ def test_nothing_is_said_to_be_kept_where_nothing_is(call: Call, study: Path) ->
     Path("reports").write_text("")
     answer = call("sweep", study)
     assert answer.code == 3
-    assert answer.err == "uictest: reports/study/parts: Not a directory (-v shows where)\n"
+    assert answer.err == "uictest: reports/study: Not a directory (-v shows where)\n"
 
 
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -44,3 +46,29 @@ def test_a_folder_below_a_regular_file_is_an_oserror(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="file"):
         RunFolder(tmp_path / "file" / "reports", "run")
+
+
+KILLED_AT_WORK = """
+import os, signal, sys
+from pathlib import Path
+from uictest.report.run_folder import RunFolder
+with RunFolder(Path(sys.argv[1]), "killed") as folder:
+    (folder.path / "summary.csv").write_text("half")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
+def test_what_a_killed_run_left_is_removed_by_the_next_and_what_a_living_one_has_is_not(
+    tmp_path: Path,
+) -> None:
+    subprocess.run([sys.executable, "-c", KILLED_AT_WORK, str(tmp_path)], check=False)
+    [left] = tmp_path.iterdir()
+    assert left.name.startswith(".killed.")
+    with RunFolder(tmp_path, "living") as living:
+        assert not left.exists()
+        with RunFolder(tmp_path, "later") as later:
+            assert living.path.is_dir()
+            later.publish()
+        assert living.publish() == tmp_path / "living"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["later", "living"]

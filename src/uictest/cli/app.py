@@ -11,6 +11,7 @@ from uictest.cli.bench import bench
 from uictest.cli.check import check
 from uictest.cli.compare import compare
 from uictest.cli.evaluate import evaluate
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.export import export
 from uictest.cli.fit import fit
 from uictest.cli.identify import identify
@@ -66,11 +67,16 @@ def _show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(invoke_without_command=True)
 def main(
+    context: typer.Context,
     version: Annotated[
         bool,
         typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
     ] = False,
 ) -> None:
     """Batch test runner for a simulated railway brake rig: scenarios in, verdicts and reports out."""
+    if context.invoked_subcommand is None:
+        data(context.get_help())
+        # Not success: in a pipeline a command that is missing must not look like a test that passed.
+        raise typer.Exit(ExitCode.USAGE)

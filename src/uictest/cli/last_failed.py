@@ -20,9 +20,8 @@ def failed_last(cases: Sequence[Case], output: Path) -> list[Case]:
     Raises InvalidInputError where the results of the newest run cannot be read.
     """
     from uictest.campaign import by_id
-    from uictest.report import latest_run
 
-    run = latest_run(output)
+    run = _newest_run(output)
     if run is None:
         message(f"uictest: no earlier run in {output}: all cases are selected")
         return list(cases)
@@ -30,6 +29,34 @@ def failed_last(cases: Sequence[Case], output: Path) -> list[Case]:
     if not selected:
         message(f"uictest: none of these cases failed in {run.name}: all are selected")
     return selected or list(cases)
+
+
+def _newest_run(output: Path) -> Path | None:
+    """Return the newest run of scenarios: `latest`, or where that holds recordings the newest beside it."""
+    from uictest.report import latest_run
+
+    latest = latest_run(output)
+    if latest is None or not _is_of_recordings(latest):
+        return latest
+    beside = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
+    return next((file.parent for file in beside if _command(file.parent) == "run"), None)
+
+
+def _age(manifest: Path) -> tuple[str, int]:
+    """Return what sorts runs by their start: the time in the name, to the second, then that of the file."""
+    return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
+
+
+def _is_of_recordings(run: Path) -> bool:
+    return _command(run) == "evaluate"
+
+
+def _command(run: Path) -> str:
+    """Return which command made a run; nothing where that cannot be read."""
+    try:
+        return str(json.loads((run / "manifest.json").read_bytes())["command"][1])
+    except (OSError, ValueError, LookupError, TypeError):
+        return ""
 
 
 def _not_met(run: Path) -> frozenset[str]:

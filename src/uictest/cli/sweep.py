@@ -31,6 +31,7 @@ from uictest.report.text_table import wrapped_name
 
 if TYPE_CHECKING:
     from uictest.cli.sweep_run import SweepRun
+    from uictest.folder_lock import FolderLock
     from uictest.report import SweepContent
     from uictest.sweep import Plan, Search, Selection, Shard, Store
 
@@ -164,7 +165,21 @@ def sweep(
         formats=wanted,
         quiet=quiet,
     )
-    return _swept(run, shown)
+    with _alone_in(folder, shared=run.shard.count > 1 and not restart):
+        return _swept(run, shown)
+
+
+def _alone_in(folder: Path, *, shared: bool) -> FolderLock:
+    """Return the right to work in the folder of a sweep, which shards of it share."""
+    from uictest.folder_lock import FolderInUseError, FolderLock
+
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        return FolderLock(folder, shared=shared)
+    except FolderInUseError as error:
+        raise InvalidInputError(
+            f"uictest: {folder} is in use by {error}: wait until it ends, or name another folder with -o"
+        ) from error
 
 
 def _swept(run: SweepRun, shown: Format) -> ExitCode:

@@ -1,4 +1,7 @@
-"""The folder of one run: filled under a temporary name, renamed when it is complete."""
+"""The folder of one run: filled under a temporary name, renamed when it is complete.
+
+What a run that was killed left under such a name is removed by the next one.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,8 @@ import shutil
 from pathlib import Path
 from types import TracebackType
 from typing import Self
+
+from uictest.folder_lock import FolderLock, remove_abandoned
 
 
 class RunFolder:
@@ -30,10 +35,13 @@ class RunFolder:
         self._name = name
         self._published = False
         self._made_parents = _make_missing(parent)
+        _remove_abandoned(parent)
         self.path = parent / f".{name}.{os.urandom(4).hex()}.partial"
         try:
             self.path.mkdir()
+            self._lock = FolderLock(self.path)
         except OSError:
+            shutil.rmtree(self.path, ignore_errors=True)
             self._remove_made_parents()
             raise
 
@@ -46,6 +54,7 @@ class RunFolder:
         if not self._published:
             shutil.rmtree(self.path, ignore_errors=True)
             self._remove_made_parents()
+        self._lock.release()
 
     @property
     def name(self) -> str:
@@ -54,6 +63,7 @@ class RunFolder:
 
     def publish(self) -> Path:
         """Give the folder its name, and return where it stands now. Raises OSError."""
+        self._lock.hide()
         for number in itertools.count(1):
             target = self._parent / (self._name if number == 1 else f"{self._name}-{number}")
             if target.exists():
@@ -69,6 +79,12 @@ class RunFolder:
         with contextlib.suppress(OSError):
             for folder in reversed(self._made_parents):
                 folder.rmdir()
+
+
+def _remove_abandoned(parent: Path) -> None:
+    for folder in parent.glob(".*.partial"):
+        if not folder.is_symlink():
+            remove_abandoned(folder)
 
 
 def _make_missing(folder: Path) -> list[Path]:

@@ -1,0 +1,52 @@
+"""One sweep at a time works in a folder."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.folder_lock import FolderLock
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+SWEEP = """schema: uictest/sweep/1
+name: study
+scenario: stop.yaml
+ranges: {initial_speed: {first: 20 km/h, last: 30 km/h, count: 20}}
+"""
+COMMAND = ("sweep", "scenarios/study.sweep.yaml", "-q")
+
+
+@pytest.fixture
+def folder(scenario: Write) -> Path:
+    scenario("stop")
+    Path("scenarios/study.sweep.yaml").write_text(SWEEP)
+    place = Path("reports/study")
+    place.mkdir(parents=True)
+    return place
+
+
+@pytest.mark.parametrize("options", [(), ("--restart",), ("--shard", "1/2"), ("--shard", "1/2", "--restart")])
+def test_a_second_one_is_refused_and_touches_nothing(call: Call, folder: Path, options: tuple[str]) -> None:
+    with FolderLock(folder):
+        answer = call(*COMMAND, *options)
+        assert answer.code == 4
+        assert f"{folder} is in use by process" in answer.err
+        assert "-o" in answer.err
+        assert [path.name for path in folder.iterdir()] == [".lock"]
+
+
+def test_shards_share_a_folder_and_nobody_discards_their_parts(call: Call, folder: Path) -> None:
+    with FolderLock(folder, shared=True):
+        assert call(*COMMAND, "--shard", "1/2").code == 0
+        for options in ((), ("--shard", "2/2", "--restart")):
+            assert call(*COMMAND, *options).code == 4
+        assert call(*COMMAND, "--shard", "2/2").code == 0
+    assert call(*COMMAND).code == 0
+    assert not (folder / ".lock").exists()
