@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.recording import Recording, read_parquet, write_parquet
+from uictest.recording import ORIGIN, Recording, read_parquet, write_parquet
 
 RECIPE = """\
 schema: uictest/bench/1
@@ -29,6 +29,7 @@ def test_a_recipe_leaves_a_recording_and_a_summary(call, recipe, workplace):
     recording = read_parquet(workplace / "short.parquet")
     assert recording["clamping_force_1"].max() > 1000.0
     assert "sha256 of short.yaml" in recording.metadata
+    assert recording.metadata[ORIGIN] == "simulated caliper"
 
 
 def test_the_same_recipe_gives_the_same_recording(call, recipe, workplace):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import hashlib
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from uictest.identification.lines import Line
 from uictest.identification.play import computed_force
-from uictest.recording import Recording, write_parquet
+from uictest.recording import ORIGIN, Recording, read_parquet, write_parquet
 from uictest.scenario import load_part
 from uictest.scenario.parts.compensation import Compensation
 
@@ -61,7 +64,7 @@ def test_hysteresis_writes_a_compensation_with_provenance(call, record, workplac
     assert found.hysteresis.wsp_releasing.intercept == pytest.approx(RELEASING.intercept, abs=100.0)
     assert found.provenance["hysteresis date"] == "2026-01-02"
     assert found.provenance["hysteresis command"].startswith("uictest identify hysteresis record.parquet")
-    assert len(found.provenance["hysteresis record sha256"]) == 64
+    assert found.provenance["hysteresis record sha256"] == hashlib.sha256(record.read_bytes()).hexdigest()
     library = load_part("compensations/six-inch")
     assert tuple(found.cylinder.numerator) == tuple(library.cylinder.numerator)
 
@@ -76,6 +79,58 @@ def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
     assert found.hysteresis == lines
     assert found.sampling_time == pytest.approx(STEP)
     assert {"hysteresis command", "cylinder command"} <= set(found.provenance)
+    sha256 = hashlib.sha256(record.read_bytes()).hexdigest()
+    assert found.provenance["hysteresis record sha256"] == sha256
+    assert found.provenance["cylinder record sha256"] == sha256
+
+
+def test_identified_numbers_are_marked_with_record_hash_command_and_fit(call, record, workplace):
+    assert call("identify", "hysteresis", "record.parquet", "-o", "found.yaml").code == 0
+    found = read(workplace / "found.yaml")
+    source = found.sources[found.hysteresis.bc_squeezing.slope.source]
+    assert source.mark == "identified"
+    for part in (
+        "record.parquet",
+        hashlib.sha256(record.read_bytes()).hexdigest(),
+        "uictest identify hysteresis record.parquet -o found.yaml",
+        "largest",
+    ):
+        assert part in source.text
+    assert found.sources[found.hysteresis.wsp_acting_time.source].mark == "chosen"
+
+
+def test_facts_of_an_earlier_identification_do_not_stay(call, record, workplace):
+    arguments = ("identify", "hysteresis", "record.parquet", "-o", "found.yaml")
+    assert call(*arguments, "--date", "2026-01-02").code == 0
+    assert call(*arguments, "--base", "found.yaml").code == 0
+    assert "hysteresis date" not in read(workplace / "found.yaml").provenance
+
+
+def test_the_origin_of_a_record_is_what_its_file_states(call, record, workplace):
+    def origin(file: str) -> str:
+        assert call("identify", "hysteresis", file, "-o", "found.yaml").code == 0
+        return read(workplace / "found.yaml").provenance["hysteresis record origin"]
+
+    assert origin("record.parquet") == "recorded, origin not stated"
+    known = read_parquet(record)
+    write_parquet(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"}), Path("other.parquet"))
+    assert origin("other.parquet") == "test rig of ours"
+
+
+def test_the_result_is_called_like_its_record_and_never_silently_like_a_library_part(call, record, workplace):
+    assert call("identify", "hysteresis", "record.parquet", "-o", "found.yaml").code == 0
+    assert (read(workplace / "found.yaml").name, read(workplace / "found.yaml").title) == (
+        "record",
+        "Compensation record",
+    )
+    record.rename("Six Inch.parquet")
+    refused = call("identify", "hysteresis", "Six Inch.parquet", "-o", "other.yaml")
+    assert refused.code == 4
+    assert "--name" in refused.err
+    assert not Path("other.yaml").exists()
+    named = ("identify", "hysteresis", "Six Inch.parquet", "--name", "ours", "-o", "other.yaml")
+    assert call(*named).code == 0
+    assert read(workplace / "other.yaml").name == "ours"
 
 
 def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace):
@@ -100,6 +155,7 @@ def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace
         (("hysteresis", "record.parquet", "--base", "seven-inch"), "six-inch"),
         (("cylinder", "record.parquet", "--input", "valve_command_1"), "unit '1'"),
         (("hysteresis", "record.parquet", "-o", "nowhere/x.yaml"), "no folder"),
+        (("cylinder", "record.parquet", "-o", "x.yaml", "--name", "Our caliper"), "--name"),
     ],
 )
 def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workplace, arguments, told):

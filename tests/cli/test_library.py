@@ -25,7 +25,7 @@ def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(c
         if line.startswith("channel_maps/"):
             continue
         for row in numbers.splitlines()[1:]:
-            assert {"stated", "published", "chosen", "default"} & set(row.split()), row
+            assert {"stated", "published", "identified", "chosen", "default"} & set(row.split()), row
         title, *sources = rest[0].splitlines()
         assert title == "sources"
         assert len({source.split()[0] for source in sources}) == len(sources)

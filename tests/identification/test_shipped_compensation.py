@@ -43,3 +43,14 @@ def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         assert line.intercept == pytest.approx(other.intercept, rel=1e-2)
     assert np.abs(response(found) - response(shipped)).max() < 0.01
     assert found.provenance.keys() == shipped.provenance.keys()
+    for topic in ("hysteresis", "cylinder"):
+        assert found.provenance[f"{topic} samples sha256"] == shipped.provenance[f"{topic} samples sha256"]
+
+
+def test_its_numbers_are_marked_identified_from_the_simulated_caliper() -> None:
+    shipped = load_compensation("six-inch")
+    numbers = [shipped.linear.slope, shipped.cylinder.numerator[0]]
+    numbers += [getattr(shipped.hysteresis, phase).slope for phase in PHASES]
+    assert {shipped.sources[number.source].mark for number in numbers} == {"identified"}
+    assert shipped.provenance["hysteresis record origin"] == "simulated caliper"
+    assert shipped.provenance["cylinder record origin"] == "simulated caliper"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -16,6 +17,7 @@ from uictest.cli.streams import data, message
 
 if TYPE_CHECKING:
     from uictest.identification import CylinderResult, HysteresisResult
+    from uictest.identification.channels import Record
     from uictest.identification.compensation_file import Provenance
     from uictest.scenario.parts.compensation import Compensation
 
@@ -24,7 +26,7 @@ identify = typer.Typer(
     help="Identify hysteresis or cylinder dynamics from a recording.",
 )
 
-Record = Annotated[
+Recording = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
 ]
 Output = Annotated[
@@ -35,6 +37,15 @@ Base = Annotated[
     str,
     typer.Option("--base", metavar="NAME|FILE", help="Compensation whose other numbers are kept."),
 ]
+Name = Annotated[
+    str,
+    typer.Option(
+        "--name",
+        metavar="NAME",
+        help="Name of the compensation in FILE [default: from the file name of RECORDING].",
+        show_default=False,
+    ),
+]
 Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
 HeldOut = Annotated[
     float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record kept from the fit.")
@@ -44,9 +55,10 @@ HeldOut = Annotated[
 @command(identify, "hysteresis")
 def hysteresis(
     context: typer.Context,
-    record: Record,
+    record: Recording,
     output: Output = None,
     base: Base = "six-inch",
+    name: Name = "",
     pressure: Annotated[
         str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder's pressure.")
     ] = "cylinder_pressure_1",
@@ -74,15 +86,17 @@ def hysteresis(
 ) -> ExitCode:
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
     from uictest.identification import UnsuitableRecordError, identify_hysteresis
-    from uictest.identification.channels import digest, read_channels
+    from uictest.identification.channels import read_record
     from uictest.identification.compensation_file import with_hysteresis
     from uictest.identification.phases import wsp_acting_from_commands, wsp_acting_in_intervals
 
     kept = _base(base)
+    part_name = "" if output is None else _name(name, record)
     given = [_interval(text) for text in intervals or ()]
     wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
     try:
-        channels = read_channels(_existing(record), wanted)
+        recorded = read_record(_existing(record), wanted)
+        channels = recorded.channels
         time = channels["time"]
         acting = (
             wsp_acting_in_intervals(time, given)
@@ -96,17 +110,19 @@ def hysteresis(
         raise InvalidInputError(f"uictest: {error}") from error
     data(_hysteresis_report(result))
     if output is not None:
-        provenance = _provenance(context, record, digest(channels), date)
-        _write(output, with_hysteresis(kept, result, provenance, acting_time, transition_time))
+        provenance = _provenance(context, record, recorded, date)
+        text = with_hysteresis(kept, part_name, result, provenance, acting_time, transition_time)
+        _write(output, text)
     return ExitCode.MET
 
 
 @command(identify, "cylinder")
 def cylinder(
     context: typer.Context,
-    record: Record,
+    record: Recording,
     output: Output = None,
     base: Base = "six-inch",
+    name: Name = "",
     tank: Annotated[
         str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank's pressure.")
     ] = "measured_pressure_2",
@@ -126,12 +142,14 @@ def cylinder(
 ) -> ExitCode:
     """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
     from uictest.identification import UnsuitableRecordError, identify_cylinder
-    from uictest.identification.channels import digest, read_channels
+    from uictest.identification.channels import read_record
     from uictest.identification.compensation_file import with_cylinder
 
     kept = _base(base)
+    part_name = "" if output is None else _name(name, record)
     try:
-        channels = read_channels(_existing(record), {"input": tank, "output": cylinder})
+        recorded = read_record(_existing(record), {"input": tank, "output": cylinder})
+        channels = recorded.channels
         result = identify_cylinder(
             channels["time"], channels["input"], channels["output"], criterion, held_out
         )
@@ -139,7 +157,8 @@ def cylinder(
         raise InvalidInputError(f"uictest: {error}") from error
     data(_cylinder_report(result))
     if output is not None:
-        _write(output, with_cylinder(kept, result, _provenance(context, record, digest(channels), date)))
+        provenance = _provenance(context, record, recorded, date)
+        _write(output, with_cylinder(kept, part_name, result, provenance))
     return ExitCode.MET
 
 
@@ -173,12 +192,36 @@ def _base(reference: str) -> Compensation:
         raise InvalidInputError(str(errors)) from errors
 
 
-def _provenance(context: typer.Context, record: Path, digest: str, date: str) -> Provenance:
-    from uictest import __version__
-    from uictest.identification.compensation_file import Provenance
+def _name(name: str, record: Path) -> str:
+    """The name that was asked for, else one from the file name of the record, which no library part has."""
+    from uictest.library import names
+    from uictest.scenario.parts.model import NAME_PATTERN
 
-    command = shlex.join(["uictest", *context.obj.arguments])
-    return Provenance(record.name, digest, command, __version__, date)
+    derived = re.sub(r"[^a-z0-9]+", "-", record.stem.lower()).strip("-")[:100]
+    if name and not re.fullmatch(NAME_PATTERN, name):
+        raise InvalidInputError(f"uictest: --name {name!r}: write lower case letters, digits and . _ -")
+    if not name and (not derived or derived in names("compensations")):
+        raise InvalidInputError(
+            f"uictest: {record.name} gives no name that is free for the compensation; write --name NAME"
+        )
+    return name or derived
+
+
+def _provenance(context: typer.Context, record: Path, recorded: Record, date: str) -> Provenance:
+    from uictest import __version__
+    from uictest.identification.channels import samples_digest
+    from uictest.identification.compensation_file import Provenance
+    from uictest.measured import digest_of
+
+    return Provenance(
+        record=record.name,
+        digest=digest_of(record),
+        samples_digest=samples_digest(recorded.channels),
+        origin=recorded.origin,
+        command=shlex.join(["uictest", *context.obj.arguments]),
+        version=__version__,
+        date=date,
+    )
 
 
 def _write(output: Path, text: str) -> None:

@@ -24,8 +24,10 @@ class Provenance:
     """What an identification rests on, as text.
 
     Attributes:
-        record: name of the recording.
-        digest: SHA-256 of the samples that were used.
+        record: name of the recording's file.
+        digest: SHA-256 of the file.
+        samples_digest: SHA-256 of the samples that were used; see :func:`.channels.samples_digest`.
+        origin: what was recorded, as the file states it.
         command: the command line.
         version: of this program.
         date: when, as given; empty: not told, so that the same record gives the same file.
@@ -33,6 +35,8 @@ class Provenance:
 
     record: str
     digest: str
+    samples_digest: str
+    origin: str
     command: str
     version: str
     date: str = ""
@@ -40,25 +44,37 @@ class Provenance:
 
 def with_hysteresis(
     base: Compensation,
+    name: str,
     result: HysteresisResult,
     provenance: Provenance,
     acting_time: float,
     transition: float,
 ) -> str:
     """The text of ``base`` with the lines of ``result``; phases not found get the BC lines."""
-    source = "identified-hysteresis"
+    source, option = "identified-hysteresis", "hysteresis-option"
     numbers = _numbers(base)
     numbers["linear"] = _line(result.linear, source)
     lines = {phase: result.lines.get(phase, result.lines[phase.replace("wsp", "bc")]) for phase in PHASES}
     numbers["hysteresis"] = {
         **{phase: _line(line, source) for phase, line in lines.items()},
-        "transition_time": (f"{transition * 1e3:.6g} ms", source),
-        "wsp_acting_time": (f"{acting_time:.6g} s", source),
+        "transition_time": (f"{transition * 1e3:.6g} ms", option),
+        "wsp_acting_time": (f"{acting_time:.6g} s", option),
     }
-    return _text(base, numbers, source, "Four-phase hysteresis", "hysteresis", provenance)
+    fit = (
+        f"force error on held-out parts: largest {100.0 * result.largest_error:.2f} %,"
+        f" rms {100.0 * result.rms_error:.2f} % of {result.largest_force / 1e3:.2f} kN"
+    )
+    sources = {
+        source: _identified("Four-phase hysteresis", provenance, fit),
+        option: {
+            "mark": "chosen",
+            "text": "Options --transition-time and --acting-time of the identification",
+        },
+    }
+    return _text(base, name, numbers, sources, _facts("hysteresis", base, provenance, fit))
 
 
-def with_cylinder(base: Compensation, result: CylinderResult, provenance: Provenance) -> str:
+def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
     """The text of ``base`` with the transfer function of ``result``; equal sampling times keep the source."""
     source = "identified-cylinder"
     model = result.transfer_function
@@ -69,7 +85,13 @@ def with_cylinder(base: Compensation, result: CylinderResult, provenance: Proven
         "numerator": [(repr(b), source) for b in model.numerator],
         "denominator": [(repr(a), source) for a in model.denominator],
     }
-    return _text(base, numbers, source, "Cylinder dynamics", "cylinder", provenance)
+    fit = (
+        f"pressure error on held-out parts: largest {100.0 * result.largest_after:.2f} %"
+        f" ({100.0 * result.largest_before:.2f} % without) of {result.largest_pressure / 1e5:.3f} bar,"
+        f" fit {result.fit:.2f} %"
+    )
+    sources = {source: _identified("Cylinder dynamics", provenance, fit)}
+    return _text(base, name, numbers, sources, _facts("cylinder", base, provenance, fit))
 
 
 def _line(line: Line, source: str) -> Numbers:
@@ -99,30 +121,46 @@ def _pair(quantity: Quantity) -> tuple[str, str]:
     return quantity.text, quantity.source
 
 
+def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
+    """The source of identified numbers."""
+    text = (
+        f"{subject} identified from {provenance.record} ({provenance.origin}; SHA-256 {provenance.digest})"
+        f" by `{provenance.command}`; {fit}"
+    )
+    return {"mark": "identified", "text": text}
+
+
+def _facts(topic: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
+    """The facts of ``base``, those of the topic replaced."""
+    kept = {key: fact for key, fact in base.provenance.items() if not key.startswith(f"{topic} ")}
+    facts = {
+        "record": provenance.record,
+        "record sha256": provenance.digest,
+        "samples sha256": provenance.samples_digest,
+        "record origin": provenance.origin,
+        "command": provenance.command,
+        "version": provenance.version,
+        "fit": fit,
+        "date": provenance.date,
+    }
+    return kept | {f"{topic} {name}": fact for name, fact in facts.items() if fact}
+
+
 def _text(
-    base: Compensation, numbers: Numbers, source: str, subject: str, topic: str, provenance: Provenance
+    base: Compensation, name: str, numbers: Numbers, sources: Mapping[str, Any], facts: Mapping[str, str]
 ) -> str:
     """The file as YAML."""
     import yaml
 
-    sources = {
-        **{key: each.model_dump() for key, each in base.sources.items()},
-        source: {
-            "mark": "chosen",
-            "text": f"{subject} identified from {provenance.record}, a record of the simulated caliper;"
-            " the command is under provenance",
-        },
-    }
-    told = {**base.provenance, **dict(_told(topic, provenance))}
-    told.pop("state", None)
+    described = {**{key: each.model_dump() for key, each in base.sources.items()}, **sources}
     used = set(_sources_of(numbers))
     document = {
         "schema": "uictest/compensation/1",
-        "name": base.name,
-        "title": base.title,
-        "sources": {key: each for key, each in sources.items() if key in used},
+        "name": name,
+        "title": base.title if name == base.name else f"Compensation {name}",
+        "sources": {key: each for key, each in described.items() if key in used},
         **_marked(numbers),
-        "provenance": told,
+        "provenance": dict(facts),
     }
     heading = (
         "# What stands in for a caliper: equations (4)-(7) and (8) of the source, with identified numbers.\n"
@@ -130,15 +168,6 @@ def _text(
     return heading + yaml.dump(
         document, Dumper=_dumper(), sort_keys=False, width=118, allow_unicode=True, default_flow_style=False
     )
-
-
-def _told(topic: str, provenance: Provenance) -> Iterator[tuple[str, str]]:
-    yield f"{topic} record", provenance.record
-    yield f"{topic} record sha256", provenance.digest
-    yield f"{topic} command", provenance.command
-    yield f"{topic} version", provenance.version
-    if provenance.date:
-        yield f"{topic} date", provenance.date
 
 
 def _marked(numbers: Any) -> Any:

@@ -2,10 +2,11 @@
 
 from uictest.recording.atomic import atomic_path, write_bytes_atomic, write_text_atomic
 from uictest.recording.parquet import read_parquet, write_parquet
-from uictest.recording.recording import BRAKE_COMMAND_TIME, TIME, Recording
+from uictest.recording.recording import BRAKE_COMMAND_TIME, ORIGIN, TIME, Recording
 
 __all__ = [
     "BRAKE_COMMAND_TIME",
+    "ORIGIN",
     "TIME",
     "Recording",
     "atomic_path",

@@ -14,6 +14,9 @@ TIME = "time"
 BRAKE_COMMAND_TIME = "brake_command_time"
 """Key of the fact that says when the brake command was given, in the recording's time: as in `0 s`."""
 
+ORIGIN = "origin"
+"""Key of the fact that says what was recorded: a train, a test rig or a simulation."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:

@@ -75,7 +75,9 @@ def load_bench(path: Path, overrides: Sequence[str] = (), seed: int | None = Non
     recipe: BenchRecipe = validated(BenchRecipe, plain(tree), tree)
     stop = _scenario_tree(tree, recipe, overrides, seed)
     scenario, documents = resolve(stop, Parts(Files()))
-    inputs = {each.display: each.sha256 for each in (tree.place.document, *documents) if each.sha256}
+    shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.place.document.display
+    inputs = {shown: tree.place.document.sha256}
+    inputs |= {each.display: each.sha256 for each in documents if each.sha256}
     return BenchTest(recipe, Case(recipe.name, scenario, path, {}, inputs), path.parent)
 
 
@@ -153,12 +155,12 @@ def _recorded_stop(given: RecordedStop, case: Case, clock: Clock) -> BenchInput:
 
 
 def _traced(given: Trace, folder: Path, clock: Clock) -> BenchInput:
-    from uictest.identification.channels import read_channels
+    from uictest.identification.channels import read_record
 
     wanted = {"pressure": given.pressure}
     if given.command is not None:
         wanted["command"] = given.command
-    channels = read_channels(folder / given.file, wanted)
+    channels = read_record(folder / given.file, wanted).channels
     return recorded(channels["time"], channels["pressure"], channels.get("command"), clock)
 
 

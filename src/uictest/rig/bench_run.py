@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.recording import ORIGIN, Recording
 from uictest.rig.assembly import assemble
 from uictest.rig.bench import SETTINGS, bench
 from uictest.rig.bench_inputs import BenchInput, Clock
@@ -117,7 +117,7 @@ def run_bench(case: Case, applied: BenchInput, stepper: Any = None) -> Recording
         trace,
     )
     channels = {name: trace[:, k].copy() for k, (name, _) in enumerate(BENCH_CHANNELS)}
-    return Recording(channels, dict(BENCH_CHANNELS), {"bench": case.id})
+    return Recording(channels, dict(BENCH_CHANNELS), {ORIGIN: "simulated caliper", "bench": case.id})
 
 
 def _settings(case: Case) -> Any:

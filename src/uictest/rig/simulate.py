@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from uictest.recording import BRAKE_COMMAND_TIME, Recording
+from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.rig.assembly import assemble
 from uictest.rig.native import compiled_stop
 from uictest.rig.run import Outcome, run
@@ -52,7 +52,7 @@ def _recording(case: Case, outcome: Outcome) -> Recording:
 
 def _facts(case: Case, outcome: Outcome) -> dict[str, str]:
     """What a recording says beside its samples; when a wheelset first slid is known to the step only here."""
-    facts = {"case": case.id, BRAKE_COMMAND_TIME: "0 s"}
+    facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
     if math.isfinite(outcome.measures.sliding_time):
         facts["sliding_time"] = f"{outcome.measures.sliding_time:.6g}"
     return facts

@@ -1,7 +1,7 @@
 """What every model of a scenario shares: frozen, no unknown keys, contradictions told all at once."""
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, Literal, NamedTuple, Self
+from typing import Any, ClassVar, Final, Literal, NamedTuple, Self
 
 from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
 from pydantic_core import CoreSchema, PydanticCustomError
@@ -10,6 +10,9 @@ from uictest.scenario.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantit
 from uictest.scenario.wording import quoted, suggestion
 
 Key = tuple[str | int, ...]
+
+NAME_PATTERN: Final = r"^[a-z0-9][a-z0-9._-]{0,99}$"
+"""What the name of a part looks like."""
 
 
 class Contradiction(NamedTuple):
@@ -56,10 +59,14 @@ class Section(Model):
 class Source(Model):
     """Where a number comes from."""
 
-    mark: Literal["stated", "published", "chosen"] = Field(
-        description="stated: in the source paper's text; published: elsewhere; chosen: by us, a surrogate."
+    mark: Literal["stated", "published", "identified", "chosen"] = Field(
+        description="stated: in the source paper's text; published: elsewhere; identified: from a record; "
+        "chosen: by us, a surrogate."
     )
-    text: str = Field(description="The publication, or why a chosen value is plausible.", min_length=1)
+    text: str = Field(
+        description="The publication and the place in it, the record, or why a chosen value is plausible.",
+        min_length=1,
+    )
 
 
 class Part(Model):
@@ -75,7 +82,7 @@ class Part(Model):
     )
     name: str = Field(
         default="inline",
-        pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$",
+        pattern=NAME_PATTERN,
         description="Name of the part: lower case, no blanks.",
     )
     title: str = Field(default="", max_length=200, description="One line for people.")
