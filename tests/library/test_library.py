@@ -1,6 +1,9 @@
 """The parts that ship: every number with its source, published numbers as published."""
 
+from pathlib import Path
+
 import pytest
+import yaml
 
 from uictest import library
 from uictest.scenario import ScenarioErrors, load_part, numbers
@@ -65,16 +68,13 @@ def test_the_parts_named_in_the_documents_are_there() -> None:
         ("vehicles/manchester-benchmark", "body.pitch_inertia", 1.97e6),
         ("vehicles/manchester-benchmark", "primary.longitudinal_stiffness", 31.391e6),
         ("vehicles/manchester-benchmark", "secondary.vertical_stiffness", 430e3),
-        ("vehicles/crh380a", "body.mass", 43_862.5),
-        ("vehicles/crh380a", "wheelset.radius", 0.43),
-        ("vehicles/crh380a", "secondary.vertical_damping", 40e3),
         ("rails/dry", "friction", 0.55),
         ("rails/dry", "friction_decay", 0.60),
         ("rails/wet", "friction", 0.30),
         ("rails/wet", "reduction_adhesion", 0.30),
         ("rails/wet", "reduction_slip", 0.10),
-        ("brakes/ep-disc", "disc.mean_radius", 0.289),
         ("brakes/ep-disc", "disc.pad_friction", 0.38),
+        ("brakes/ep-disc", "air.atmospheric_pressure", 101_325.0),
     ],
 )
 def test_published_numbers(reference: str, key: str, published: float) -> None:
@@ -90,13 +90,48 @@ def test_published_numbers(reference: str, key: str, published: float) -> None:
         ("brakes/ep-disc", "tank.volume", 2e-3),
         ("brakes/ep-disc", "caliper_tank.ball_volume", 0.21e-3),
         ("calipers/six-inch", "piston_area", 0.01824),
-        ("calipers/six-inch", "clearance", 2.9e-3),
         ("compensations/six-inch", "sampling_time", 0.5e-3),
     ],
 )
 def test_numbers_stated_in_the_source(reference: str, key: str, stated: float) -> None:
     assert value(reference, key) == pytest.approx(stated, rel=1e-12)
     assert mark(reference, key) == "stated"
+
+
+def test_every_stated_or_published_source_names_a_publication_and_a_place() -> None:
+    folder = Path(library.__file__).parent
+    texts = [
+        (path.name, key, source["text"])
+        for path in folder.glob("*/*.yaml")
+        for key, source in yaml.safe_load(path.read_text("utf-8")).get("sources", {}).items()
+        if source["mark"] in ("stated", "published")
+    ]
+    assert {text.partition(": ")[0] for *_, text in texts} == set(library.references())
+    assert [(file, key) for file, key, text in texts if len(text.partition(": ")[2]) < 10] == []
+
+
+@pytest.mark.parametrize(
+    ("reference", "key", "unnamed"),
+    [
+        ("vehicles/crh380a", "body.mass", 43_862.5),
+        ("vehicles/crh380a", "secondary.vertical_damping", 40e3),
+        ("rails/wet", "contact.kalker_coefficient", 4.3),
+        ("brakes/ep-disc", "disc.mean_radius", 0.289),
+        ("calipers/six-inch", "spring_rate", 1645.0),
+    ],
+)
+def test_numbers_whose_publication_nobody_can_name_are_chosen(
+    reference: str, key: str, unnamed: float
+) -> None:
+    assert value(reference, key) == pytest.approx(unnamed, rel=1e-12)
+    assert mark(reference, key) == "chosen"
+
+
+def test_the_clearance_is_inferred_from_the_stated_volume() -> None:
+    """0.053 L over the area of the piston; the paper states no stroke."""
+    stroke = 0.053e-3 / value("calipers/six-inch", "piston_area")
+    assert value("calipers/six-inch", "clearance") == pytest.approx(stroke, rel=5e-3)
+    assert mark("calipers/six-inch", "clearance") == "chosen"
 
 
 def test_the_balls_are_367_of_1_03_cm() -> None:

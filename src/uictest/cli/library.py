@@ -36,10 +36,11 @@ def show_part(
     ],
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Show every number of a part with unit, mark (stated, published or chosen) and source.
+    """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
 
-    Of a part that extends another, what differs from it. Below the numbers stand what the sources are and,
-    of numbers that were identified, how. Of a channel map, the names that a channel may have in a file.
+    Of a part that extends another, what differs from it. Below the numbers stand the sources, the
+    publications they name and, of identified numbers, how. Of a channel map, the names that a channel may
+    have in a file.
     """
     if reference.endswith((".yaml", ".yml")):
         _show_file(Path(reference))
@@ -78,6 +79,7 @@ def _show_file(path: Path) -> None:
 
 
 def _show_numbers(part: Part) -> None:
+    from uictest.library import references
     from uictest.scenario import numbers
 
     shown = list(numbers(part))
@@ -87,8 +89,11 @@ def _show_numbers(part: Part) -> None:
         data(f"removed: {', '.join(sorted(removed))}")
     used = {number.quantity.source for number in shown}
     sources = [(name, each.text) for name, each in part.sources.items() if name in used]
+    cited = [
+        each for each in references().items() if any(text.startswith(each[0] + ":") for _, text in sources)
+    ]
     provenance = list(getattr(part, "provenance", {}).items())
-    for title, rows in (("sources", sources), ("provenance", provenance)):
+    for title, rows in (("sources", sources), ("references", cited), ("provenance", provenance)):
         if rows:
             data(f"\n{title}\n{_aligned(rows)}")
 

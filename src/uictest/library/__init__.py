@@ -37,4 +37,16 @@ def content(folder: str, name: str) -> bytes:
     return (_HERE / folder / f"{name}.yaml").read_bytes()
 
 
-__all__ = ["FOLDERS", "OTHER_FOLDERS", "content", "names"]
+@cache
+def references() -> dict[str, str]:
+    """The publications that numbers of the library are taken from: short form -> full citation.
+
+    The source of every stated or published number begins with a short form, a colon and the place.
+    """
+    import yaml
+
+    citations: dict[str, str] = yaml.safe_load((_HERE / "references.yaml").read_text("utf-8"))
+    return citations
+
+
+__all__ = ["FOLDERS", "OTHER_FOLDERS", "content", "names", "references"]
