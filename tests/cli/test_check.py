@@ -54,3 +54,17 @@ def test_a_missing_path_is_an_error(call: Call) -> None:
     answer = call("check", "gone")
     assert answer.code == 4
     assert "gone" in answer.err
+
+
+def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(
+    call: Call, scenario: Write, workplace: Path
+) -> None:
+    scenario("a", "rail: {condition: wet, friction: 0.1}\n")
+    sweep = workplace / "scenarios" / "b.sweep.yaml"
+    sweep.write_text(
+        "schema: uictest/sweep/1\nname: b\nscenario: a.yaml\nsample:\n  method: saltelli\n  size: 2\n"
+        "  parameters:\n    rail.friction: {uniform: [0.11, 0.15]}\n"
+    )
+    answer = call("check")
+    assert answer.code == 0
+    assert "warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range" in answer.err

@@ -241,3 +241,4 @@ def test_sensitivities_of_a_saltelli_sample(finished: Callable[..., tuple[Findin
     distance = [each for each in findings.sensitivities if each.measure == "braking_distance_m"]
     assert [each.total.value for each in distance] == pytest.approx([1.0, 0.0], abs=0.05)
     assert table(folder / "sensitivity.csv")[0][:3] == ["measure", "parameter", "first"]
+    assert "rail.friction: the scenario's own 0.1 lies inside the range 0.08 .. 0.12" in findings.notes

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.sweep.sensitivity import Index, Sensitivity, doubts, saltelli_sample, sensitivities
+from uictest.sweep.plan import saltelli_sample
+from uictest.sweep.sensitivity import Index, Sensitivity, doubts, sensitivities
 
 from .conftest import Load
 

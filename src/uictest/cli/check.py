@@ -62,12 +62,15 @@ def _scenarios(paths: Sequence[Path]) -> tuple[list[Diagnostic], str]:
 
 def _errors_of_sweep(path: Path) -> Sequence[Diagnostic]:
     from uictest.scenario import ScenarioErrors
-    from uictest.sweep import load_sweep
+    from uictest.sweep import drawn_ranges, load_sweep
 
     try:
-        load_sweep(path)
+        plan = load_sweep(path)
     except ScenarioErrors as errors:
         return errors.diagnostics
+    for each in drawn_ranges(plan):
+        if not each.contains_nominal:
+            message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")
     return ()
 
 

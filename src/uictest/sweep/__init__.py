@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from uictest.sweep.execution import run_parts
     from uictest.sweep.frontier import FrontierError, Search
     from uictest.sweep.manifest import sweep_manifest
+    from uictest.sweep.nominal import drawn_ranges
     from uictest.sweep.part import Worker, worker
     from uictest.sweep.plan import Plan
     from uictest.sweep.schema import sweep_schema
@@ -30,6 +31,7 @@ __all__ = [
     "Shard",
     "Store",
     "Worker",
+    "drawn_ranges",
     "load_sweep",
     "parse_shard",
     "run_parts",
@@ -44,6 +46,7 @@ _MODULES = {
     "execution": ("run_parts",),
     "frontier": ("FrontierError", "Search"),
     "manifest": ("sweep_manifest",),
+    "nominal": ("drawn_ranges",),
     "part": ("Worker", "worker"),
     "plan": ("Plan",),
     "schema": ("sweep_schema",),

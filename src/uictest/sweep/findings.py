@@ -26,8 +26,10 @@ from uictest.sweep.distributions import Distribution, figures_to_show
 from uictest.sweep.frontier import UNKNOWN, Stretch
 from uictest.sweep.junit import junit_xml
 from uictest.sweep.maps import MET, MapOf
+from uictest.sweep.nominal import drawn_ranges
+from uictest.sweep.plan import saltelli_sample
 from uictest.sweep.selection import Selection
-from uictest.sweep.sensitivity import Sensitivity, doubts, saltelli_sample, sensitivities
+from uictest.sweep.sensitivity import Sensitivity, doubts, sensitivities
 from uictest.sweep.store import Store
 from uictest.sweep.tally import OUTCOMES, Count, Tally
 from uictest.sweep.trends import MOST_VALUES, Trends
@@ -131,6 +133,7 @@ def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[
 
 
 def _add_sensitivities(findings: Findings, figures: Mapping[str, NDArray[np.float64]]) -> None:
+    findings.notes.extend(map(str, drawn_ranges(findings.tally.plan)))
     for name, values in figures.items():
         found, why_not = sensitivities(findings.tally.plan, name, values)
         findings.sensitivities.extend(found)

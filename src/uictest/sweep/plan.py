@@ -165,6 +165,12 @@ class Plan:
         }
 
 
+def saltelli_sample(plan: Plan) -> Sampled | None:
+    """Return the sample of a plan that indices can be computed from, None where there is none."""
+    last = plan.groups[-1]
+    return last if isinstance(last, Sampled) and last.method == "saltelli" else None
+
+
 def is_numeric(values: Sequence[Value]) -> bool:
     """Return whether all values are quantities or whole numbers."""
     return all(isinstance(value.content, Quantity | int) for value in values)

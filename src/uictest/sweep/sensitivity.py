@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.sweep.plan import Plan, Sampled
+from uictest.sweep.plan import Plan, saltelli_sample
 
 _RESAMPLES: Final = 200
 _CONFIDENCE: Final = 0.95
@@ -43,12 +43,6 @@ class Sensitivity:
     key: str
     first: Index
     total: Index
-
-
-def saltelli_sample(plan: Plan) -> Sampled | None:
-    """Return the sample of a plan that indices can be computed from, None where there is none."""
-    last = plan.groups[-1]
-    return last if isinstance(last, Sampled) and last.method == "saltelli" else None
 
 
 def doubts(found: Sequence[Sensitivity]) -> str:
