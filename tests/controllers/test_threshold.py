@@ -60,6 +60,28 @@ def test_watchdog_ends_a_vent_that_does_not_bring_the_wheel_back(threshold_bench
     assert max(vents) <= round(2.0 / CYCLE) + 2
 
 
+def held(controller: Any, acceleration: float) -> list[int]:
+    """Commands to a wheel that falls to a shallow slide and has an acceleration from then on."""
+    down = [20.0 - 8.0 * k * CYCLE for k in range(50)]
+    after = [down[-1] + acceleration * k * CYCLE for k in range(1, 300)]
+    return [controller.commands(speed, 20.0, 20.0, 20.0)[0] for speed in down + after]
+
+
+def test_a_wheel_that_does_not_catch_up_is_vented_again_when_the_hold_has_lasted_its_limit(
+    threshold_bench: Benches,
+) -> None:
+    """Never before: each whole hold lasts the limit, to a cycle."""
+    holds = lengths(held(threshold_bench(20.0, hold_limit=0.5), 0.0), HOLD)
+    assert len(holds) > 3
+    assert holds[:-1] == [pytest.approx(0.5 / CYCLE, abs=1)] * (len(holds) - 1)
+
+
+def test_a_wheel_that_gains_speed_is_held_beyond_the_limit(threshold_bench: Benches) -> None:
+    commands = held(threshold_bench(20.0, hold_limit=0.5, reacceleration_threshold=0.4), 0.8)
+    assert max(lengths(commands, HOLD)) > 2 * 0.5 / CYCLE
+    assert len(lengths(commands, VENT)) == 1
+
+
 def test_estimate_does_not_sink_with_wheelsets_that_slide_together(threshold_bench: Benches) -> None:
     """While none rolls it falls at the slow rate, from the cycle in which the last one began to slide."""
     controller = threshold_bench(20.0, holding_deceleration=0.5, sounding_interval=60.0)

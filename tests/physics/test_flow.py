@@ -40,6 +40,11 @@ def test_choked_flow_is_the_conductance_at_the_reference_state() -> None:
     assert flow(8e5, 1e5) == pytest.approx(8e5 * 1e-8 * REFERENCE_DENSITY, rel=1e-15)
 
 
+def test_one_litre_per_second_and_bar_carries_1_185_g_per_second_at_one_bar() -> None:
+    """ISO 8778: air at 20 degC, 1 bar and 65 % humidity weighs 1.185 kg/m3."""
+    assert flow(1e5, 0.0) == pytest.approx(1.185e-3, rel=1e-12)
+
+
 def test_warm_air_flows_more_slowly_by_the_root_of_its_temperature() -> None:
     warm = flow(8e5, 1e5, orifice_law(0.35, 0.995, 4.0 * REFERENCE_TEMPERATURE))
     assert warm == pytest.approx(0.5 * flow(8e5, 1e5), rel=1e-15)

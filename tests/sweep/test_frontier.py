@@ -50,6 +50,13 @@ def test_a_flip_is_bracketed_for_every_combination_of_the_others(load: Load) -> 
         assert (flip.met_at_low, stretch.note) == (False, "")
 
 
+def test_without_a_tolerance_a_flip_is_known_to_a_64th_of_the_smallest_step(load: Load) -> None:
+    """As the command's help states it; halving steps of 0.04 meets 0.04/64 exactly."""
+    for stretch in search(load(TEXT), lambda mu, command: mu > 0.1 * command):
+        (flip,) = stretch.flips
+        assert float(flip.high) - float(flip.low) == pytest.approx(0.04 / 64)
+
+
 def test_several_flips_are_all_found_and_noted(load: Load) -> None:
     found = search(load(TEXT), lambda mu, command: 0.07 < mu < 0.13)
     assert [len(stretch.flips) for stretch in found] == [2] * 4

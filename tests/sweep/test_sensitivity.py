@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.sweep.plan import saltelli_sample
-from uictest.sweep.sensitivity import Index, Sensitivity, doubts, sensitivities
+from uictest.sweep.sensitivity import Index, Sensitivity, confidence_interval, doubts, sensitivities
 
 from .conftest import Load
 
@@ -47,6 +47,15 @@ def test_a_product_of_centred_variables_acts_only_together(load: Load) -> None:
     found, _ = sensitivities(plan, "y", y)  # type: ignore[arg-type]
     assert [each.first.value for each in found[:2]] == pytest.approx([0.0, 0.0], abs=0.1)
     assert [each.total.value for each in found[:2]] == pytest.approx([1.0, 1.0], abs=0.15)
+
+
+def test_the_interval_of_a_mean_is_that_of_the_normal_distribution() -> None:
+    """95 % of it lie within 1.96 deviations: mean +- 1.96 s/sqrt(n), here on average over 400 columns."""
+    rows = np.random.default_rng(1).normal(size=(400, 400))
+    low, high = confidence_interval(lambda drawn: drawn.mean(axis=0), rows, seed=2)
+    deviation = rows.std(axis=0) / np.sqrt(400)
+    for distance in (rows.mean(axis=0) - low, high - rows.mean(axis=0)):
+        assert np.mean(distance / deviation) == pytest.approx(1.96, rel=0.04)
 
 
 def test_the_same_values_give_the_same_intervals(load: Load) -> None:

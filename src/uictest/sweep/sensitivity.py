@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from uictest.sweep.plan import Plan, saltelli_sample
 
+Numbers = NDArray[np.float64]
 _RESAMPLES: Final = 200
 _CONFIDENCE: Final = 0.95
 _WIDE: Final = 0.2
@@ -83,21 +84,28 @@ def sensitivities(plan: Plan, measure: str, values: NDArray[np.float64]) -> tupl
     return found, ""
 
 
-def _indices(rows: NDArray[np.float64], seed: int) -> tuple[list[Index], list[Index]]:
+def _indices(rows: Numbers, seed: int) -> tuple[list[Index], list[Index]]:
     """Return first-order and total indices; `rows` holds base points: A, B, A with one column of B."""
-    generator = np.random.default_rng(seed)
-    points = rows.shape[0]
-    estimate = _estimate(rows)
-    again = np.array([_estimate(rows[generator.integers(0, points, points)]) for _ in range(_RESAMPLES)])
-    outside = 0.5 * (1.0 - _CONFIDENCE)
-    low, high = np.nanquantile(again, [outside, 1.0 - outside], axis=0)
-    first, total = zip(estimate.tolist(), low.tolist(), high.tolist(), strict=True)
+    low, high = confidence_interval(_estimate, rows, seed)
+    first, total = zip(_estimate(rows).tolist(), low.tolist(), high.tolist(), strict=True)
     return [Index(*each) for each in zip(*first, strict=True)], [
         Index(*each) for each in zip(*total, strict=True)
     ]
 
 
-def _estimate(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def confidence_interval(
+    estimate: Callable[[Numbers], Numbers], rows: Numbers, seed: int
+) -> tuple[Numbers, Numbers]:
+    """Return the ends of the 95 % confidence interval of an estimate from rows: percentile bootstrap."""
+    generator = np.random.default_rng(seed)
+    points = rows.shape[0]
+    again = np.array([estimate(rows[generator.integers(0, points, points)]) for _ in range(_RESAMPLES)])
+    outside = 0.5 * (1.0 - _CONFIDENCE)
+    low, high = np.nanquantile(again, [outside, 1.0 - outside], axis=0)
+    return low, high
+
+
+def _estimate(rows: Numbers) -> Numbers:
     """Return the indices of all parameters, shape (2, parameters): first order, total."""
     from scipy.stats import sobol_indices
 

@@ -1,0 +1,301 @@
+"""Do the tests bite? Change the program in one place at a time and see whether a test fails.
+
+    python scripts/mutate.py --seed 1 --count 60
+    python scripts/mutate.py physics sweep --count 10 --whole
+    python scripts/mutate.py --place src/uictest/physics/flow.py:5:20:constant
+
+Works in a temporary copy of the checkout, with a cache of compiled code of its own. Each place is tried with
+the tests of its module, of its room and of the rooms that use it, until one fails. A survivor needs a test
+that fails, or a reason why the change makes no difference.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import difflib
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+ROOMS = {
+    "physics": ("physics", "rig"),
+    "measures": ("measures", "rig", "evaluation"),
+    "controllers": ("controllers", "rig"),
+    "evaluation": ("evaluation",),
+    "sweep": ("sweep",),
+}
+"""Rooms that can be mutated, and the rooms whose tests are run for each, nearest first."""
+_OTHER_OPERATOR: dict[type[ast.AST], type[ast.AST]] = {
+    ast.Add: ast.Sub,
+    ast.Sub: ast.Add,
+    ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
+    ast.FloorDiv: ast.Mult,
+    ast.Mod: ast.Mult,
+    ast.Pow: ast.Mult,
+    ast.And: ast.Or,
+    ast.Or: ast.And,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+    ast.In: ast.NotIn,
+    ast.NotIn: ast.In,
+}
+_OTHER_ORDER: dict[type[ast.AST], tuple[type[ast.AST], type[ast.AST]]] = {
+    ast.Lt: (ast.LtE, ast.GtE),
+    ast.LtE: (ast.Lt, ast.Gt),
+    ast.Gt: (ast.GtE, ast.LtE),
+    ast.GtE: (ast.Gt, ast.Lt),
+}
+_SYMMETRIC = ("minimum", "maximum", "min", "max")
+
+
+@dataclass(frozen=True)
+class Place:
+    """A node of the syntax tree of a file, and one way to change it."""
+
+    file: str
+    line: int
+    column: int
+    kind: str
+    old: ast.AST
+    new: ast.AST
+
+    @property
+    def name(self) -> str:
+        """What the place is called in the table and by --place."""
+        return f"{self.file}:{self.line}:{self.column}:{self.kind}"
+
+    def mutated(self, text: str) -> str:
+        """Return the text of the file with the change."""
+        lines = text.splitlines(keepends=True)
+        old = self.old
+        assert isinstance(old, ast.expr | ast.stmt)
+        assert old.end_lineno is not None
+        assert old.end_col_offset is not None
+        before = lines[old.lineno - 1].encode()[: old.col_offset].decode()
+        after = lines[old.end_lineno - 1].encode()[old.end_col_offset :].decode()
+        new = ast.unparse(self.new)
+        if isinstance(self.new, ast.BinOp | ast.BoolOp | ast.Compare | ast.UnaryOp):
+            new = f"({new})"
+        changed = "".join([*lines[: old.lineno - 1], before, new, after, *lines[old.end_lineno :]])
+        ast.parse(changed)
+        return changed
+
+
+def places_in(file: str, text: str) -> Iterator[Place]:
+    """Yield every place of a file; docstrings, annotations and f-strings are left alone."""
+    for node in _nodes(ast.parse(text)):
+        for kind, new in _changes(node):
+            assert isinstance(node, ast.expr | ast.stmt)
+            yield Place(file, node.lineno, node.col_offset, kind, node, new)
+
+
+def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
+    for name, value in ast.iter_fields(tree):
+        if name in ("annotation", "returns", "decorator_list") or isinstance(tree, ast.JoinedStr):
+            continue
+        for node in value if isinstance(value, list) else [value]:
+            if isinstance(node, ast.AST):
+                yield node
+                yield from _nodes(node)
+
+
+def _changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
+    """Yield the kind of each change of a node, and the node changed."""
+    match node:
+        case ast.Compare(ops=[operator]) if type(operator) in _OTHER_ORDER:
+            bound, inverted = _OTHER_ORDER[type(operator)]
+            yield "bound", _with(node, ops=[bound()])
+            yield "inverted", _with(node, ops=[inverted()])
+        case ast.Compare(ops=[operator]) if type(operator) in _OTHER_OPERATOR:
+            yield "inverted", _with(node, ops=[_OTHER_OPERATOR[type(operator)]()])
+        case ast.BinOp(op=operator) | ast.BoolOp(op=operator) if type(operator) in _OTHER_OPERATOR:
+            yield "operator", _with(node, op=_OTHER_OPERATOR[type(operator)]())
+        case ast.UnaryOp(op=ast.Not() | ast.USub(), operand=operand):
+            yield "sign", operand
+        case ast.Constant(value=bool(value)):
+            yield "constant", ast.Constant(not value)
+        case ast.Constant(value=int(value)):
+            yield "constant", ast.Constant(value + 1)
+            yield "twice", ast.Constant(value * 2 or 2)
+        case ast.Constant(value=float(value)):
+            yield "constant", ast.Constant(value * 1.03 or 0.03)
+            yield "twice", ast.Constant(value * 2.0 or 2.0)
+        case ast.Call(args=[*others, first, second]) if ast.unparse(node.func) not in _SYMMETRIC:
+            yield "swapped", _with(node, args=[*others, second, first])
+        case ast.AugAssign() | ast.Expr(value=ast.Call()):
+            yield "removed", ast.Pass()
+        case ast.Assign(targets=[ast.Attribute() | ast.Subscript()]):
+            yield "removed", ast.Pass()
+
+
+def _with(node: ast.AST, **fields: object) -> ast.AST:
+    kept = dict(ast.iter_fields(node))
+    return type(node)(**{**kept, **fields})
+
+
+def chosen_places(rooms: Sequence[str], count: int, seed: int) -> list[Place]:
+    """Return so many places, the rooms in turn; no two in the same line."""
+    generator = random.Random(seed)
+    shuffled: dict[str, list[Place]] = {}
+    for room in rooms:
+        files = sorted((REPOSITORY / "src/uictest" / room).rglob("*.py"))
+        texts = {path.relative_to(REPOSITORY).as_posix(): path.read_text("utf-8") for path in files}
+        shuffled[room] = [place for file, text in texts.items() for place in places_in(file, text)]
+        generator.shuffle(shuffled[room])
+    chosen: dict[tuple[str, int], Place] = {}
+    while len(chosen) < count and any(shuffled.values()):
+        for room in rooms:
+            while shuffled[room] and len(chosen) < count:
+                place = shuffled[room].pop()
+                if chosen.setdefault((place.file, place.line), place) is place:
+                    break
+    return list(chosen.values())
+
+
+def named_places(names: Sequence[str]) -> list[Place]:
+    """Return the places with the given names. Raises SystemExit for one that is not there."""
+    found = []
+    for name in names:
+        file = name.split(":", 1)[0]
+        text = (REPOSITORY / file).read_text("utf-8")
+        matching = [place for place in places_in(file, text) if place.name == name]
+        if not matching:
+            raise SystemExit(f"no such place: {name}; write FILE:LINE:COLUMN:KIND as the table shows it")
+        found.append(matching[0])
+    return found
+
+
+def test_stages(place: Place, whole: bool) -> list[list[str]]:
+    """Return what is given to pytest, stage by stage: the module's own tests first."""
+    room = place.file.split("/")[2]
+    own = Path("tests", room, f"test_{Path(place.file).stem}.py")
+    stages = [[str(own)]] if (REPOSITORY / own).exists() else []
+    stages += [[f"tests/{each}"] for each in ROOMS.get(room, (room,))]
+    return stages + ([["tests"]] if whole else [])
+
+
+class Copy:
+    """A copy of the checkout in which one file at a time is changed and tests are run."""
+
+    def __init__(self, root: Path, seconds: float) -> None:
+        self.root = root
+        self._seconds = seconds
+        listed = subprocess.run(
+            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            cwd=REPOSITORY,
+            capture_output=True,
+            check=True,
+        )
+        for name in filter(None, listed.stdout.decode().split("\0")):
+            if (REPOSITORY / name).is_file():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(REPOSITORY / name, root / name)
+        self._environment = {
+            **os.environ,
+            "PYTHONPATH": str(root / "src"),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "UICTEST_CACHE": str(root / ".cache"),
+        }
+
+    def verdict(self, place: Place, stages: Sequence[Sequence[str]]) -> str:
+        """Return `killed`, `hung` or `survived` for a change, and undo it."""
+        path = self.root / place.file
+        text = path.read_text("utf-8")
+        path.write_text(place.mutated(text), "utf-8")
+        try:
+            return next(
+                (verdict for stage in stages if (verdict := self.run(stage)) != "survived"), "survived"
+            )
+        finally:
+            path.write_text(text, "utf-8")
+
+    def run(self, arguments: Sequence[str]) -> str:
+        """Run tests until one fails, at most as long as stated."""
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *arguments]
+        process = subprocess.Popen(
+            command,
+            cwd=self.root,
+            env=self._environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        try:
+            return "survived" if process.wait(self._seconds) == 0 else "killed"
+        except subprocess.TimeoutExpired:
+            return "hung"
+        finally:
+            _end(process)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """End a run of tests and what it has started."""
+    if process.poll() is None:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+def _difference(place: Place) -> str:
+    text = (REPOSITORY / place.file).read_text("utf-8")
+    lines = difflib.unified_diff(text.splitlines(), place.mutated(text).splitlines(), n=0, lineterm="")
+    return "\n".join(f"    {line}" for line in lines if not line.startswith(("---", "+++", "@@")))
+
+
+def _try_all(places: Sequence[Place], copy: Copy, whole: bool, report: Callable[[str], object]) -> int:
+    """Return how many places survived."""
+    survivors = 0
+    for place in places:
+        begin = time.monotonic()
+        verdict = copy.verdict(place, test_stages(place, whole))
+        survivors += verdict == "survived"
+        report(f"{verdict:8}  {time.monotonic() - begin:5.0f} s  {place.name}\n{_difference(place)}")
+    return survivors
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("rooms", nargs="*", metavar="ROOM", help=f"one of {', '.join(ROOMS)}; all of them")
+    parser.add_argument("--count", type=int, default=60, help="how many places [60]")
+    parser.add_argument("--seed", type=int, default=0, help="of the choice of places [0]")
+    parser.add_argument(
+        "--place", action="append", default=[], help="FILE:LINE:COLUMN:KIND instead of a choice"
+    )
+    parser.add_argument("--whole", action="store_true", help="run the whole suite on what survives its rooms")
+    parser.add_argument("--seconds", type=float, default=900.0, help="limit for one run of tests [900]")
+    given = parser.parse_args()
+    if unknown := set(given.rooms) - set(ROOMS):
+        parser.error(f"no such room: {', '.join(sorted(unknown))}; there are {', '.join(ROOMS)}")
+    return given
+
+
+def main() -> int:
+    """Try the places and print the table; exit 1 where one survives, 3 where the tests fail unchanged."""
+    given = _arguments()
+    rooms = given.rooms or list(ROOMS)
+    places = named_places(given.place) if given.place else chosen_places(rooms, given.count, given.seed)
+    with tempfile.TemporaryDirectory(prefix="uictest-mutate-") as folder:
+        copy = Copy(Path(folder), given.seconds)
+        tests = sorted({each for place in places for stage in test_stages(place, False) for each in stage})
+        if copy.run(tests) != "survived":
+            print(f"the tests fail without a change: {' '.join(tests)}", file=sys.stderr)
+            return 3
+        survivors = _try_all(places, copy, given.whole, lambda line: print(line, flush=True))
+    print(f"{len(places)} places, {survivors} survived")
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
