@@ -4,10 +4,11 @@ from collections.abc import Callable
 from math import prod
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uictest.scenario import Case
+from uictest.scenario import Case, ScenarioErrors, expansion
 from uictest.scenario.expansion import Variant, expand
 from uictest.scenario.identifiers import case_id, short_keys
 from uictest.scenario.parsing import parse
@@ -133,6 +134,30 @@ def test_exclude_and_include_count(axes: dict[str, list[int]], data: st.DataObje
 
     assert len(variants) == prod(map(len, axes.values()))
     assert values(variants[-1]) == tuple(map(str, chosen.values()))
+
+
+@pytest.mark.parametrize("count", [100, 400])
+def test_excluding_looks_at_each_value_a_fixed_number_of_times(
+    count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked_at = []
+    compared = expansion._comparable
+    monkeypatch.setattr(expansion, "_comparable", lambda node: (looked_at.append(1), compared(node))[1])
+    values = ", ".join(map(str, range(count)))
+    items = ", ".join(f"{{'x.a': {number}}}" for number in range(1, count))
+
+    variants = expand(tree(f"matrix: {{'x.a': [{values}]}}\nexclude: [{items}]"))
+
+    assert len(variants) == 1
+    assert len(looked_at) <= 2 * count
+
+
+def test_a_second_exclusion_of_the_same_cases_is_refused() -> None:
+    matrix = "matrix: {'x.a': [1, 2], 'x.b': [1, 2, 3]}\n"
+
+    assert len(expand(tree(matrix + "exclude: [{'x.a': 1, 'x.b': 1}, {'x.a': 1}]"))) == 3
+    with pytest.raises(ScenarioErrors, match="no case has these values"):
+        expand(tree(matrix + "exclude: [{'x.a': 1}, {'x.a': 1, 'x.b': 1}]"))
 
 
 @given(st.integers(1, 6), st.integers(1, 6))

@@ -33,18 +33,30 @@ def expand(tree: Map) -> list[Variant]:
     Raises ScenarioErrors with every error of the four sections.
     """
     found: list[Diagnostic] = []
+    variants = expand_sound(tree, found)
+    if found:
+        raise ScenarioErrors(found)
+    return variants
+
+
+def expand_sound(tree: Map, found: list[Diagnostic]) -> list[Variant]:
+    """As :func:`expand`, but errors go to ``found`` and the cases are those of what is sound.
+
+    Where there are too many, each value occurs in one case at least.
+    """
     matrix, zipped = _axes(tree, "matrix", found), _axes(tree, "zip", found)
     include, exclude = _listed(tree, "include", found), _listed(tree, "exclude", found)
-    found.extend(chain(_unequal(zipped), _in_both(matrix, zipped), _too_many(tree, matrix, zipped)))
-    if found:
-        raise ScenarioErrors(found)
+    found.extend(chain(_unequal(zipped), _in_both(matrix, zipped)))
+    too_many = list(_too_many(tree, matrix, zipped))
+    if too_many:
+        found.extend(too_many)
+        return [*_one_at_a_time([*matrix, *zipped]), *_included(include)]
     variants = _combined(matrix, zipped, alone=not include)
-    variants = _without_excluded(variants, exclude, found)
+    swept = _keys_under(tree, "matrix") | _keys_under(tree, "zip")
+    variants = _without_excluded(variants, exclude, swept, found)
     variants.extend(_included(include))
-    if not variants:
+    if not variants and not found:
         found.append(_none_left(tree))
-    if found:
-        raise ScenarioErrors(found)
     return variants
 
 
@@ -78,7 +90,7 @@ def _axis(section: str, key: str, entry: Entry, found: list[Diagnostic]) -> Axis
         found.append(
             diagnose(entry.node.place, message, f"{section}.{key}", f"write [{as_written(entry.node)}]"[:80])
         )
-        return ()
+        return (Setting(key, entry, 1),)
     if not entry.node.items:
         found.append(diagnose(entry.node.place, "an empty list makes no case", f"{section}.{key}"))
         return ()
@@ -100,6 +112,11 @@ def _listed(tree: Map, section: str, found: list[Diagnostic]) -> list[Map]:
         if not isinstance(item, Map) or not item.entries
     )
     return [item for item in node.items if isinstance(item, Map) and item.entries]
+
+
+def _keys_under(tree: Map, section: str) -> set[str]:
+    node = tree.get(section)
+    return set(node.entries) if isinstance(node, Map) else set()
 
 
 def _section(tree: Map, section: str) -> Node | None:
@@ -146,8 +163,18 @@ def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Dia
 def _combined(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
     if not matrix and not zipped:
         return [()] if alone else []
-    rows: list[Variant] = list(zip(*zipped, strict=True)) if zipped else [()]
+    # Lists of unequal length are refused by now; what they have in common is looked through all the same.
+    rows: list[Variant] = list(zip(*zipped, strict=False)) if zipped else [()]
     return [(*combination, *row) for combination in product(*matrix) for row in rows]
+
+
+def _one_at_a_time(axes: list[Axis]) -> Iterator[Variant]:
+    """The first value of every axis, and each further value with the first ones of the others."""
+    first = tuple(axis[0] for axis in axes)
+    yield first
+    for place, axis in enumerate(axes):
+        for setting in axis[1:]:
+            yield (*first[:place], setting, *first[place + 1 :])
 
 
 def _included(include: list[Map]) -> Iterator[Variant]:
@@ -155,27 +182,45 @@ def _included(include: list[Map]) -> Iterator[Variant]:
         yield tuple(Setting(key, entry, number) for key, entry in item.entries.items())
 
 
-def _without_excluded(variants: list[Variant], exclude: list[Map], found: list[Diagnostic]) -> list[Variant]:
-    swept = {setting.key for variant in variants for setting in variant}
+def _without_excluded(
+    variants: list[Variant], exclude: list[Map], swept: set[str], found: list[Diagnostic]
+) -> list[Variant]:
+    sound = not found
+    by_keys: dict[frozenset[str], _ByValues] = {}
+    excluded: set[int] = set()
     for item in exclude:
         unknown = [key for key in item.entries if key not in swept]
         for key in unknown:
             message = f"{quoted(key)} is not swept, so no case has it"
             found.append(diagnose(item.entries[key].key, message, "exclude", suggestion(key, swept)))
-        kept = [variant for variant in variants if not _matches(variant, item)]
-        if not unknown and len(kept) == len(variants):
+        if unknown:
+            continue
+        keys = frozenset(item.entries)
+        if keys not in by_keys:
+            by_keys[keys] = _by_values(variants, keys)
+        # Taken out: whoever excludes the same once more excludes nothing.
+        matches = set(by_keys[keys].pop(_values_of_item(item), ())) - excluded
+        if not matches and sound:
             found.append(diagnose(item.place, "no case has these values", "exclude"))
-        variants = kept
-    return variants
+        excluded |= matches
+    return [variant for place, variant in enumerate(variants) if place not in excluded]
 
 
-def _matches(variant: Variant, item: Map) -> bool:
-    values = {setting.key: setting.value.node for setting in variant}
-    return all(key in values and _same(values[key], entry.node) for key, entry in item.entries.items())
+_ByValues = dict[frozenset[tuple[str, object]], list[int]]
+"""Values of some keys, as far as they can be compared, and the places of the cases that have them."""
 
 
-def _same(one: Node, other: Node) -> bool:
-    return _comparable(one) == _comparable(other)
+def _by_values(variants: list[Variant], keys: frozenset[str]) -> _ByValues:
+    places: _ByValues = {}
+    for place, variant in enumerate(variants):
+        values = {setting.key: setting.value.node for setting in variant}
+        if keys <= values.keys():
+            places.setdefault(frozenset((key, _comparable(values[key])) for key in keys), []).append(place)
+    return places
+
+
+def _values_of_item(item: Map) -> frozenset[tuple[str, object]]:
+    return frozenset((key, _comparable(entry.node)) for key, entry in item.entries.items())
 
 
 def _comparable(node: Node) -> object:

@@ -9,7 +9,7 @@ from uictest.scenario.assignment import with_value
 from uictest.scenario.case import Case
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, in_reading_order, refusal
 from uictest.scenario.discovery import scenario_trees
-from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand
+from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand_sound
 from uictest.scenario.identifiers import LONGEST, case_id, short_keys
 from uictest.scenario.inheritance import inherit
 from uictest.scenario.model import SCENARIO_SCHEMA
@@ -18,7 +18,7 @@ from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.reading import display_name
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
-from uictest.scenario.tree import Document, Map, Scalar, as_written, describe
+from uictest.scenario.tree import Document, Map, Node, Scalar, as_written, describe
 from uictest.scenario.validation import dotted
 from uictest.scenario.wording import quoted
 
@@ -52,7 +52,7 @@ class _Stem:
     tree: Map
     documents: tuple[Document, ...]
     short: dict[str, str]
-    ids: set[str] = field(default_factory=set)
+    ids: dict[str, Variant] = field(default_factory=dict)
 
 
 class _Loader:
@@ -86,10 +86,8 @@ class _Loader:
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged = apply_overrides(with_default_parts(merged), self.overrides, _DOTTED_PART_KEYS)
         base = merged.without(*SECTIONS)
-        try:
-            variants = expand(merged)
-        except ScenarioErrors as errors:
-            raise ScenarioErrors((*errors.diagnostics, *self._errors(base))) from None
+        # Errors of the sweep do not hide those of its values: what is sound is looked through all the same.
+        variants = expand_sound(merged, self.found)
         if self.overrides:
             variants = distinct(
                 variants
@@ -97,25 +95,13 @@ class _Loader:
         short = short_keys(list(dict.fromkeys(setting.key for variant in variants for setting in variant)))
         return _Stem(path, base, documents, short), variants
 
-    def _errors(self, base: Map) -> tuple[Diagnostic, ...]:
-        """What is wrong with a scenario apart from its sweep."""
-        try:
-            resolve(base, self.parts)
-        except ScenarioErrors as errors:
-            return errors.diagnostics
-        return ()
-
     def _parent(self, reference: Scalar) -> Map:
         tree = self.files.beside(reference, "extends")
         _refuse_other_schema(tree)
         return tree
 
     def _case(self, stem: _Stem, variant: Variant) -> Case:
-        tree = stem.tree
-        # From the outside in, so that a part is named before something inside it is changed.
-        for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
-            tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
-        scenario, documents = resolve(tree, self.parts)
+        scenario, documents = resolve(self._varied(stem.tree, variant), self.parts)
         return Case(
             id=self._claimed(case_id(scenario.name, variant, stem.short), stem, variant),
             scenario=scenario,
@@ -123,6 +109,16 @@ class _Loader:
             parameters={setting.key: as_written(setting.value.node) for setting in variant},
             inputs=_inputs((*stem.documents, *documents)),
         )
+
+    def _varied(self, tree: Map, variant: Variant) -> Map:
+        """The tree with the values of one case; what cannot be set is reported and left out."""
+        # From the outside in, so that a part is named before something inside it is changed.
+        for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
+            try:
+                tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
+            except ScenarioErrors as errors:
+                self.found.extend(errors.diagnostics)
+        return tree
 
     def _claimed(self, identifier: str, stem: _Stem, variant: Variant) -> str:
         """The id, unless it is too long or another case has it."""
@@ -137,11 +133,27 @@ class _Loader:
             message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
             raise refusal(name, message, "name", "give every scenario a name of its own")
         if identifier in stem.ids:
-            raise refusal(
-                place, f"a second case {quoted(identifier)}", hint="take out the value that is there twice"
-            )
-        stem.ids.add(identifier)
+            raise _refuse_second(identifier, variant, stem.ids[identifier])
+        stem.ids[identifier] = variant
         return identifier
+
+
+def _refuse_second(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
+    """Refuse a second case of one id: at the value that a list holds twice, else at the case."""
+    of_first = {setting.key: setting for setting in first}
+    pairs = [(setting, of_first[setting.key]) for setting in variant if setting.key in of_first]
+    others = [(one, other) for one, other in pairs if one.value.node is not other.value.node]
+    setting, twin = others[0]
+    message, key = f"a second case {quoted(identifier)}", ""
+    if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
+        message, key = _twice(setting.value.node, twin.value.node), setting.key
+    hint = f"take one out; the first stands in line {twin.value.node.place.line}"
+    return refusal(setting.value.node.place, message, key, hint)
+
+
+def _twice(node: Node, twin: Node) -> str:
+    one, other = quoted(as_written(node)), quoted(as_written(twin))
+    return f"{one} is there twice" if one == other else f"{one} and {other} make the same case id"
 
 
 _COMMANDS = {
