@@ -36,6 +36,11 @@ def test_every_format_is_written_with_its_provenance(call: Call, recording: Path
         assert facts["program"].startswith("uictest ")
 
 
+@pytest.mark.parametrize("name", ["mf4", "MDF", "mdf,mf4"])
+def test_a_format_is_known_by_the_suffix_of_its_files_too(call: Call, recording: Path, name: str) -> None:
+    assert call("export", recording, "--to", name).out.split() == ["a[friction=0.10].mf4"]
+
+
 def test_nothing_is_overwritten_unless_forced(call: Call, recording: Path) -> None:
     assert call("export", recording, "--to", "csv").code == 0
     answer = call("export", recording, "--to", "csv")

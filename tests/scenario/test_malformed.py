@@ -48,7 +48,15 @@ HEADER: list[Row] = [
     ("name too long", NAME + "a" * 101 + "\n", 3, 7, "name", "is not allowed", "100"),
     ("name is a number", NAME + "12\n", 3, 7, "name", "expected a text, found a number", 'quotes: "12"'),
     ("title of two lines", HEAD + 'title: "a\\nb"\n', 4, 8, "title", "'a\\x0ab' is not", "control"),
-    ("tags are one text", HEAD + "tags: slip\n", 4, 7, "tags", "expected a list, found a text", ""),
+    (
+        "tags are one text",
+        HEAD + "tags: slip\n",
+        4,
+        7,
+        "tags",
+        "expected a list, found a text",
+        "`tags: [slip]`",
+    ),
     ("a tag is a number", HEAD + "tags: [a, 1]\n", 4, 11, "tags.1", "expected a text", "quotes"),
     ("a title that YAML takes for truth", HEAD + "title: true\n", 4, 8, "title", "a text", 'quotes: "true"'),
     ("a list for a title", HEAD + "title: [a]\n", 4, 8, "title", "expected a text, found a list", ""),
@@ -58,10 +66,105 @@ KEYS: list[Row] = [
     ("unknown key", HEAD + "rial: {}\n", 4, 1, "rial", "unknown key 'rial'", "did you mean 'rail'?"),
     ("unknown inner key", HEAD + "rail: {frction: 1}\n", 4, 8, "rail.frction", "unknown", "'friction'"),
     ("dotted key", HEAD + "rail.friction: 0.1\n", 4, 1, "rail.friction", "unknown key", "matrix"),
-    ("section is a number", HEAD + "brake: 5\n", 4, 8, "brake", "expected a mapping, found a number", ""),
+    (
+        "section is a number",
+        HEAD + "brake: 5\n",
+        4,
+        8,
+        "brake",
+        "expected a mapping, found a number",
+        "command",
+    ),
+    ("a rail for the section", HEAD + "rail: wet\n", 4, 7, "rail", "a mapping", "`rail: {condition: wet}`"),
+    (
+        "a friction for the section",
+        HEAD + "rail: 0.1\n",
+        4,
+        7,
+        "rail",
+        "a mapping",
+        "`rail: {friction: 0.1}`",
+    ),
+    ("a system for the section", HEAD + "brake: ep-disc\n", 4, 8, "brake", "a mapping", "{system: ep-disc}"),
+    ("a state for the section", HEAD + "rig: bypassed\n", 4, 6, "rig", "a mapping", "`rig: {wsp: bypassed}`"),
+    (
+        "points without points",
+        HEAD + "rail: {friction: [{position: 0 m, friction: 0.1}]}\n",
+        4,
+        18,
+        "rail.friction",
+        "a mapping, found a list",
+        "`friction: {points: [{position",
+    ),
+    (
+        "a list for a value",
+        HEAD + "rail: {friction: [0.1, 0.2]}\n",
+        4,
+        18,
+        "rail.friction",
+        "expected a number",
+        "`matrix: {rail.friction: [0.1, 0.2]}`",
+    ),
+    (
+        "a list for a value of a part",
+        HEAD + "vehicle: {extends: crh380a, body: {mass: [30 t, 40 t]}}\n",
+        4,
+        42,
+        "vehicle.body.mass",
+        "expected a mass",
+        "`matrix: {vehicle.body.mass: [30 t, 40 t]}`",
+    ),
+    (
+        "a diameter",
+        HEAD + "vehicle: {extends: crh380a, wheelset: {diameter: 920 mm}}\n",
+        4,
+        40,
+        "vehicle.wheelset.diameter",
+        "unknown key",
+        "`radius: 460 mm`, half the diameter",
+    ),
+    (
+        "a wheelbase",
+        HEAD + "vehicle: {extends: crh380a, bogie: {wheelbase: 2.5 m}}\n",
+        4,
+        37,
+        "vehicle.bogie.wheelbase",
+        "unknown key",
+        "`half_wheelbase: 1.25 m`",
+    ),
+    (
+        "a key of a section at the top",
+        HEAD + "friction: 0.1\n",
+        4,
+        1,
+        "friction",
+        "unknown",
+        "rail.friction?",
+    ),
+    (
+        "half a key's name",
+        SPEED.replace("initial_speed", "speed") + "9 m/s\n",
+        3,
+        1,
+        "speed",
+        "unknown key",
+        "'initial_speed'",
+    ),
+    ("a truth value for a state", HEAD + "rig: {wsp: false}\n", 4, 12, "rig.wsp", "'false'", "'bypassed'"),
+    ("off for none", HEAD + "rig: {compensation: off}\n", 4, 21, "rig.compensation", "'off'", "'none'"),
+    (
+        "a digit for a word",
+        HEAD + "rig: {topology: 4-caliper}\n",
+        4,
+        17,
+        "rig.topology",
+        "",
+        "'four-caliper'",
+    ),
+    ("a seed in quotes", HEAD + "seed: '1'\n", 4, 7, "seed", "expected a whole number", "without quotes"),
     ("no initial speed", HEAD[:37], 1, 1, "initial_speed", "missing key 'initial_speed'", "Train speed"),
     ("unknown choice", HEAD + "rig: {wsp: activ}\n", 4, 12, "rig.wsp", "'activ'", "'active'"),
-    ("on is a text", HEAD + "rig: {wsp: on}\n", 4, 12, "rig.wsp", "unknown value 'on'", ""),
+    ("on is a text", HEAD + "rig: {wsp: on}\n", 4, 12, "rig.wsp", "unknown value 'on'", "'active'"),
     ("unknown outcome", HEAD + "expect: passed\n", 4, 9, "expect", "pass, fail, invalid", "'pass'"),
     ("unknown position", HEAD + "brake: {position: Q}\n", 4, 19, "brake.position", "'Q'", "G, P, R"),
     ("position in lower case", HEAD + "brake: {position: r}\n", 4, 19, "brake.position", "'r'", "'R'"),
@@ -71,7 +174,7 @@ KEYS: list[Row] = [
 ]
 
 QUANTITIES: list[Row] = [
-    ("no unit", SPEED + "120\n", 3, 16, "initial_speed", "'120' has no unit", "120 km/h or 33.33 m/s"),
+    ("no unit", SPEED + "120\n", 3, 16, "initial_speed", "'120' has no unit", "`120 km/h` or `120 m/s`"),
     ("unknown unit", SPEED + "120 kmh\n", 3, 16, "initial_speed", "unknown unit 'kmh'", "'km/h'"),
     ("unit of something else", SPEED + "4 bar\n", 3, 16, "initial_speed", "unit 'bar' for a speed", "m/s"),
     ("decimal comma", SPEED + "'33,3 m/s'\n", 3, 16, "initial_speed", "not a number", "'33.3 m/s'"),
@@ -86,8 +189,26 @@ QUANTITIES: list[Row] = [
     ("too fast", SPEED + "700 km/h\n", 3, 16, "initial_speed", "at most 600 km/h", "above 1 km/h"),
     ("standing", SPEED + "0 km/h\n", 3, 16, "initial_speed", "above 1 km/h", "at most 600 km/h"),
     ("command bare", HEAD + "brake: {command: 90}\n", 4, 18, "brake.command", "no unit", "90 %"),
+    (
+        "command as a ratio",
+        HEAD + "brake: {command: 1.0}\n",
+        4,
+        18,
+        "brake.command",
+        "no unit",
+        "`100 %` (a b",
+    ),
+    (
+        "mass in kg bare",
+        HEAD + "vehicle: {extends: crh380a, body: {mass: 43862}}\n",
+        4,
+        42,
+        "vehicle.body.mass",
+        "no unit",
+        "write `43862 kg`",
+    ),
     ("command over full", HEAD + "brake: {command: 101 %}\n", 4, 18, "brake.command", "100 %", ""),
-    ("friction with unit", HEAD + "rail: {friction: 9 %}\n", 4, 18, "rail.friction", "bare number", "9"),
+    ("friction with unit", HEAD + "rail: {friction: 9 %}\n", 4, 18, "rail.friction", "bare number", "0.09"),
     ("friction above one", HEAD + "rail: {friction: 1.2}\n", 4, 18, "rail.friction", "at most 1", "0.001"),
     ("gradient too steep", HEAD + "rail: {gradient: 9 %}\n", 4, 18, "rail.gradient", "60 permille", ""),
 ]
@@ -240,7 +361,17 @@ SWEEPS: list[Row] = [
     ("axis without a name", HEAD + "matrix: {rail.: [1]}\n", 4, 10, "", "'rail.' is not a key", "dots"),
     ("name as an axis", HEAD + "matrix: {name: [a]}\n", 4, 10, "name", "cannot vary", ""),
     ("a wrong value", HEAD + "matrix: {rail.friction: [0.1, 2]}\n", 4, 31, "rail.friction", "at most 1", ""),
-    ("a value twice", HEAD + "matrix: {seed: [1, 1]}\n", 4, 20, "", "second case 'stop[seed=1]'", "twice"),
+    ("a value twice", HEAD + "matrix: {seed: [1, 1]}\n", 4, 20, "seed", "'1' is there twice", "line 4"),
+    (
+        "a value twice under a key that is not the last",
+        HEAD + "matrix:\n  rail.friction: [0.1, 0.2, 0.1]\n  brake.command: [80 %, 90 %]\n",
+        *(5, 29, "rail.friction", "'0.1' is there twice", "line 5"),
+    ),
+    (
+        "a case included twice",
+        HEAD + "matrix: {seed: [1, 2]}\ninclude: [{seed: 2}]\n",
+        *(5, 18, "", "a second case 'stop[seed=2]'", "line 4"),
+    ),
     (
         "unequal zip",
         HEAD + "zip:\n  seed: [1]\n  expect: [pass, fail]\n",
@@ -354,6 +485,48 @@ def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(
         (8, "title"),
         (9, "matrix.seed"),
     ]
+
+
+def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(
+    refused: Callable[..., tuple[Diagnostic, ...]],
+) -> None:
+    found = refused(
+        HEAD + "brakes: {}\n"
+        "matrix:\n"
+        "  rail.friction: 0.09\n"
+        "  brake.comand: [50 %]\n"
+        "  initial_speed.x: [1]\n"
+        "  rail.gradient: [5 permille, 90 permille]\n"
+        "zip:\n"
+        "  seed: [1, 2]\n"
+        "  expect: [pas]\n"
+        "exclude: [{sed: 1}]\n"
+    )
+
+    assert [(each.line, each.key) for each in found] == [
+        (4, "brakes"),
+        (6, "matrix.rail.friction"),
+        (7, "brake.comand"),
+        (8, "initial_speed"),
+        (9, "rail.gradient"),
+        (12, "zip.expect"),
+        (12, "expect"),
+        (13, "exclude"),
+    ]
+
+
+def test_too_many_cases_do_not_hide_wrong_values(refused: Callable[..., tuple[Diagnostic, ...]]) -> None:
+    axes = "".join(
+        f"  {key}: [{values}]\n"
+        for key, values in (
+            ("seed", ", ".join(map(str, range(200)))),
+            ("rail.friction", ", ".join(f"{0.1 + n / 1000:g}" for n in range(100)) + ", 7"),
+        )
+    )
+
+    found = refused(HEAD + "matrix:\n" + axes)
+
+    assert [(each.line, each.key) for each in found] == [(4, ""), (6, "rail.friction")]
 
 
 def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(

@@ -89,7 +89,7 @@ def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
         ("grid: {rail.frictoin: [0.1]}\n", "study.sweep.yaml:4:8: rail.frictoin: unknown key 'frictoin'"),
         ("grid: {rail.frictoin: [0.1]}\n", "did you mean 'friction'?"),
         ("grid: {rail.friction: [0.1, 5]}\n", "study.sweep.yaml:4:29: rail.friction: 5 is out of range"),
-        ("grid: {initial_speed: [30]}\n", "write 30 km/h or"),
+        ("grid: {initial_speed: [30]}\n", "write `30 km/h` or"),
         ("grid: {brake.position: [R, X]}\n", "unknown brake position 'X'"),
         ("grid: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
         ("grid: {rail.friction: [0.1, 0.1]}\n", "is there twice"),

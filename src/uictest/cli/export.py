@@ -22,7 +22,9 @@ def export(
     files: Files,
     formats: Annotated[
         list[str],
-        typer.Option("--to", metavar="FORMAT", help="mdf, tdms, mat, csv, parquet; commas join several."),
+        typer.Option(
+            "--to", metavar="FORMAT", help="mdf (or mf4), tdms, mat, csv, parquet; commas join several."
+        ),
     ],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")
@@ -45,9 +47,12 @@ def export(
 
 
 def _formats(texts: Sequence[str]) -> list[str]:
-    from uictest.recording.formats import FORMATS
+    from uictest.recording.formats import FORMATS, SUFFIXES
 
-    wanted = list(dict.fromkeys(word.strip() for text in texts for word in text.split(",")))
+    # A format is known by the suffix of its files, too: engineers say MF4 for MDF 4.
+    names = {suffix.removeprefix("."): name for name, suffix in SUFFIXES.items()}
+    words = [word.strip().lower() for text in texts for word in text.split(",")]
+    wanted = list(dict.fromkeys(names.get(word, word) for word in words))
     for word in wanted:
         if word not in FORMATS:
             raise typer.BadParameter(f"no format {word!r}; accepted: {', '.join(FORMATS)}", param_hint="--to")

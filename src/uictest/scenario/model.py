@@ -30,7 +30,8 @@ Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
 
 
 def _friction_form(given: object) -> str:
-    return "profile" if isinstance(given, dict | FrictionProfile) else "number"
+    points = isinstance(given, tuple) and any(isinstance(point, dict) for point in given)
+    return "profile" if points or isinstance(given, dict | FrictionProfile) else "number"
 
 
 class Brake(Model):

@@ -11,20 +11,20 @@ from uictest.scenario.parts.model import Key
 def accepted_keys(model: Any, key: Key) -> set[str]:
     """The keys that the mapping at ``key`` of a model accepts."""
     names: set[str] = set()
-    for each in _models_at(model, key):
+    for each in models_at(model, key):
         names.update(field.alias or name for name, field in each.model_fields.items())
     return names
 
 
 def fields_named(model: Any, key: Key, name: str) -> Iterator[Any]:
     """Yield the fields called ``name`` of the mapping at ``key`` of a model."""
-    for each in _models_at(model, key):
+    for each in models_at(model, key):
         for field_name, field in each.model_fields.items():
             if name in (field_name, field.alias):
                 yield field
 
 
-def _models_at(model: Any, key: Key) -> list[Any]:
+def models_at(model: Any, key: Key) -> list[Any]:
     """The models that the mapping at ``key`` may be; indices, names in a dict and tags are passed over."""
     here = models_in(model)
     for element in key:

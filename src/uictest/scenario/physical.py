@@ -1,7 +1,9 @@
 """Fields that are quantities: what pydantic accepts for them, and what their JSON Schema says."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from operator import ge, gt, le, lt
 from typing import Any, Final
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -47,7 +49,8 @@ class Physical:
         if isinstance(given, dict):
             return self._read_marked(given)
         if isinstance(given, str) or (isinstance(given, int | float) and not isinstance(given, bool)):
-            return parse_quantity(getattr(given, "text", str(given)), self.kind.name)
+            text = getattr(given, "text", str(given))
+            return parse_quantity(text, self.kind.name, accepts=self._accepts)
         raise QuantityError(f"expected {described(self.kind)}", f"write {example(self.kind)}")
 
     def _read_marked(self, given: dict[str, object]) -> Quantity:
@@ -70,28 +73,27 @@ class Physical:
     def _within(self, value: Quantity) -> Quantity:
         if self.kind.name == "count" and not value.is_integer():
             raise QuantityError(f"{quoted(value.text)} is not a whole number")
-        for bound, broken, words in (
-            (self.above, self.above is not None and not value > self.above, "above"),
-            (self.at_least, self.at_least is not None and not value >= self.at_least, "at least"),
-            (self.at_most, self.at_most is not None and not value <= self.at_most, "at most"),
-            (self.below, self.below is not None and not value < self.below, "below"),
-        ):
-            if broken and bound is not None:
+        for words, bound, keeps in self._bounds():
+            if not keeps(value, bound):
                 raise QuantityError(
                     f"{value.text} is out of range: it must be {words} {bound.text}", self._range()
                 )
         return value
 
-    def _range(self) -> str:
+    def _accepts(self, value: float) -> bool:
+        return all(keeps(value, bound) for _, bound, keeps in self._bounds())
+
+    def _bounds(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
         named = (
-            ("above", self.above),
-            ("at least", self.at_least),
-            ("at most", self.at_most),
-            ("below", self.below),
+            ("above", self.above, gt),
+            ("at least", self.at_least, ge),
+            ("at most", self.at_most, le),
+            ("below", self.below, lt),
         )
-        return "accepted: " + " and ".join(
-            f"{words} {bound.text}" for words, bound in named if bound is not None
-        )
+        return [(words, bound, keeps) for words, bound, keeps in named if bound is not None]
+
+    def _range(self) -> str:
+        return "accepted: " + " and ".join(f"{words} {bound.text}" for words, bound, _ in self._bounds())
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(

@@ -2,10 +2,12 @@
 
 import math
 import re
+import unicodedata
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Final, Self
 
-from uictest.scenario.units import KINDS, Kind
+from uictest.scenario.units import KINDS, SPELLINGS, Kind
 from uictest.scenario.wording import nearest, quoted
 
 SCENARIO_SOURCE: Final = "scenario"
@@ -54,14 +56,21 @@ class QuantityError(ValueError):
         self.hint = hint
 
 
-def parse_quantity(text: str, kind: str, source: str = SCENARIO_SOURCE) -> Quantity:
+Accepts = Callable[[float], bool]
+"""Whether a value, in the canonical unit, is in the range of its field."""
+
+
+def parse_quantity(
+    text: str, kind: str, source: str = SCENARIO_SOURCE, accepts: Accepts = math.isfinite
+) -> Quantity:
     """Read ``text`` (number and unit, blanks between them optional) as a quantity of the named kind.
 
-    Raises QuantityError when it is not one.
+    ``accepts`` decides which units the hint names when there is none. Raises QuantityError when the text is
+    no such quantity.
     """
     accepted = KINDS[kind]
     number, symbol = _split(text, accepted)
-    value = _canonical(number, symbol, accepted, text)
+    value = _canonical(number, symbol, accepted, text, accepts)
     if not math.isfinite(value):
         raise QuantityError(f"{quoted(text)} is not a finite number")
     return Quantity(value, text.strip(), accepted.canonical, source)
@@ -84,15 +93,19 @@ def _not_a_number(text: str, kind: Kind) -> QuantityError:
     return QuantityError(f"{quoted(text)} is not {described(kind)}", f"write {example(kind)}")
 
 
-def _canonical(number: Fraction, symbol: str, kind: Kind, text: str) -> float:
+def _canonical(number: Fraction, symbol: str, kind: Kind, text: str, accepts: Accepts) -> float:
     if kind.bare:
         if symbol:
+            ratio = KINDS["share"].units.get(symbol)
+            bare = number if ratio is None else number * ratio.factor
             raise QuantityError(
-                f"{quoted(text)} has a unit where a bare number belongs", f"write {float(number):g}"
+                f"{quoted(text)} has a unit where a bare number belongs", f"write {_as_float(bare):.10g}"
             )
         return _as_float(number)
     if not symbol:
-        raise QuantityError(f"{quoted(text)} has no unit", _hint_for_bare(text, number, kind))
+        raise QuantityError(
+            f"{quoted(text)} has no unit", _hint_for_bare(text.strip(), number, kind, accepts)
+        )
     unit = kind.units.get(symbol)
     if unit is None:
         raise QuantityError(
@@ -108,19 +121,31 @@ def _as_float(number: Fraction) -> float:
         return math.inf
 
 
-def _hint_for_bare(text: str, number: Fraction, kind: Kind) -> str:
-    first, *others = kind.units.values()
-    choices = [f"{text.strip()} {first.symbol}"]
-    for other in others[:1]:
-        converted = _as_float((number * first.factor + first.offset - other.offset) / other.factor)
-        choices.append(f"{converted:.4g} {other.symbol}")
-    return "write " + " or ".join(choices)
+def _hint_for_bare(text: str, number: Fraction, kind: Kind, accepts: Accepts) -> str:
+    """The units with which the number is in range, the most usual first; a share up to one is a ratio."""
+    usual = next(iter(kind.units.values()))
+    if kind.canonical == "1" and 0 < abs(number) <= 1 and accepts(_as_float(number)):
+        ratio = _as_float(number / usual.factor)
+        return f"write `{ratio:.10g} {usual.symbol}` (a bare {text} is ambiguous)"
+    in_range = [
+        f"`{text} {unit.symbol}`"
+        for unit in kind.units.values()
+        if unit.symbol != "1" and accepts(_as_float(number * unit.factor + unit.offset))
+    ]
+    return "write " + (" or ".join(in_range[:2]) or example(kind))
 
 
 def _hint_for_unit(symbol: str, kind: Kind) -> str:
     accepted = "accepted: " + ", ".join(kind.units)
-    guess = nearest(symbol, kind.units)
-    return f"did you mean {quoted(guess)}? {accepted}" if guess else accepted
+    plain = _plain(symbol)
+    alike = [each for each in kind.units if plain in map(_plain, (each, *SPELLINGS.get(each, ())))]
+    guesses = alike or [each for each in (nearest(symbol, kind.units),) if each]
+    return f"did you mean {' or '.join(map(quoted, guesses))}? {accepted}" if guesses else accepted
+
+
+def _plain(symbol: str) -> str:
+    """The symbol less what people write differently: case, blanks, dots, powers."""
+    return re.sub(r"[\s*^·⋅.]", "", unicodedata.normalize("NFKC", symbol)).casefold()
 
 
 def described(kind: Kind) -> str:

@@ -52,6 +52,7 @@ _KINDS = (
     _kind("quadratic resistance", "N s2/m2", ("N s2/m2", 1)),
     _kind("conductance", "m3/(s Pa)", ("m3/(s Pa)", 1), ("dm3/(s bar)", "1e-8")),
     _kind("volume", "m3", ("L", "0.001"), ("m3", 1), ("cm3", "1e-6")),
+    _kind("normal volume", "m3", ("NL", "0.001"), ("Nm3", 1)),
     _kind("area", "m2", ("m2", 1), ("cm2", "1e-4"), ("mm2", "1e-6")),
     _kind("temperature", "K", Unit("degC", Fraction(1), _CELSIUS_ZERO), ("K", 1)),
     _kind("acceleration", "m/s2", ("m/s2", 1), ("g", _STANDARD_GRAVITY)),
@@ -68,3 +69,26 @@ _KINDS = (
 
 KINDS: Final = MappingProxyType({kind.name: kind for kind in _KINDS})
 """Every kind of quantity by name."""
+
+SPELLINGS: Final = MappingProxyType(
+    {
+        "%": ("percent", "percentage", "pct"),
+        "permille": ("‰", "promille", "mm/m"),
+        "km/h": ("kmh", "kph", "kmph", "km/hr"),
+        "m/s": ("mps",),
+        "m/s2": ("m/s/s", "mps2", "ms-2", "m/sec2"),
+        "s": ("sec", "secs", "second", "seconds"),
+        "ms": ("msec", "millisecond", "milliseconds"),
+        "min": ("minute", "minutes", "mins"),
+        "m": ("metre", "metres", "meter", "meters"),
+        "kg": ("kgs", "kilogram", "kilograms"),
+        "t": ("ton", "tons", "tonne", "tonnes"),
+        "L": ("litre", "litres", "liter", "liters", "ltr", "dm3"),
+        "NL": ("normallitre", "normalliter", "Ndm3"),
+        "degC": ("C", "celsius", "°C"),
+        "bar": ("barg", "bar(g)", "bars"),
+        "N": ("newton", "newtons"),
+        "kN": ("kilonewton", "kilonewtons"),
+    }
+)
+"""What a unit is often called; named in the hint, never accepted: one way to write a thing is enough."""

@@ -7,9 +7,10 @@ from typing import Any, get_args
 from pydantic import TypeAdapter, ValidationError
 
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
+from uictest.scenario.hints import hint_for_item, hint_for_key, hint_for_list, hint_for_mapping, switched
 from uictest.scenario.model_keys import accepted_keys, fields_named
 from uictest.scenario.parts.model import Key
-from uictest.scenario.tree import Node, Scalar, describe, entry_at
+from uictest.scenario.tree import Node, Scalar, Sequence, describe, entry_at
 from uictest.scenario.wording import quoted, suggestion, visible
 
 
@@ -49,8 +50,22 @@ def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Dia
             key[:-1], f"missing key {quoted(str(key[-1]))}", _missing_hint(key, model), tree, prefix, key[-1:]
         )
     else:
-        message, hint = _worded(error, context, entry_at(tree, key)[0].node)
-        yield _at(key, message, hint, tree, prefix)
+        node = entry_at(tree, key)[0].node
+        message, hint = _worded(error, context, node)
+        place = (*prefix, *_written_key(key, tree))
+        yield _at(key, message, _hint_of_shape(error["type"], model, key, place, node) or hint, tree, prefix)
+
+
+def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) -> str:
+    """What to write where a mapping, a list or a single value is expected and something else stands."""
+    if kind in _MAPPINGS:
+        return hint_for_mapping(model, key, str(written[-1]) if written else "", node)
+    if kind == "tuple_type":
+        return hint_for_item(written, node)
+    varies = len(written) > len(key) or "matrix" in accepted_keys(model, ())
+    if isinstance(node, Sequence) and kind in _SINGLE and varies:
+        return hint_for_list(dotted(written), node)
+    return ""
 
 
 def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key = ()) -> Diagnostic:
@@ -63,7 +78,7 @@ def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key 
 def _unknown_key(key: Key, model: Any, tree: Node, prefix: Key) -> Diagnostic:
     entry, _ = entry_at(tree, key)
     name = str(key[-1])
-    hint = suggestion(name, accepted_keys(model, key[:-1]))
+    hint = hint_for_key(model, key, entry.node)
     if "." in name:
         hint = "dotted keys belong in matrix, zip, include, exclude and --set; write nested keys here"
     return diagnose(
@@ -120,6 +135,10 @@ def _worded(error: Any, context: dict[str, Any], found: Node) -> tuple[str, str]
         return f"{words} {context[name]} {'characters' if 'string' in kind else 'entries'}", ""
     if kind in _EXPECTED:
         hint = _quoting_hint(found) if kind == "string_type" else ""
+        if kind in ("bool_type", "bool_parsing") and isinstance(found, Scalar):
+            hint = _meant(found.text, ["true", "false"])
+        if kind == "int_type" and isinstance(found, Scalar) and found.text.isdecimal():
+            hint = f"write {found.text} without quotes"
         return f"expected {_EXPECTED[kind]}, found {describe(found)}{_value(found)}", hint
     return _first_lower(error["msg"]), ""
 
@@ -133,8 +152,13 @@ def _not_one_of(found: Node, choices: list[str]) -> tuple[str, str]:
 
 
 def _did_you_mean(text: str, choices: list[str]) -> str:
-    hint = suggestion(text, choices)
+    hint = _meant(text, choices) or suggestion(text, choices)
     return hint if hint.startswith("did") else ""
+
+
+def _meant(text: str, choices: list[str]) -> str:
+    choice = switched(text, choices)
+    return f"did you mean {quoted(choice)}?" if choice else ""
 
 
 def _choices(expected: str) -> list[str]:
@@ -175,11 +199,15 @@ _COUNTED = {
     "string_too_short": ("too short, at least", "min_length"),
     "string_too_long": ("too long, at most", "max_length"),
 }
+_MAPPINGS = frozenset({"dict_type", "model_type", "model_attributes_type"})
+_SINGLE = frozenset({"quantity", "literal_error", "string_type", "int_type"})
+"""Kinds of errors of fields that hold one value."""
 _EXPECTED = {
     "string_type": "a text",
     "int_type": "a whole number",
     "int_from_float": "a whole number",
     "bool_type": "true or false",
+    "bool_parsing": "true or false",
     "tuple_type": "a list",
     "dict_type": "a mapping",
     "model_type": "a mapping",

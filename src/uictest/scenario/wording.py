@@ -34,8 +34,14 @@ def nearest(text: str, valid: Iterable[str]) -> str | None:
         text[:QUOTED_LENGTH].lower(), [name.lower() for name in candidates], n=1, cutoff=0.6
     )
     if not matches:
-        return None
+        return longer_name(text, candidates)
     return next(name for name in candidates if name.lower() == matches[0])
+
+
+def longer_name(text: str, valid: Iterable[str]) -> str | None:
+    """The one valid name of which ``text`` is a whole word: `initial_speed` for `speed`."""
+    longer = [name for name in valid if text.lower() in name.lower().split("_")]
+    return longer[0] if len(longer) == 1 else None
 
 
 def suggestion(text: str, valid: Iterable[str]) -> str:

@@ -70,7 +70,7 @@ _OF_THE_STOP = {
         "pressure", "bar", "falls", "lowest gauge pressure of the reservoir"
     ),
     "air_consumed": Measure(
-        "volume", "NL", "grows", "air taken from the reservoir, normal volume (20 degC, 1 bar)"
+        "normal volume", "NL", "grows", "air taken from the reservoir, normal volume (20 degC, 1 bar)"
     ),
     "energy_residual": Measure(
         "share",
@@ -119,7 +119,7 @@ _OF_WHEELSETS = {
         "force", "kN", "grows", "largest clamping force of one caliper", of_wheelsets=True
     ),
     "air_vented": Measure(
-        "volume", "NL", "grows", "air vented, normal volume (20 degC, 1 bar)", of_wheelsets=True
+        "normal volume", "NL", "grows", "air vented, normal volume (20 degC, 1 bar)", of_wheelsets=True
     ),
 }
 
