@@ -44,6 +44,34 @@ def test_null_takes_back_what_the_parent_says(write: Write) -> None:
     assert cases[0].scenario.rail.friction is None
 
 
+CONDITIONS = [
+    "rail: {condition: dry}\n",
+    "rail: {condition: {extends: dry}}\n",
+    "rail: {condition: {extends: wet, friction: 0.12}}\n",
+]
+
+
+@pytest.mark.parametrize("more", CONDITIONS)
+def test_a_new_rail_condition_does_not_keep_the_parents_friction(write: Write, more: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        child(write, more)
+
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.line, found.key) == ("set/child.yaml", 4, "rail.condition")
+    assert "rail.friction stays '0.2' (set/parent.yaml:6)" in found.message
+    assert "null takes the friction of the condition" in found.hint
+
+
+def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write: Write) -> None:
+    same = child(write, "rail: {condition: wet, gradient: 5 permille}\n")[0].scenario.rail
+    own = child(write, "rail: {condition: dry, friction: null}\n")[0].scenario.rail
+    given = child(write, "rail: {condition: dry, friction: 0.2}\n")[0].scenario.rail
+
+    assert (same.condition.name, same.friction) == ("wet", 0.2)
+    assert (own.condition.name, own.highest_friction) == ("dry", 0.55)
+    assert (given.condition.name, given.friction) == ("dry", 0.2)
+
+
 def test_paths_start_at_the_file_that_says_them(write: Write) -> None:
     write("cars/heavy.yaml", "schema: uictest/vehicle/1\nextends: intercity-180\nbody: {mass: 40 t}\n")
     write("base/base.yaml", PARENT + "vehicle: ../cars/heavy.yaml\n")

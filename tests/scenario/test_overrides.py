@@ -134,3 +134,53 @@ def test_any_option_is_read_or_refused(argument: str) -> None:
         parse_overrides([argument], None)
     except ScenarioErrors as errors:
         assert errors.diagnostics
+
+
+WET = "rail: {condition: wet, friction: 0.09}\n"
+WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "override"),
+    [
+        (WET, "rail.condition=dry"),
+        (WET, "rail.condition=wet,dry"),
+        (WET, "rail.condition.friction=0.2"),
+        (WET_SWEPT, "rail.condition=dry"),
+        (WET_SWEPT, "rail.condition=wet,dry"),
+    ],
+)
+def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
+    refused: Callable[..., tuple[Diagnostic, ...]], head: str, more: str, override: str
+) -> None:
+    (found,) = refused(head + more, override)
+
+    assert (found.file, found.key) == ("--set", "rail.condition")
+    assert "rail.friction stays '0.09'" in found.message or "stays '[0.09, 0.1]'" in found.message
+
+
+def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(
+    refused: Callable[..., tuple[Diagnostic, ...]], head: str
+) -> None:
+    (found,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
+
+    assert (found.line, found.column, found.key) == (5, 32, "rail.condition")
+
+
+@pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])
+def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
+    loaded: Callable[..., list[Case]], head: str, more: str
+) -> None:
+    own = loaded(head + more, "rail.condition=dry", "rail.friction=null")
+    given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
+
+    assert [case.scenario.rail.highest_friction for case in own] == [0.55]
+    assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
+
+
+def test_other_numbers_of_a_rail_condition_may_change_alone(
+    loaded: Callable[..., list[Case]], head: str
+) -> None:
+    rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
+
+    assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)

@@ -153,7 +153,7 @@ def test_choices_of_one_label_are_two_where_they_are_written_differently(load: L
         folder.mkdir()
         (folder / "rail.yaml").write_text("schema: uictest/rail/1\nextends: wet\n")
     parameters = "{rail.condition: {choice: [here/rail.yaml, there/rail.yaml]}}"
-    assert load(f"sample: {{size: 4, parameters: {parameters}}}\n").size == 4
+    assert load(f"sample: {{size: 4, parameters: {parameters}}}\n", "rail.friction=null").size == 4
 
 
 @pytest.mark.parametrize("text", ["", "[1, 2]\n", "schema: uictest/sweep/2\nname: a\n", "name: a\n"])
@@ -242,8 +242,23 @@ def test_errors_inside_a_part_are_told_in_its_file(load: Load) -> None:
     load()
     Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
     with pytest.raises(ScenarioErrors) as caught:
-        load("grid: {rail.condition: [rail.yaml, wet]}\n")
+        load("grid: {rail.condition: [rail.yaml, wet]}\n", "rail.friction=null")
     assert {error.file for error in caught.value.diagnostics} == {"rail.yaml"}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "grid: {rail.condition: [dry, wet]}\n",
+        "grid: {rail.condition.friction: [0.2, 0.3]}\n",
+        "sample: {size: 4, parameters: {rail.condition: {choice: [dry, wet]}}}\n",
+        "sample: {size: 4, parameters: {rail.condition.friction: {uniform: [0.2, 0.3]}}}\n",
+    ],
+)
+def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load: Load, text: str) -> None:
+    with pytest.raises(ScenarioErrors, match=r"but rail\.friction stays '0\.1'"):
+        load(text)
+    assert load(text + "zip: {rail.friction: [null, 0.2]}\n").size % 2 == 0
 
 
 def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load: Load) -> None:

@@ -10,10 +10,17 @@ from uictest.scenario.wording import visible
 LONGEST_CHAIN: Final = 16
 
 
-def inherit(tree: Map, fetch: Callable[[Scalar], Map]) -> tuple[Map, tuple[Document, ...]]:
+def _accept(parent: Map, merged: Map) -> None:
+    """Accept whatever a child makes of its parent."""
+
+
+def inherit(
+    tree: Map, fetch: Callable[[Scalar], Map], check: Callable[[Map, Map], None] = _accept
+) -> tuple[Map, tuple[Document, ...]]:
     """Lay ``tree`` over its parent, its parent's parent and so on.
 
-    ``fetch`` reads the parent that a reference names. Returns the merged tree and the documents it came from,
+    ``fetch`` reads the parent that a reference names; ``check`` gets every parent, its own parents merged in,
+    and what its child makes of it. Returns the merged tree and the documents it came from,
     the child's first. Raises ScenarioErrors, for a circle at the reference that closes it.
     """
     generations = [tree]
@@ -25,7 +32,8 @@ def inherit(tree: Map, fetch: Callable[[Scalar], Map]) -> tuple[Map, tuple[Docum
     documents = tuple(each.place.document for each in generations)
     merged = generations.pop().without("extends")
     while generations:
-        merged = _laid_over(merged, generations.pop())
+        parent, merged = merged, _laid_over(merged, generations.pop())
+        check(parent, merged)
     return merged, documents
 
 

@@ -15,6 +15,7 @@ from uictest.scenario.inheritance import inherit
 from uictest.scenario.model import SCENARIO_SCHEMA
 from uictest.scenario.overrides import Override, apply_overrides, parse_overrides
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.scenario.reading import display_name
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
@@ -81,10 +82,14 @@ class _Loader:
     def _stem(self, path: Path, tree: Map) -> tuple[_Stem, list[Variant]]:
         _refuse_other_schema(tree)
         own_name = tree.entries.get("name")
-        merged, documents = inherit(tree, self._parent)
+        merged, documents = inherit(
+            tree, self._parent, lambda parent, child: self.found.extend(changed_alone(parent, child))
+        )
         # Every scenario has a name of its own: an inherited one would be there twice.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
-        merged = apply_overrides(with_default_parts(merged), self.overrides, _DOTTED_PART_KEYS)
+        merged = with_default_parts(merged)
+        self.found.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
+        merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
         base = merged.without(*SECTIONS)
         # Errors of the sweep do not hide those of its values: what is sound is looked through all the same.
         variants = expand_sound(merged, self.found)
@@ -110,14 +115,16 @@ class _Loader:
             inputs=_inputs((*stem.documents, *documents)),
         )
 
-    def _varied(self, tree: Map, variant: Variant) -> Map:
+    def _varied(self, base: Map, variant: Variant) -> Map:
         """The tree with the values of one case; what cannot be set is reported and left out."""
+        tree = base
         # From the outside in, so that a part is named before something inside it is changed.
         for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
             try:
                 tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
             except ScenarioErrors as errors:
                 self.found.extend(errors.diagnostics)
+        self.found.extend(changed_alone(base, tree))
         return tree
 
     def _claimed(self, identifier: str, stem: _Stem, variant: Variant) -> str:

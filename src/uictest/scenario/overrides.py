@@ -15,6 +15,8 @@ from uictest.scenario.tree import Sequence as List
 from uictest.scenario.wording import quoted
 
 MOST_VALUES: Final = 10_000
+COMMAND_LINE: Final = "--set"
+"""What a text of the option is called where files have their names."""
 
 _RANGE = re.compile(r"\s*range\((.*)\)\s*")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15}))\s*(.*?)\s*", re.DOTALL)
@@ -36,7 +38,7 @@ def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, .
     overrides: list[Override] = []
     for text in texts:
         try:
-            overrides.append(_parse(Document("--set", Path(), text)))
+            overrides.append(_parse(Document(COMMAND_LINE, Path(), text)))
         except ScenarioErrors as errors:
             found.extend(errors.diagnostics)
     if found:

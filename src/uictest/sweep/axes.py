@@ -12,6 +12,7 @@ from uictest.scenario.expansion import Setting
 from uictest.scenario.identifiers import value_label
 from uictest.scenario.parts.model import Model
 from uictest.scenario.physical import Physical
+from uictest.scenario.rail_friction import CONDITION
 from uictest.scenario.scalars import resolve as plain_scalar
 from uictest.scenario.tree import Document, Entry, Map, Node, Scalar, as_written, entry_at, plain
 from uictest.scenario.tree import Sequence as List
@@ -62,6 +63,14 @@ class Axes:
             return None
         keys = tuple(sample.parameters)
         return Sampled(keys, tuple(draws), sample.method, sample.cases, sample.size, sample.seed)
+
+    def refuse_conditions_alone(self, entries: Mapping[str, Entry]) -> None:
+        """Tell rail conditions beside which the friction of the scenario would stay."""
+        for key, entry in entries.items():
+            if key.startswith(CONDITION):
+                choice = entry.node.get("choice") if isinstance(entry.node, Map) else None
+                for node in _items(choice or entry.node):
+                    self.found.extend(self._base.changed_alone({key: Entry(entry.key, node)}))
 
     def _equally_long(self, columns: Sequence[_Column]) -> bool:
         first, _, items = columns[0]

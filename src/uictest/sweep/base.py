@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from uictest.scenario import Case, Scenario, load
 from uictest.scenario.assignment import with_value
-from uictest.scenario.diagnostics import refusal
+from uictest.scenario.diagnostics import Diagnostic, refusal
 from uictest.scenario.discovery import SWEEP_SUFFIXES
 from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand
 from uictest.scenario.inheritance import inherit
 from uictest.scenario.overrides import Override, apply_overrides
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.scenario.rail_friction import changed_alone
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
 from uictest.scenario.tree import Document, Entry, Map, Scalar
@@ -37,10 +38,17 @@ class Base:
 
         Raises ScenarioErrors as if the scenario's file had said so.
         """
+        return resolve(self._tree_with(settings), self.parts)
+
+    def changed_alone(self, settings: Mapping[str, Entry]) -> Iterator[Diagnostic]:
+        """Yield a change of the rail condition that leaves the friction. Raises ScenarioErrors."""
+        return changed_alone(self.tree, self._tree_with(settings))
+
+    def _tree_with(self, settings: Mapping[str, Entry]) -> Map:
         tree = self.tree
         for key in outside_in(settings):
             tree = with_value(tree, key, settings[key], DOTTED_PART_KEYS)
-        return resolve(tree, self.parts)
+        return tree
 
 
 def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Override]) -> Base:
