@@ -35,7 +35,7 @@ def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
     def make(outcome: str) -> Rig:
         rig = Rig(outcome)
         monkeypatch.setattr(uictest.rig, "simulate", rig.simulate)
-        monkeypatch.setattr(uictest.evaluation, "evaluate", rig.evaluate)
+        monkeypatch.setattr(uictest.evaluation, "evaluate_simulated", rig.evaluate)
         return rig
 
     return make

@@ -87,7 +87,7 @@ def test_switching_delay_is_cut_into_cycles_and_steps(rig: Any, delay: str, cycl
 
 def test_delay_longer_than_the_register_is_refused(rig: Any) -> None:
     too_long = f"brake.system.wsp_valve.switching_delay={(LONGEST_DELAY_CYCLES + 1) * 10} ms"
-    with pytest.raises(ValueError, match="switching_delay"):
+    with pytest.raises(ScenarioErrors, match="switching_delay"):
         rig.parameters(too_long)
 
 

@@ -262,6 +262,36 @@ PARTS: list[Row] = [
 
 IMPOSSIBLE: list[Row] = [
     (
+        "a body of 45 kg",
+        HEAD + "vehicle: {extends: intercity-180, body: {mass: 45 kg}}\n",
+        *(4, 48, "vehicle.body.mass", "at least 1 t", "at least 1 t and at most 200 t"),
+    ),
+    (
+        "a suspension of 1e-9 N/m",
+        HEAD + "vehicle: {extends: intercity-180, primary: {vertical_stiffness: 1e-9 N/m}}\n",
+        *(4, 65, "vehicle.primary.vertical_stiffness", "at least 1 kN/m", "1000 MN/m"),
+    ),
+    (
+        "springs too soft for their load",
+        HEAD + "vehicle: {extends: intercity-180, secondary: {vertical_stiffness: 20 kN/m}}\n",
+        *(4, 67, "vehicle.secondary.vertical_stiffness", "32.37 t swing at 0.25 Hz", "1.44 times"),
+    ),
+    (
+        "a brake for another car",
+        HEAD + "brake: {system: {extends: ep-disc, disc: {calipers_per_wheelset: 8, pad_friction: 1}}}\n",
+        *(4, 8, "brake", "slow this car of 45 t by", "mass of the vehicle"),
+    ),
+    (
+        "dampers that the step cannot follow",
+        HEAD + "vehicle: {extends: intercity-180, traction_link: {damping: 1e7 N s/m}}\n",
+        *(4, 10, "vehicle", "0.5 ms is too long for the longitudinal motion", "at most 0.259 ms"),
+    ),
+    (
+        "a valve slower than the rig remembers",
+        HEAD + "brake: {system: {extends: ep-disc, wsp_valve: {switching_delay: 250 ms}}}\n",
+        *(4, 65, "brake.system.wsp_valve.switching_delay", "too long", "25 cycles"),
+    ),
+    (
         "wheels overlap",
         HEAD + "vehicle: {extends: crh380a, bogie: {half_wheelbase: 0.4 m}}\n",
         *(4, 53, "vehicle.bogie.half_wheelbase", "overlap", ""),

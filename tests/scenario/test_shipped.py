@@ -1,5 +1,6 @@
 """The scenarios that come with the project."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -74,3 +75,38 @@ def test_the_change_of_friction_is_sudden(cases: dict[str, Case]) -> None:
     assert isinstance(friction, FrictionProfile)
     assert friction.interpolation == "steps"
     assert min(point.friction for point in friction.points) < 0.1 < friction.points[0].friction
+
+
+TRAM = """\
+  body: {mass: 6 t, pitch_inertia: 4e4 kg m2, height: 1.2 m}
+  bogie: {mass: 1500 kg, pitch_inertia: 500 kg m2, height: 0.4 m, half_wheelbase: 0.9 m}
+  half_pivot_distance: 3 m
+  wheelset: {mass: 600 kg, rotational_inertia: 25 kg m2, radius: 0.3 m}
+  primary: {longitudinal_stiffness: 3 MN/m, vertical_stiffness: 1 MN/m}
+  secondary: {longitudinal_stiffness: 100 kN/m, vertical_stiffness: 200 kN/m}
+"""
+LOCOMOTIVE = """\
+  body: {mass: 52 t, pitch_inertia: 1e6 kg m2, height: 1.8 m}
+  bogie: {mass: 8 t, pitch_inertia: 1e4 kg m2, height: 0.65 m, half_wheelbase: 1.5 m}
+  half_pivot_distance: 5 m
+  wheelset: {mass: 4 t, rotational_inertia: 600 kg m2, radius: 0.625 m}
+  primary: {longitudinal_stiffness: 60 MN/m, vertical_stiffness: 2 MN/m}
+  secondary: {longitudinal_stiffness: 300 kN/m, vertical_stiffness: 600 kN/m}
+  traction_link: {stiffness: 50 MN/m, damping: 200 kN s/m}
+"""
+EMPTY_WAGON = """\
+  body: {mass: 8 t, pitch_inertia: 1.2e5 kg m2, height: 1.2 m}
+  bogie: {mass: 2 t}
+  wheelset: {mass: 1200 kg, rotational_inertia: 100 kg m2, radius: 0.46 m}
+  primary: {longitudinal_stiffness: 100 MN/m, vertical_stiffness: 5 MN/m}
+  secondary: {longitudinal_stiffness: 10 MN/m, vertical_stiffness: 1 MN/m}
+"""
+
+
+@pytest.mark.parametrize("car", [TRAM, LOCOMOTIVE, EMPTY_WAGON], ids=["tram", "locomotive", "empty wagon"])
+def test_cars_from_trams_to_locomotives_are_plausible(
+    loaded: Callable[..., list[Case]], head: str, car: str
+) -> None:
+    (case,) = loaded(f"{head}vehicle:\n  extends: intercity-180\n{car}simulation: {{time_step: 1 ms}}\n")
+
+    assert case.scenario.vehicle.total_mass > 10_000.0

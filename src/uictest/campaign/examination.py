@@ -48,11 +48,11 @@ def examine(case: Case, wish: RecordingWish) -> Examined:
 
 
 def _examine(case: Case, wish: RecordingWish, started: float) -> Examined:
-    from uictest.evaluation import evaluate
+    from uictest.evaluation import evaluate_simulated
     from uictest.rig import simulate
 
     stop: Stop = simulate(case, record_every=wish.every if wish.cases == "all" else None)
-    result = evaluate(case, stop.measures, stop.wheelset_measures, perf_counter() - started)
+    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures, perf_counter() - started)
     if wish.cases == "failed" and not result.met:
         # A stop repeats itself exactly, so a recording can be taken once the case has proved worth one.
         stop = simulate(case, record_every=wish.every)

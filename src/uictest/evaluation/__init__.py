@@ -21,6 +21,7 @@ from uictest.evaluation.result import (
     WheelsetFigures,
     unit_of,
 )
+from uictest.evaluation.simulated import evaluate_simulated
 from uictest.evaluation.verdict import AppliedDefinition, Judgement, Layer, Sensitivity, Stretch, Verdict
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "WheelsetFigures",
     "error_result",
     "evaluate",
+    "evaluate_simulated",
     "judge",
     "narrowest_margin",
     "parts_document",

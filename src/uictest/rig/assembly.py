@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from uictest.controllers import ALGORITHMS
 from uictest.physics.caliper import stiffnesses
 from uictest.physics.flow import orifice_law
-from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
 from uictest.rig.cylinder_sampling import resampled
 from uictest.rig.records import PARAMETERS
 from uictest.scenario import Case, Scenario
@@ -30,9 +29,6 @@ def assemble(case: Case) -> tuple[Any, NDArray[np.float64]]:
     Returns:
         A record of :data:`~uictest.rig.records.PARAMETERS` and an array of shape (4, n): places in m,
         friction coefficients there, times in s, factors then.
-
-    Raises:
-        ValueError: when the switching delay of the valve is longer than the rig can remember.
     """
     scenario = case.scenario
     record = np.zeros(1, PARAMETERS)
@@ -156,11 +152,6 @@ def _delay(scenario: Scenario) -> tuple[int, int]:
     cycles, steps = divmod(
         round(float(scenario.brake.system.wsp_valve.switching_delay) / step), steps_per_cycle
     )
-    if cycles > LONGEST_DELAY_CYCLES:
-        raise ValueError(
-            f"brake.system.wsp_valve.switching_delay: at most {LONGEST_DELAY_CYCLES} controller cycles"
-            " can be remembered"
-        )
     return cycles, steps
 
 

@@ -46,7 +46,7 @@ class FactorPoint(Model):
     time: Annotated[Quantity, kind("time", at_least="0 s", at_most="3600 s")] = Field(
         description="Time since the brake command."
     )
-    factor: Annotated[Quantity, kind("number", above="0", at_most="10")] = Field(
+    factor: Annotated[Quantity, kind("number", at_least="0.001", at_most="10")] = Field(
         description="Factor on friction then."
     )
 

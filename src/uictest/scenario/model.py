@@ -6,7 +6,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from uictest.scenario.braking import stopping_time_at_least
+from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.scenario.braking import (
+    STANDARD_GRAVITY,
+    braking_force,
+    largest_clamping_force,
+    stopping_time_at_least,
+)
 from uictest.scenario.friction import FactorProfile, FrictionProfile
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
@@ -21,6 +27,7 @@ from uictest.scenario.parts.vehicle import Vehicle
 from uictest.scenario.physical import default, kind
 from uictest.scenario.quantities import DEFAULT_SOURCE, Quantity
 from uictest.scenario.reference_schema import PartReference
+from uictest.scenario.stability import longest_step
 from uictest.scenario.wording import quoted, suggestion
 
 SCENARIO_SCHEMA = "uictest/scenario/1"
@@ -40,7 +47,7 @@ class Brake(Model):
     system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
         description="The brake system: a library name, a relative path or an inline mapping."
     )
-    command: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
+    command: Annotated[Quantity, kind("share", at_least="1 %", at_most="100 %")] = Field(
         default=default("100 %", "share"), description="Share of the full service command."
     )
     position: str = Field(
@@ -208,11 +215,53 @@ class Scenario(Model):
             yield Contradiction(
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
+        yield from self._delay_too_long()
+        yield from self._step_too_long()
+        yield from self._brake_too_strong()
         shortest = stopping_time_at_least(
             self.initial_speed, self.rail.highest_friction, self.rail.gradient, self.vehicle
         )
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)
+
+    def _delay_too_long(self) -> Iterator[Contradiction]:
+        """Yield a switching delay of the valve that is longer than the rig remembers commands."""
+        delay, cycle = self.brake.system.wsp_valve.switching_delay, self.controller.cycle_time
+        step = self.simulation.time_step
+        if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
+            yield Contradiction(
+                ("brake", "system", "wsp_valve", "switching_delay"),
+                f"{delay.text} is too long for controller cycles of {cycle.text}",
+                f"less than {LONGEST_DELAY_CYCLES + 1} cycles are accepted",
+            )
+
+    def _step_too_long(self) -> Iterator[Contradiction]:
+        """Yield a step that cannot follow the car on its springs and dampers."""
+        longest, motion = longest_step(self.vehicle)
+        if self.simulation.time_step > longest:
+            step = self.simulation.time_step
+            yield Contradiction(
+                ("vehicle",) if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
+                f"a step of {step.text} is too long for {motion}: the simulation would be unstable",
+                f"check masses, stiffness and damping; with these simulation.time_step must be at most"
+                f" {longest * 1000.0:.3g} ms",
+            )
+
+    def _brake_too_strong(self) -> Iterator[Contradiction]:
+        """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
+        position = self.brake.system.positions.get(self.brake.position)
+        if position is None:
+            return  # refused by the brake itself
+        pressure = self.brake.command * position.maximum_pressure
+        force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
+        deceleration = braking_force(self.brake.system.disc, self.vehicle, force) / self.vehicle.total_mass
+        if deceleration > STANDARD_GRAVITY:
+            yield Contradiction(
+                ("brake",),
+                f"the brake would slow this car of {self.vehicle.total_mass / 1000.0:.4g} t by"
+                f" {deceleration:.3g} m/s2; no rail carries more than {STANDARD_GRAVITY:.3g} m/s2",
+                "compare disc, caliper, compensation_model and maximum_pressure with the mass of the vehicle",
+            )
 
     def _criteria_of_the_same_name(self) -> Iterator[Contradiction]:
         """Yield criteria whose verdicts could not be told apart since another profile has one of that id."""

@@ -6,7 +6,7 @@ from collections import namedtuple
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.evaluation import CaseResult, error_result, evaluate
+from uictest.evaluation import CaseResult, error_result, evaluate_simulated
 from uictest.measures import MEASURES, WHEELSET_MEASURES
 from uictest.sweep.assembling import Assembler, Block
 from uictest.sweep.simulating import Measures
@@ -29,6 +29,6 @@ def _result(assembler: Assembler, block: Block, place: int, stop: Any) -> CaseRe
         return error_result(case, block.refused[place])
     try:
         wheelsets = [_Wheelset(*wheelset) for wheelset in stop[1]]
-        return evaluate(case, _Stop(*stop[0]), wheelsets, explain=False)
+        return evaluate_simulated(case, _Stop(*stop[0]), wheelsets, explain=False)
     except Exception as error:  # one case that cannot be judged is a row, never the end of the sweep
         return error_result(case, f"{type(error).__name__}: {error}")

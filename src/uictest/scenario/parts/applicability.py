@@ -12,8 +12,10 @@ from uictest.scenario.quantities import Quantity
 class NominalSpeed(Model):
     """An initial speed with the tolerance within which a stop is judged, uncorrected."""
 
-    value: Annotated[Quantity, kind("speed", above="0 km/h")] = Field(description="Nominal initial speed.")
-    tolerance: Annotated[Quantity, kind("speed", at_least="0 km/h")] = Field(
+    value: Annotated[Quantity, kind("speed", above="0 km/h", at_most="600 km/h")] = Field(
+        description="Nominal initial speed."
+    )
+    tolerance: Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
         description="Largest deviation either way."
     )
 
@@ -24,7 +26,7 @@ class NominalShare(Model):
     value: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
         description="Nominal command."
     )
-    tolerance: Annotated[Quantity, kind("share", at_least="0 %")] = Field(
+    tolerance: Annotated[Quantity, kind("share", at_least="0 %", at_most="100 %")] = Field(
         description="Largest deviation either way."
     )
 
@@ -32,8 +34,10 @@ class NominalShare(Model):
 class NominalGradient(Model):
     """A gradient with its tolerance."""
 
-    value: Annotated[Quantity, kind("gradient")] = Field(description="Nominal gradient, positive uphill.")
-    tolerance: Annotated[Quantity, kind("gradient", at_least="0 permille")] = Field(
+    value: Annotated[Quantity, kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
+        description="Nominal gradient, positive uphill."
+    )
+    tolerance: Annotated[Quantity, kind("gradient", at_least="0 permille", at_most="120 permille")] = Field(
         description="Largest deviation either way."
     )
 

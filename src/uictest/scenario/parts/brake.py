@@ -9,17 +9,17 @@ from uictest.scenario.parts.model import Contradiction, Part, Section
 from uictest.scenario.physical import kind
 from uictest.scenario.quantities import Quantity
 
-GaugePressure = Annotated[Quantity, kind("pressure", above="0 bar", at_most="20 bar")]
-Volume = Annotated[Quantity, kind("volume", above="0 L", at_most="10 m3")]
-Conductance = Annotated[Quantity, kind("conductance", above="0 m3/(s Pa)", at_most="1e-4 m3/(s Pa)")]
-Ratio = Annotated[Quantity, kind("number", above="0", below="1")]
+GaugePressure = Annotated[Quantity, kind("pressure", at_least="0.1 bar", at_most="20 bar")]
+Volume = Annotated[Quantity, kind("volume", at_least="0.1 L", at_most="10 m3")]
+Conductance = Annotated[Quantity, kind("conductance", at_least="1e-11 m3/(s Pa)", at_most="1e-5 m3/(s Pa)")]
+Ratio = Annotated[Quantity, kind("number", at_least="0.01", below="1")]
 
 
 class Position(Section):
     """A brake position (P, R, G): how much pressure, how soon."""
 
     maximum_pressure: GaugePressure = Field(description="Tank pressure at full service command, gauge.")
-    fill_time: Annotated[Quantity, kind("time", above="0 s", at_most="60 s")] = Field(
+    fill_time: Annotated[Quantity, kind("time", at_least="1 ms", at_most="60 s")] = Field(
         description="Time in which the set pressure rises from zero to the maximum."
     )
     dead_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
@@ -48,7 +48,7 @@ class RelayValve(Section):
     """The relay valve of the brake operating unit, between reservoir and brake line."""
 
     conductance: Conductance = Field(description="Sonic conductance (ISO 6358) when fully open.")
-    proportional_band: Annotated[Quantity, kind("pressure", above="0 bar", at_most="5 bar")] = Field(
+    proportional_band: Annotated[Quantity, kind("pressure", at_least="0.001 bar", at_most="5 bar")] = Field(
         description="Deviation from the set pressure at which the valve is fully open."
     )
 
@@ -95,7 +95,7 @@ class CaliperTank(Section):
 class Disc(Section):
     """The disc brake of one wheelset."""
 
-    mean_radius: Annotated[Quantity, kind("length", above="0 m", at_most="1 m")] = Field(
+    mean_radius: Annotated[Quantity, kind("length", at_least="5 cm", at_most="1 m")] = Field(
         description="Radius at which the pads' friction acts."
     )
     calipers_per_wheelset: Annotated[Quantity, kind("count", at_least="1", at_most="8")] = Field(
@@ -104,7 +104,7 @@ class Disc(Section):
     pads_per_caliper: Annotated[Quantity, kind("count", at_least="1", at_most="4")] = Field(
         description="Friction faces per caliper."
     )
-    pad_friction: Annotated[Quantity, kind("number", above="0", at_most="1")] = Field(
+    pad_friction: Annotated[Quantity, kind("number", at_least="0.01", at_most="1")] = Field(
         description="Friction coefficient between pad and disc."
     )
 
@@ -118,9 +118,9 @@ class Air(Section):
     atmospheric_pressure: Annotated[Quantity, kind("pressure", at_least="0.5 bar", at_most="1.2 bar")] = (
         Field(description="Pressure of the surroundings, absolute.")
     )
-    gas_constant: Annotated[Quantity, kind("gas constant", above="0 J/(kg K)", at_most="1000 J/(kg K)")] = (
-        Field(description="Specific gas constant of air.")
-    )
+    gas_constant: Annotated[
+        Quantity, kind("gas constant", at_least="100 J/(kg K)", at_most="1000 J/(kg K)")
+    ] = Field(description="Specific gas constant of air.")
 
 
 class BrakeSystem(Part):

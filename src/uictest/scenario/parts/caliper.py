@@ -17,7 +17,7 @@ class Caliper(Part):
     schema_id: Literal["uictest/caliper/1"] = Field(
         default="uictest/caliper/1", alias="schema", description="What the file holds: uictest/caliper/1."
     )
-    piston_area: Annotated[Quantity, kind("area", above="0 m2", at_most="0.5 m2")] = Field(
+    piston_area: Annotated[Quantity, kind("area", at_least="1 cm2", at_most="0.5 m2")] = Field(
         description="Piston area."
     )
     preload: Annotated[Quantity, kind("force", at_least="0 N", at_most="20 kN")] = Field(
@@ -38,9 +38,9 @@ class Caliper(Part):
     clearance: Annotated[Quantity, kind("length", at_least="0 mm", at_most="50 mm")] = Field(
         description="Piston stroke until the pads touch the disc."
     )
-    contact_stiffness: Annotated[Quantity, kind("stiffness", above="0 N/m", at_most="1e10 N/m")] = Field(
+    contact_stiffness: Annotated[Quantity, kind("stiffness", at_least="1 kN/m", at_most="1e10 N/m")] = Field(
         description="Stiffness of lever, pads and disc once in contact, at the piston."
     )
-    lever_ratio: Annotated[Quantity, kind("number", above="0", at_most="20")] = Field(
+    lever_ratio: Annotated[Quantity, kind("number", at_least="0.01", at_most="20")] = Field(
         description="Clamping force over the net force at the piston."
     )

@@ -20,8 +20,8 @@ HIGHEST_PRESSURE: Final = 10e5
 class Line(Section):
     """Clamping force as a straight line over gauge pressure, where it is positive."""
 
-    slope: Annotated[Quantity, kind("force per pressure", above="0 kN/bar", at_most="1000 kN/bar")] = Field(
-        description="Force per pressure."
+    slope: Annotated[Quantity, kind("force per pressure", at_least="0.001 kN/bar", at_most="1000 kN/bar")] = (
+        Field(description="Force per pressure.")
     )
     intercept: Annotated[Quantity, kind("force", at_least="-100 kN", at_most="100 kN")] = Field(
         description="Force at zero gauge pressure; negative, because the spring must be overcome first."
@@ -111,7 +111,7 @@ class Compensation(Part):
         alias="schema",
         description="What the file holds: uictest/compensation/1.",
     )
-    sampling_time: Annotated[Quantity, kind("time", above="0 s", at_most="10 ms")] = Field(
+    sampling_time: Annotated[Quantity, kind("time", at_least="0.01 ms", at_most="10 ms")] = Field(
         description="Sampling time of the cylinder dynamics."
     )
     linear: Line = Field(description="Force over pressure without hysteresis, used by the setting 'none'.")

@@ -9,10 +9,10 @@ from uictest.scenario.parts.model import Contradiction, Part
 from uictest.scenario.physical import kind
 from uictest.scenario.quantities import Quantity
 
-Duration = Annotated[Quantity, kind("time", above="0 s", at_most="60 s")]
-Deceleration = Annotated[Quantity, kind("acceleration", above="0 m/s2", at_most="100 m/s2")]
+Duration = Annotated[Quantity, kind("time", at_least="1 ms", at_most="60 s")]
+Deceleration = Annotated[Quantity, kind("acceleration", at_least="0.001 m/s2", at_most="100 m/s2")]
 Slide = Annotated[Quantity, kind("share", at_least="0 %", at_most="100 %")]
-WalkingPace = Annotated[Quantity, kind("speed", above="0 km/h", at_most="100 km/h")]
+WalkingPace = Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 
 
 class ControllerPart(Part):
@@ -40,7 +40,7 @@ class ThresholdController(ControllerPart):
     """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
 
     algorithm: Literal["threshold"] = Field(description="The algorithm that reads these numbers.")
-    slip_threshold: Annotated[Quantity, kind("speed", above="0 m/s", at_most="100 km/h")] = Field(
+    slip_threshold: Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")] = Field(
         description="Slip speed from which a wheelset counts as sliding."
     )
     slide_threshold: Slide = Field(

@@ -8,7 +8,7 @@ from uictest.scenario.parts.model import Part
 from uictest.scenario.physical import kind
 from uictest.scenario.quantities import Quantity
 
-Speed = Annotated[Quantity, kind("speed", above="0 km/h", at_most="100 km/h")]
+Speed = Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 
 
 class MeasureDefinitions(Part):
@@ -19,7 +19,7 @@ class MeasureDefinitions(Part):
     schema_id: Literal["uictest/measures/1"] = Field(
         default="uictest/measures/1", alias="schema", description="What the file holds: uictest/measures/1."
     )
-    sliding_slide: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
+    sliding_slide: Annotated[Quantity, kind("share", at_least="0.001 %", at_most="100 %")] = Field(
         description="Relative slide from which a wheelset counts as sliding."
     )
     sliding_slip: Speed = Field(description="Slip speed that a sliding wheelset must have as well.")

@@ -10,8 +10,8 @@ from uictest.scenario.physical import kind
 from uictest.scenario.quantities import Quantity
 
 Friction = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
-Share = Annotated[Quantity, kind("number", above="0", at_most="1")]
-SemiAxis = Annotated[Quantity, kind("length", above="0 mm", at_most="50 mm")]
+Share = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
+SemiAxis = Annotated[Quantity, kind("length", at_least="0.1 mm", at_most="50 mm")]
 
 
 class Contact(Section):
@@ -22,10 +22,10 @@ class Contact(Section):
     shear_modulus: Annotated[Quantity, kind("pressure", at_least="1e9 Pa", at_most="1e12 Pa")] = Field(
         description="Shear modulus G of wheel and rail."
     )
-    kalker_coefficient: Annotated[Quantity, kind("number", above="0", at_most="20")] = Field(
+    kalker_coefficient: Annotated[Quantity, kind("number", at_least="0.1", at_most="20")] = Field(
         description="Kalker's longitudinal creepage coefficient c11."
     )
-    reference_wheel_load: Annotated[Quantity, kind("force", above="0 N", at_most="500 kN")] = Field(
+    reference_wheel_load: Annotated[Quantity, kind("force", at_least="0.1 kN", at_most="500 kN")] = Field(
         description="Wheel load at which the semi-axes hold."
     )
 

@@ -30,7 +30,7 @@ class SpeedSensor(Section):
 class PressureSensor(Section):
     """A pressure sensor of a tank or of the reservoir."""
 
-    range: Annotated[Quantity, kind("pressure", above="0 bar", at_most="100 bar")] = Field(
+    range: Annotated[Quantity, kind("pressure", at_least="0.1 bar", at_most="100 bar")] = Field(
         description="Highest gauge pressure it reads."
     )
     gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
@@ -48,7 +48,7 @@ class PressureSensor(Section):
 class Loadcell(Section):
     """One of the loadcells between pad and disc."""
 
-    range: Annotated[Quantity, kind("force", above="0 N", at_most="1000 kN")] = Field(
+    range: Annotated[Quantity, kind("force", at_least="0.1 kN", at_most="1000 kN")] = Field(
         description="Highest force it reads."
     )
     gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
