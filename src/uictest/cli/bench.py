@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +10,7 @@ import typer
 
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
+from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import data, message
 
@@ -44,6 +45,7 @@ def bench(
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the noise.")
     ] = None,
+    trusted: Trusted = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -67,7 +69,7 @@ def bench(
     if listed:
         data("\n".join(bench_loading.recipe_names()))
         return ExitCode.MET
-    test = _test(recipe, trace, pressure, command, overrides or (), seed)
+    test = _test(recipe, trace, pressure, command, overrides or (), seed, trusted or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     writer = _writer(target)
     announce_compilation(warm=is_warm(), quiet=quiet)
@@ -86,6 +88,7 @@ def _test(
     command: str | None,
     overrides: list[str] | tuple[()],
     seed: int | None,
+    trusted: Sequence[Path],
 ) -> BenchTest:
     from uictest.rig.bench_loading import load_bench, recipe_names, recipe_path, trace_recipe
     from uictest.scenario import ScenarioErrors
@@ -97,12 +100,12 @@ def _test(
         )
     try:
         if trace is not None:
-            return trace_recipe(trace, pressure, command, overrides, seed)
+            return trace_recipe(trace, pressure, command, overrides, seed, trusted)
         assert recipe is not None
         if not recipe_path(recipe).exists():
             hint = suggestion(recipe, recipe_names())
             raise InvalidInputError(f"uictest: no bench recipe {recipe!r}; {hint}")
-        return load_bench(recipe_path(recipe), overrides, seed)
+        return load_bench(recipe_path(recipe), overrides, seed, trusted)
     except ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 

@@ -31,12 +31,17 @@ def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
     return [DEFAULT_FOLDER]
 
 
-def load_cases(paths: Sequence[Path] | None, overrides: Sequence[str] | None, seed: int | None) -> list[Case]:
+def load_cases(
+    paths: Sequence[Path] | None,
+    overrides: Sequence[str] | None,
+    seed: int | None,
+    trusted: Sequence[Path] | None = None,
+) -> list[Case]:
     """Return all cases of the scenarios. Raises InvalidInputError with every diagnostic of every file."""
     from uictest.scenario import ScenarioErrors, load
 
     try:
-        return load(scenario_paths(paths), tuple(overrides or ()), seed)
+        return load(scenario_paths(paths), tuple(overrides or ()), seed, trusted or ())
     except ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 

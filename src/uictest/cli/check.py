@@ -11,7 +11,7 @@ import typer
 
 from uictest.cli.cases import scenario_paths
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import CheckFormat, Format, Paths, Verbosity
+from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.streams import data, message
 from uictest.cli.sweep_files import is_sweep, sweep_files
 from uictest.report import annotation, counted
@@ -24,6 +24,7 @@ _FIELDS = ("file", "line", "column", "key", "message", "hint")
 
 def check(
     paths: Paths = None,
+    trusted: Trusted = None,
     shown: CheckFormat = Format.TEXT,
     quiet: Annotated[
         bool, typer.Option("-q", "--quiet", help="Say nothing where there is no error.")
@@ -32,10 +33,10 @@ def check(
 ) -> ExitCode:
     """Validate scenario and sweep files and what they refer to. Every error is shown with its place."""
     given = scenario_paths(paths)
-    found, sound = _scenarios([path for path in given if not is_sweep(path)])
+    found, sound = _scenarios([path for path in given if not is_sweep(path)], trusted or ())
     sweeps = list(sweep_files(given))
     for path in sweeps:
-        found.extend(_errors_of_sweep(path))
+        found.extend(_errors_of_sweep(path, given, trusted or ()))
     if found:
         _show(found, shown)
         message(f"uictest: {counted(len(found), 'error')}")
@@ -48,24 +49,28 @@ def check(
     return ExitCode.MET
 
 
-def _scenarios(paths: Sequence[Path]) -> tuple[list[Diagnostic], str]:
+def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[Diagnostic], str]:
     """Return the errors of scenario files, and without any how many files and cases there are."""
     from uictest.scenario import ScenarioErrors, load
 
     try:
-        cases = load(paths)
+        cases = load(paths, trusted=trusted)
     except ScenarioErrors as errors:
         return list(errors.diagnostics), ""
     files = {case.path for case in cases}
     return [], f"{counted(len(files), 'scenario')} with {counted(len(cases), 'case')}"
 
 
-def _errors_of_sweep(path: Path) -> Sequence[Diagnostic]:
+def _errors_of_sweep(path: Path, given: Sequence[Path], trusted: Sequence[Path]) -> Sequence[Diagnostic]:
     from uictest.scenario import ScenarioErrors
+    from uictest.scenario.discovery import link_outside
+    from uictest.scenario.roots import Roots
     from uictest.sweep import drawn_ranges, load_sweep
 
+    if path not in given and not Roots.of(given, trusted).contain(path):
+        return (link_outside(path),)
     try:
-        plan = load_sweep(path)
+        plan = load_sweep(path, trusted=trusted)
     except ScenarioErrors as errors:
         return errors.diagnostics
     for each in drawn_ranges(plan):

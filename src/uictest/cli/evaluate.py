@@ -20,6 +20,7 @@ from uictest.cli.options import (
     Recorded,
     Recording,
     RunFormat,
+    Trusted,
     Verbosity,
 )
 from uictest.cli.problems import InvalidInputError
@@ -71,6 +72,7 @@ def evaluate(
     ] = None,
     wsp: Annotated[str | None, typer.Option("--wsp", metavar="STATE", help="active or bypassed.")] = None,
     overrides: Overrides = None,
+    trusted: Trusted = None,
     trigger: Trigger = None,
     trigger_lead: TriggerLead = None,
     raster: Raster = None,
@@ -91,14 +93,14 @@ def evaluate(
     state them by a scenario, or by options.
     """
     mapped, inputs = channel_map(
-        map_name, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
+        map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
     )
     if listing:
         return _list(files, mapped)
     chosen = f"[{', '.join(criteria)}]" if criteria else None
     given = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": chosen}
     statements = [*(f"{key}={text}" for key, text in given.items() if text is not None), *(overrides or ())]
-    stated = _stated(scenario, expression, statements)
+    stated = _stated(scenario, expression, statements, trusted)
 
     from uictest.campaign import RecordingWish, parts_of_recorded, with_parts
     from uictest.cli.display import chosen_display
@@ -127,11 +129,14 @@ def evaluate(
 
 
 def _stated(
-    scenario: Path | None, expression: str | None, statements: Sequence[str]
+    scenario: Path | None,
+    expression: str | None,
+    statements: Sequence[str],
+    trusted: Sequence[Path] | None,
 ) -> Callable[[str, float], Case]:
     """Return what makes a case of a recording. Raises InvalidInputError where too little is stated."""
     if scenario is not None:
-        base = one_case(scenario, expression, statements)
+        base = one_case(scenario, expression, statements, trusted)
         return lambda name, speed: base
     from uictest.measured import FACTS, stated_case
 
@@ -142,7 +147,7 @@ def _stated(
             "uictest: a recording does not say what was tested: state it with --scenario FILE, or with"
             f" {', '.join(missing)}"
         )
-    return lambda name, speed: stated_case(name, speed, statements)
+    return lambda name, speed: stated_case(name, speed, statements, trusted or ())
 
 
 def _checked(make: Callable[[], Case]) -> Case:

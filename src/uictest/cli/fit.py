@@ -12,7 +12,7 @@ import typer
 
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Expression, Overrides, Verbosity
+from uictest.cli.options import Expression, Overrides, Trusted, Verbosity
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.recordings import (
     LowPass,
@@ -47,6 +47,7 @@ def fit(
     ],
     expression: Expression = None,
     overrides: Overrides = None,
+    trusted: Trusted = None,
     breaks: Annotated[
         list[str] | None,
         typer.Option(
@@ -77,9 +78,9 @@ def fit(
     from uictest.rig import is_warm
 
     mapped, _ = channel_map(
-        map_name, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
+        map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
     )
-    case = one_case(scenario, expression, list(overrides or ()))
+    case = one_case(scenario, expression, list(overrides or ()), trusted)
     [stop] = each_file([file], lambda path: _stop(path, mapped))
     try:
         found = fit_stop(stop, case.scenario, _places(breaks or ()), with_pads=with_pads)
@@ -88,7 +89,9 @@ def fit(
     for line in _lines(found):
         data(line)
     announce_compilation(warm=is_warm())
-    place = _publish(context.obj.arguments, case, scenario, overrides or (), found, stop, output)
+    place = _publish(
+        context.obj.arguments, case, scenario, overrides or (), found, stop, output, trusted or ()
+    )
     for defect in stop.defects:
         message(f"uictest: {file}: {defect}")
     message(f"uictest: fitted scenario, overlay and numbers in {place}")
@@ -134,6 +137,7 @@ def _publish(
     found: Fit,
     stop: MeasuredStop,
     output: Path,
+    trusted: Sequence[Path],
 ) -> Path:
     """Write the fitted scenario, simulate it, and write how it compares; return the folder."""
     from uictest.fitting import agreement, fit_document, fitted_yaml, overlay, overlay_svg
@@ -149,7 +153,7 @@ def _publish(
             write_text_atomic(place, fitted_yaml(case, statements, found, scenario, folder.path))
         except ValueError as error:
             raise InvalidInputError(f"uictest: {error}") from error
-        simulated = _simulated(place)
+        simulated = _simulated(place, [scenario.parent, *trusted])
         both = overlay(stop, simulated)
         agreed = agreement(stop, simulated, both)
         writer_of("csv")(both, folder.path / "overlay.csv")
@@ -160,9 +164,9 @@ def _publish(
         return folder.publish()
 
 
-def _simulated(scenario: Path) -> Stop:
+def _simulated(scenario: Path, trusted: Sequence[Path]) -> Stop:
     from uictest.cli.cases import load_cases
     from uictest.rig import simulate
 
-    [fitted] = load_cases([scenario], None, None)
+    [fitted] = load_cases([scenario], None, None, trusted)
     return simulate(fitted, record_every=_RECORD_EVERY)

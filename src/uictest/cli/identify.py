@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
+from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.registration import command
 from uictest.cli.streams import data, message
@@ -59,6 +60,7 @@ def hysteresis(
     output: Output = None,
     base: Base = "six-inch",
     name: Name = "",
+    trusted: Trusted = None,
     pressure: Annotated[
         str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder's pressure.")
     ] = "cylinder_pressure_1",
@@ -90,7 +92,7 @@ def hysteresis(
     from uictest.identification.compensation_file import with_hysteresis
     from uictest.identification.phases import wsp_acting_from_commands, wsp_acting_in_intervals
 
-    kept = _base(base)
+    kept = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     given = [_interval(text) for text in intervals or ()]
     wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
@@ -123,6 +125,7 @@ def cylinder(
     output: Output = None,
     base: Base = "six-inch",
     name: Name = "",
+    trusted: Trusted = None,
     tank: Annotated[
         str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank's pressure.")
     ] = "measured_pressure_2",
@@ -145,7 +148,7 @@ def cylinder(
     from uictest.identification.channels import read_record
     from uictest.identification.compensation_file import with_cylinder
 
-    kept = _base(base)
+    kept = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     try:
         recorded = read_record(_existing(record), {"input": tank, "output": cylinder})
@@ -181,13 +184,13 @@ def _interval(text: str) -> tuple[float, float]:
     return begin, end
 
 
-def _base(reference: str) -> Compensation:
+def _base(reference: str, trusted: Sequence[Path]) -> Compensation:
     """The compensation that keeps its other numbers: of the library, or a file."""
     from uictest.identification.compensation_base import load_compensation
     from uictest.scenario import ScenarioErrors
 
     try:
-        return load_compensation(reference)
+        return load_compensation(reference, trusted)
     except ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 

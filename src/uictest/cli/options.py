@@ -90,6 +90,17 @@ Overrides = Annotated[
 Seed = Annotated[
     int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise in every case.")
 ]
+Trusted = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--trust",
+        metavar="DIR",
+        exists=True,
+        file_okay=False,
+        help="Folder that references may lead into, besides those of the files given and the working folder."
+        " May be repeated.",
+    ),
+]
 Verbosity = Annotated[
     int,
     typer.Option(

@@ -46,13 +46,15 @@ _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _LONGEST_NAME = 80
 
 
-def channel_map(reference: str, **choices: str | None) -> tuple[ChannelMap, dict[str, str]]:
+def channel_map(
+    reference: str, trusted: Sequence[Path] | None, **choices: str | None
+) -> tuple[ChannelMap, dict[str, str]]:
     """Return a channel map, changed by options, and the files read for it. Raises InvalidInputError."""
     from uictest.measured import load_map, presets
     from uictest.scenario import ScenarioErrors
 
     try:
-        loaded, inputs = load_map(reference)
+        loaded, inputs = load_map(reference, trusted or ())
     except KeyError:
         known = ", ".join(presets())
         raise InvalidInputError(
@@ -78,11 +80,13 @@ def _changed(preparation: Any, choices: dict[str, str | None]) -> Any:
         raise typer.BadParameter(str(first["msg"]), param_hint=option) from error
 
 
-def one_case(scenario: Path, expression: str | None, overrides: Sequence[str]) -> Case:
+def one_case(
+    scenario: Path, expression: str | None, overrides: Sequence[str], trusted: Sequence[Path] | None
+) -> Case:
     """Return the one case of a scenario file. Raises InvalidInputError where there are several or none."""
     from uictest.cli.cases import load_cases, select_cases
 
-    cases = select_cases(load_cases([scenario], overrides, None), expression, None)
+    cases = select_cases(load_cases([scenario], overrides, None, trusted), expression, None)
     if len(cases) != 1:
         listed = ", ".join(case.id for case in cases[:8]) or "none is selected"
         raise InvalidInputError(

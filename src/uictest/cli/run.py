@@ -36,6 +36,7 @@ from uictest.cli.options import (
     Seed,
     Tag,
     ToleranceTexts,
+    Trusted,
     Verbosity,
     junit_file,
     report_formats,
@@ -56,6 +57,7 @@ def run(
     last_failed: Annotated[bool, typer.Option("--lf", help="Cases that failed in the newest run.")] = False,
     overrides: Overrides = None,
     seed: Seed = None,
+    trusted: Trusted = None,
     exit_first: Annotated[bool, typer.Option("-x", help="Stop at the first case that is not met.")] = False,
     maxfail: Annotated[
         int | None,
@@ -95,7 +97,7 @@ def run(
     tolerances = tolerances_of(tolerance)
     if accept and baseline is None:
         raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")
-    cases = load_cases(paths, overrides, seed)
+    cases = load_cases(paths, overrides, seed, trusted)
     selected = select_cases(cases, expression, tag)
     if last_failed:
         from uictest.cli.last_failed import failed_last

@@ -20,6 +20,7 @@ from uictest.cli.options import (
     Quiet,
     Reports,
     Seed,
+    Trusted,
     Verbosity,
     junit_file,
     report_formats,
@@ -94,6 +95,7 @@ def sweep(
     expression: Expression = None,
     overrides: Overrides = None,
     seed: Seed = None,
+    trusted: Trusted = None,
     exit_first: Annotated[bool, typer.Option("-x", help="Stop once a case is not met.")] = False,
     maxfail: Annotated[
         int | None, typer.Option("--maxfail", metavar="N", min=1, help="Stop once N cases are not met.")
@@ -136,7 +138,7 @@ def sweep(
 ) -> ExitCode:
     """Run a sweep. Interrupted, it goes on where it was when the same command is given again."""
     wanted = report_formats(formats, "--report")
-    selection = selected_cases(load_plan(file, overrides, seed), expression, device)
+    selection = selected_cases(load_plan(file, overrides, seed, trusted), expression, device)
     if selection.size == 0:
         message(f"uictest: nothing selected among {counted(selection.plan.size, 'case')}")
         return ExitCode.NOTHING_SELECTED
@@ -231,13 +233,15 @@ def _share_words(run: SweepRun) -> str:
     return f"{share} has no cases: they are dealt in {counted(parts, 'part')}"
 
 
-def load_plan(file: Path, overrides: Sequence[str] | None, seed: int | None) -> Plan:
+def load_plan(
+    file: Path, overrides: Sequence[str] | None, seed: int | None, trusted: Sequence[Path] | None = None
+) -> Plan:
     """Return the plan of a sweep file. Raises InvalidInputError with every diagnostic."""
     from uictest.scenario import ScenarioErrors
     from uictest.sweep import load_sweep
 
     try:
-        return load_sweep(file, tuple(overrides or ()), seed)
+        return load_sweep(file, tuple(overrides or ()), seed, trusted or ())
     except ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
@@ -17,6 +17,8 @@ from uictest.scenario.diagnostics import refusal
 from uictest.scenario.inheritance import inherit
 from uictest.scenario.parts.model import Contradiction, Model
 from uictest.scenario.reading import read_file
+from uictest.scenario.references import Files, is_path
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Map, Scalar, plain
 from uictest.scenario.validation import validated
 from uictest.scenario.wording import quoted, suggestion
@@ -109,10 +111,11 @@ def presets() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _PRESETS.glob("*.yaml")))
 
 
-def load_map(reference: str) -> tuple[ChannelMap, dict[str, str]]:
+def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, dict[str, str]]:
     """Return the map that a preset's name or the path of a file stands for, and the files read for it.
 
-    Files are given with their SHA-256. Raises ScenarioErrors with every error, each at its place, KeyError
+    Files are given with their SHA-256. Parents stay at or below the folder of the map, the working folder and
+    the `trusted` folders. Raises ScenarioErrors with every error, each at its place, KeyError
     for a name that is neither.
     """
     if reference in presets():
@@ -121,7 +124,8 @@ def load_map(reference: str) -> tuple[ChannelMap, dict[str, str]]:
         tree = read_file(Path(reference))
     else:
         raise KeyError(reference)
-    merged, documents = inherit(tree, _parent)
+    files = Files(Roots.of([Path(reference)], trusted))
+    merged, documents = inherit(tree, lambda parent: _parent(parent, files))
     loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
     inputs = {
         each.display
@@ -132,14 +136,13 @@ def load_map(reference: str) -> tuple[ChannelMap, dict[str, str]]:
     return loaded, inputs
 
 
-def _parent(reference: Scalar) -> Map:
+def _parent(reference: Scalar, files: Files) -> Map:
     if reference.text in presets():
         return read_file(_PRESETS / f"{reference.text}.yaml")
-    path = reference.place.document.folder / reference.text
-    if not reference.text.endswith((".yaml", ".yml")) or not path.is_file():
+    if not is_path(reference.text):
         hint = suggestion(reference.text, presets())
         raise refusal(reference.place, f"no channel map {quoted(reference.text)}", "extends", hint)
-    return read_file(path)
+    return files.beside(reference, "extends")
 
 
 def _numbered(source: Source, number: int) -> Source:

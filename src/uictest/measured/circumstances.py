@@ -16,6 +16,7 @@ from uictest.scenario.parsing import parse
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Map
 from uictest.scenario.validation import dotted
 
@@ -23,8 +24,12 @@ FACTS: Final = ("rail.condition", "brake.position", "rig.wsp", "criteria")
 """Keys of a scenario that must be stated for a recording that has none."""
 
 
-def stated_case(name: str, initial_speed: float, statements: Sequence[str]) -> Case:
+def stated_case(
+    name: str, initial_speed: float, statements: Sequence[str], trusted: Sequence[Path] = ()
+) -> Case:
     """Return the case that `key=value` statements make of a stop from `initial_speed` (m/s).
+
+    References stay at or below the files stated, the working folder and the `trusted` folders.
 
     Raises ScenarioErrors where a statement is no key of a scenario, or not acceptable.
     """
@@ -37,6 +42,6 @@ def stated_case(name: str, initial_speed: float, statements: Sequence[str]) -> C
     for section in SECTIONS:
         if (entry := tree.entries.get(section)) is not None:
             raise refusal(entry.key, "a recording is one stop: several values make no sense", section)
-    scenario, documents = resolve(tree, Parts(Files()))
+    scenario, documents = resolve(tree, Parts(Files(Roots.of((), trusted))))
     inputs = {each.display: each.sha256 for each in documents if each.sha256}
     return Case(name, scenario, Path(document.display), {}, inputs)

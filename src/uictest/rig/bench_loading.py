@@ -40,7 +40,8 @@ from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.reading import nowhere, read_file
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
-from uictest.scenario.tree import Entry, Map, Scalar, plain
+from uictest.scenario.roots import Roots
+from uictest.scenario.tree import Entry, Map, Scalar, entry_at, plain
 from uictest.scenario.validation import dotted, validated
 
 _FOLDER = Path(library.__file__).parent / "benches"
@@ -66,19 +67,33 @@ def recipe_path(reference: str) -> Path:
     return Path(reference) if reference.endswith((".yaml", ".yml")) else _FOLDER / f"{reference}.yaml"
 
 
-def load_bench(path: Path, overrides: Sequence[str] = (), seed: int | None = None) -> BenchTest:
+def load_bench(
+    path: Path, overrides: Sequence[str] = (), seed: int | None = None, trusted: Sequence[Path] = ()
+) -> BenchTest:
     """Read and check a recipe. ``overrides`` are ``key=value`` texts for its ``stop``.
+
+    References stay at or below the recipe's folder, the working folder and the ``trusted`` folders.
 
     Raises ScenarioErrors with every error found.
     """
     tree = read_file(path)
     recipe: BenchRecipe = validated(BenchRecipe, plain(tree), tree)
     stop = _scenario_tree(tree, recipe, overrides, seed)
-    scenario, documents = resolve(stop, Parts(Files()))
+    files = Files(Roots.of([path], trusted))
+    _refuse_traces_outside(tree, recipe, files)
+    scenario, documents = resolve(stop, Parts(files))
     shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.place.document.display
     inputs = {shown: tree.place.document.sha256}
     inputs |= {each.display: each.sha256 for each in documents if each.sha256}
     return BenchTest(recipe, Case(recipe.name, scenario, path, {}, inputs), path.parent)
+
+
+def _refuse_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None:
+    for number, given in enumerate(recipe.inputs):
+        if isinstance(given, Trace):
+            node = entry_at(tree, ("inputs", number, "file"))[0].node
+            assert isinstance(node, Scalar)
+            files.path_of(node, f"inputs.{number}.file")
 
 
 def run_test(test: BenchTest) -> Recording:
@@ -165,7 +180,12 @@ def _traced(given: Trace, folder: Path, clock: Clock) -> BenchInput:
 
 
 def trace_recipe(
-    file: Path, pressure: str, command: str | None, overrides: Sequence[str] = (), seed: int | None = None
+    file: Path,
+    pressure: str,
+    command: str | None,
+    overrides: Sequence[str] = (),
+    seed: int | None = None,
+    trusted: Sequence[Path] = (),
 ) -> BenchTest:
     """A recipe made of one recording, on the library's rig. Raises ScenarioErrors for wrong overrides."""
     place = nowhere(file)
@@ -174,6 +194,7 @@ def trace_recipe(
         name="trace",
         inputs=(Trace(kind="trace", file=file.name, pressure=pressure, command=command),),
     )
-    scenario, documents = resolve(_scenario_tree(Map({}, place), recipe, overrides, seed), Parts(Files()))
+    tree = _scenario_tree(Map({}, place), recipe, overrides, seed)
+    scenario, documents = resolve(tree, Parts(Files(Roots.of([file], trusted))))
     inputs = {each.display: each.sha256 for each in documents if each.sha256}
     return BenchTest(recipe, Case("trace", scenario, file, {}, inputs), file.parent)

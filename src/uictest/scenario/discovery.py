@@ -5,9 +5,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors
+from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
 from uictest.scenario.reading import nowhere, refuse_unreadable
-from uictest.scenario.references import KIND_OF_FOLDER, Files
+from uictest.scenario.references import KIND_OF_FOLDER, Files, trust_hint
 from uictest.scenario.tree import Map, Scalar
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
@@ -30,6 +30,9 @@ def scenario_trees(
         if key in seen:
             continue
         seen.add(key)
+        if not named and not files.roots.contain(path):
+            found.append(link_outside(path))
+            continue
         try:
             tree = files.at(path)
         except ScenarioErrors as errors:
@@ -39,6 +42,11 @@ def scenario_trees(
             tree = errors.salvaged
         if named or not _is_of_other_kind(tree):
             yield path, tree
+
+
+def link_outside(path: Path) -> Diagnostic:
+    """What to say of a file in a given folder that is a link to somewhere else: it is not read."""
+    return diagnose(nowhere(path), "a link that leads out of the folders given", hint=trust_hint(path))
 
 
 def _candidates(paths: Sequence[Path], found: list[Diagnostic]) -> Iterator[tuple[Path, bool]]:

@@ -19,6 +19,7 @@ from uictest.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.scenario.reading import display_name
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Map, Node, Scalar, as_written, describe
 from uictest.scenario.validation import dotted
 from uictest.scenario.wording import quoted
@@ -26,15 +27,21 @@ from uictest.scenario.wording import quoted
 _DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
 
-def load(paths: Sequence[Path], overrides: Sequence[str] = (), seed: int | None = None) -> list[Case]:
+def load(
+    paths: Sequence[Path],
+    overrides: Sequence[str] = (),
+    seed: int | None = None,
+    trusted: Sequence[Path] = (),
+) -> list[Case]:
     """The cases of every scenario file at or below ``paths``.
 
     ``overrides`` are ``key=value`` texts; comma lists and ``range(first,last,step)`` become axes of the
-    matrix. ``seed`` takes the place of every scenario's own. Raises ScenarioErrors with all errors of all
+    matrix. ``seed`` takes the place of every scenario's own. References stay at or below the folders of
+    ``paths``, the working folder and the ``trusted`` folders. Raises ScenarioErrors with all errors of all
     files.
     """
     parsed = parse_overrides(overrides, seed)
-    loader = _Loader(Files(), parsed)
+    loader = _Loader(Files(Roots.of(paths, trusted)), parsed)
     cases = [
         case
         for path, tree in scenario_trees(paths, loader.files, loader.found)

@@ -10,13 +10,11 @@ from typing import Final
 from uictest.scenario.assignment import with_value
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, refusal
 from uictest.scenario.parsing import parse
-from uictest.scenario.tree import Document, Entry, Map, Node, Place, Scalar
+from uictest.scenario.tree import COMMAND_LINE, Document, Entry, Map, Node, Place, Scalar
 from uictest.scenario.tree import Sequence as List
 from uictest.scenario.wording import quoted
 
 MOST_VALUES: Final = 10_000
-COMMAND_LINE: Final = "--set"
-"""What a text of the option is called where files have their names."""
 
 _RANGE = re.compile(r"\s*range\((.*)\)\s*")
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15}))\s*(.*?)\s*", re.DOTALL)

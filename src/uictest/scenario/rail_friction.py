@@ -6,9 +6,9 @@ from typing import Final
 from uictest.scenario.assignment import with_value
 from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
 from uictest.scenario.expansion import SECTIONS
-from uictest.scenario.overrides import COMMAND_LINE, Override
+from uictest.scenario.overrides import Override
 from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.tree import Entry, Map, Node, Scalar, as_written
+from uictest.scenario.tree import COMMAND_LINE, Entry, Map, Node, Scalar, as_written
 from uictest.scenario.tree import Sequence as List
 from uictest.scenario.wording import quoted, visible
 

@@ -12,9 +12,10 @@ from uictest.scenario.inheritance import inherit
 from uictest.scenario.model_keys import models_in
 from uictest.scenario.parts.model import Key
 from uictest.scenario.reading import LIBRARY, is_file, read_file, read_library
-from uictest.scenario.tree import Document, Map, Node, Scalar, describe, plain
+from uictest.scenario.roots import Roots, real
+from uictest.scenario.tree import COMMAND_LINE, Document, Map, Node, Scalar, describe, plain
 from uictest.scenario.validation import validated
-from uictest.scenario.wording import nearest, quoted, suggestion
+from uictest.scenario.wording import nearest, quoted, suggestion, visible
 
 KIND_OF_FOLDER: Final = {
     "brakes": "brake",
@@ -40,8 +41,9 @@ class Resolved:
 class Files:
     """Every file that is read in one go, read once."""
 
-    def __init__(self) -> None:
+    def __init__(self, roots: Roots | None = None) -> None:
         self._trees: dict[str, Map] = {}
+        self.roots = Roots.of(()) if roots is None else roots
 
     def at(self, path: Path) -> Map:
         """The tree of the file at ``path``."""
@@ -53,19 +55,42 @@ class Files:
 
     def beside(self, reference: Scalar, key: str) -> Map:
         """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
+        path = self.path_of(reference, key)
+        if not is_file(path):
+            raise refusal(
+                reference.place, f"no such file: {quoted(reference.text)}", key, _nearest_file(path)
+            )
+        return self.at(path)
+
+    def path_of(self, reference: Scalar, key: str) -> Path:
+        """The path that a relative path names, looked at no further than whether it may be read.
+
+        Raises ScenarioErrors at a reference that leads out of the roots, itself or by a link. What stands on
+        the command line names a file like any other argument, and its folder becomes a root.
+        """
         name = reference.text
         if Path(name).is_absolute() or PureWindowsPath(name).is_absolute():
             hint = "write it relative to the file that names it, so that it holds on every machine"
             raise refusal(reference.place, f"{quoted(name)} is an absolute path", key, hint)
-        path = reference.place.document.folder / name
-        if not is_file(path):
-            raise refusal(reference.place, f"no such file: {quoted(name)}", key, _nearest_file(path))
-        return self.at(path)
+        folder = reference.place.document.folder
+        path = folder / name
+        if reference.place.document.display == COMMAND_LINE:
+            self.roots = self.roots.with_folder(path.parent)
+        elif not self.roots.contain(path):
+            message = f"{quoted(name)} leads out of {visible(str(self.roots.around(folder)))}"
+            raise refusal(reference.place, message, key, trust_hint(path))
+        return path
 
     def _once(self, name: str, read: Callable[[], Map]) -> Map:
         if name not in self._trees:
             self._trees[name] = read()
         return self._trees[name]
+
+
+def trust_hint(path: Path) -> str:
+    """What to do about a file outside the roots."""
+    folder = visible(str(real(path).parent))
+    return f"allowed are the folders of the files given and the working folder; --trust {folder} allows it"
 
 
 def _nearest_file(path: Path) -> str:

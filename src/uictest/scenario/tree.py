@@ -5,7 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
+
+COMMAND_LINE: Final = "--set"
+"""What a text of that option is called where files have their names."""
 
 # libyaml counts these as line breaks, so excerpts must too.
 _LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")

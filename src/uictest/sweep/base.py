@@ -17,6 +17,7 @@ from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.rail_friction import changed_alone
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Entry, Map, Scalar
 from uictest.scenario.validation import dotted
 from uictest.scenario.wording import quoted, suggestion
@@ -51,19 +52,19 @@ class Base:
         return tree
 
 
-def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Override]) -> Base:
+def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Override], roots: Roots) -> Base:
     """Return the case that the file named by `reference` holds, or the `wanted` one of several.
 
-    `overrides` have one value each. Raises ScenarioErrors.
+    `overrides` have one value each; `roots` are where references may lead. Raises ScenarioErrors.
     """
-    files = Files()
+    files = Files(roots)
     if reference.text.endswith(SWEEP_SUFFIXES):
         raise refusal(reference.place, f"{quoted(reference.text)} is a sweep, not a scenario", "scenario")
     own = files.beside(reference, "scenario")
     texts = [each.place.document.text for each in overrides if each.place.document.display == "--set"]
     seed = next((each.values[0] for each in overrides if each.place.document.display == "--seed"), None)
     given = int(seed.text) if isinstance(seed, Scalar) else None
-    cases = load([reference.place.document.folder / reference.text], texts, given)
+    cases = load([reference.place.document.folder / reference.text], texts, given, roots.folders)
     place = _wanted(cases, wanted, reference)
     merged, _ = inherit(own, lambda parent: files.beside(parent, "extends"))
     merged = merged.with_entry("name", own.entries["name"])

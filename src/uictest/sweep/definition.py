@@ -14,6 +14,7 @@ from uictest.scenario.identifiers import LONGEST, short_keys
 from uictest.scenario.overrides import Override, parse_overrides
 from uictest.scenario.rail_friction import FRICTION
 from uictest.scenario.reading import display_name, read_file
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Entry, Map, Node, Scalar, describe, plain
 from uictest.scenario.tree import Sequence as List
 from uictest.scenario.validation import validated
@@ -29,7 +30,9 @@ SAMPLE_NAME: Final = "sample"
 """What case ids call the number of a drawn point."""
 
 
-def load_sweep(path: Path, overrides: Sequence[str] = (), seed: int | None = None) -> Plan:
+def load_sweep(
+    path: Path, overrides: Sequence[str] = (), seed: int | None = None, trusted: Sequence[Path] = ()
+) -> Plan:
     """Return the plan of a sweep file.
 
     Args:
@@ -37,6 +40,7 @@ def load_sweep(path: Path, overrides: Sequence[str] = (), seed: int | None = Non
         overrides: ``key=value`` texts. One value fixes a key of the scenario, swept or not; a comma list or
             ``range(first,last,step)`` sweeps it instead of what the file says.
         seed: of the sensors' noise in every case.
+        trusted: folders that references may lead into, besides that of the file and the working folder.
 
     Raises:
         ScenarioErrors: with all errors of the file, or of the scenario that it names.
@@ -48,7 +52,8 @@ def load_sweep(path: Path, overrides: Sequence[str] = (), seed: int | None = Non
     file: SweepFile = validated(SweepFile, plain(tree), tree)
     tree = _without_keys(tree, {each.key for each in parsed})
     fixed = [each for each in parsed if len(each.values) == 1]
-    base = read_base(_scalar(tree, "scenario"), _optional(tree, "case"), fixed)
+    roots = Roots.of([path], trusted)
+    base = read_base(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
     reader = _Reader(base, tree, file)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
     return Plan(

@@ -1,0 +1,86 @@
+"""`--trust`: folders that references may lead into."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+HEAD = "schema: uictest/scenario/1\nname: stop\n"
+SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
+
+
+@pytest.fixture
+def inside(workplace: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder whose scenario extends one in a folder beside it."""
+    for name in ("inside", "beside"):
+        (workplace / name).mkdir()
+    (workplace / "beside" / "base.yaml").write_text(HEAD + "initial_speed: 30 km/h\n")
+    (workplace / "inside" / "stop.yaml").write_text(HEAD + "extends: ../beside/base.yaml\n")
+    (workplace / "inside" / "s.sweep.yaml").write_text(SWEEP)
+    monkeypatch.chdir(workplace / "inside")
+    return workplace / "inside"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["check", "stop.yaml"],
+        ["check", "s.sweep.yaml"],
+        ["check", "."],
+        ["list", "stop.yaml"],
+        ["list", "s.sweep.yaml"],
+        ["run", "stop.yaml", "--dry-run"],
+        ["sweep", "s.sweep.yaml", "--dry-run"],
+    ],
+    ids=" ".join,
+)
+def test_a_reference_out_of_the_folders_given_needs_trust(
+    call: Call, inside: Path, command: list[str]
+) -> None:
+    refused = call(*command)
+    assert refused.code == 4
+    assert f"'../beside/base.yaml' leads out of {inside}" in refused.err
+    assert f"--trust {inside.parent / 'beside'} allows it" in refused.err
+    assert call(*command, "--trust", "../beside").code == 0
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["check"],
+        ["list"],
+        ["run"],
+        ["sweep", "s.sweep.yaml"],
+        ["evaluate", "stop.csv"],
+        ["fit", "stop.csv", "--scenario", "stop.yaml"],
+        ["bench", "triangular"],
+        ["identify", "hysteresis", "stop.csv"],
+        ["identify", "cylinder", "stop.csv"],
+    ],
+    ids=" ".join,
+)
+def test_every_command_that_reads_scenarios_takes_folders_to_trust(
+    call: Call, inside: Path, command: list[str]
+) -> None:
+    answer = call(*command, "--trust", "missing")
+
+    assert answer.code == 4
+    assert "'--trust'" in answer.err
+    assert "missing" in answer.err
+
+
+def test_a_sweep_below_a_folder_that_is_a_link_out_of_it_is_not_read(call: Call, inside: Path) -> None:
+    secret = inside.parent / "beside" / "secret.txt"
+    secret.write_text("top secret\n")
+    Path("sub").mkdir()
+    Path("sub/x.sweep.yaml").symlink_to(secret)
+
+    answer = call("check", "sub")
+
+    assert answer.code == 4
+    assert "sub/x.sweep.yaml:1:1: a link that leads out of the folders given" in answer.err
+    assert "top secret" not in answer.err

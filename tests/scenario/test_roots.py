@@ -1,0 +1,161 @@
+"""References stay at or below the files that were named, the working folder and trusted folders."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.identification.compensation_base import load_compensation
+from uictest.measured import load_map
+from uictest.rig.bench_loading import load_bench
+from uictest.scenario import Diagnostic, ScenarioErrors, load
+from uictest.sweep import load_sweep
+
+SECRET = "root:x:0:0 top secret\n"
+HEAD = "schema: uictest/scenario/1\nname: stop\n"
+SPEED = "initial_speed: 80 km/h\n"
+CAR = "schema: uictest/vehicle/1\nextends: intercity-180\n"
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder `here/` with a sub-folder and, beside it, a folder `there/`."""
+    for folder in ("here/sub", "there"):
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / "there" / "secret.yaml").write_text(SECRET)
+    (tmp_path / "there" / "base.yaml").write_text(HEAD + SPEED)
+    (tmp_path / "there" / "car.yaml").write_text(CAR)
+    monkeypatch.chdir(tmp_path / "here")
+    return tmp_path
+
+
+def refused(read: Callable[[], object]) -> Diagnostic:
+    with pytest.raises(ScenarioErrors) as caught:
+        read()
+    (found,) = caught.value.diagnostics
+    assert "secret" not in str(found).replace("secret.yaml", "")
+    return found
+
+
+def scenario(text: str, name: str = "sub/stop.yaml") -> Path:
+    Path(name).write_text(HEAD + text)
+    return Path(name)
+
+
+REFERENCES = {
+    "extends": "extends: ../../there/secret.yaml\n",
+    "vehicle": SPEED + "vehicle: ../../there/secret.yaml\n",
+    "vehicle.extends": SPEED + "vehicle: {extends: ../../there/secret.yaml}\n",
+    "criteria.0": SPEED + "criteria: [../../there/secret.yaml]\n",
+    "rail.condition": SPEED + "matrix: {rail.condition: [../../there/secret.yaml]}\n",
+}
+
+
+@pytest.mark.parametrize("key", REFERENCES)
+def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place: Path, key: str) -> None:
+    found = refused(lambda: load([scenario(REFERENCES[key])]))
+
+    assert (found.file, found.key) == ("sub/stop.yaml", key)
+    assert found.line > 2
+    assert found.message == f"'../../there/secret.yaml' leads out of {place / 'here'}"
+    assert f"--trust {place / 'there'}" in found.hint
+
+
+def test_what_is_not_there_outside_is_not_told_apart_from_what_is(place: Path) -> None:
+    found = refused(lambda: load([scenario("extends: ../../there/nothing.yaml\n")]))
+
+    assert "leads out of" in found.message
+
+
+def test_links_are_followed_before_it_is_decided(place: Path) -> None:
+    Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
+    Path("sub/folder").symlink_to(place / "there")
+
+    assert "leads out of" in refused(lambda: load([scenario("extends: link.yaml\n")])).message
+    assert "leads out of" in refused(lambda: load([scenario("extends: folder/secret.yaml\n")])).message
+
+
+def test_a_link_out_of_a_folder_given_is_not_read(place: Path) -> None:
+    Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
+
+    found = refused(lambda: load([Path("sub")]))
+
+    assert (found.file, found.message) == ("sub/link.yaml", "a link that leads out of the folders given")
+
+
+def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    child = scenario("extends: ../../there/base.yaml\nvehicle: ../../there/car.yaml\n").absolute()
+
+    assert load([child], trusted=[place / "there"])
+    (place / "there" / "other.yaml").write_text(HEAD.replace("stop", "other") + SPEED)
+    assert len(load([child, place / "there" / "other.yaml"])) == 2
+    monkeypatch.chdir(place)
+    assert load([child])
+
+
+def test_a_file_named_on_the_command_line_opens_its_folder(place: Path) -> None:
+    (place / "there" / "own.yaml").write_text("schema: uictest/vehicle/1\nextends: car.yaml\n")
+    stop = scenario(SPEED)
+
+    assert load([stop], ["vehicle=../there/own.yaml"])[0].scenario.vehicle.name == "intercity-180"
+
+
+def test_parts_are_confined_wherever_they_come_from(place: Path) -> None:
+    Path("sub/car.yaml").write_text(CAR.replace("intercity-180", "../../there/secret.yaml"))
+
+    found = refused(lambda: load([scenario(SPEED + "vehicle: car.yaml\n")]))
+
+    assert (found.file, found.line, found.key) == ("sub/car.yaml", 2, "vehicle.extends")
+
+
+SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: {base}\ngrid: {{{axis}}}\n"
+
+
+@pytest.mark.parametrize(
+    ("base", "axis"),
+    [
+        ("../../there/secret.yaml", "seed: [1, 2]"),
+        ("stop.yaml", "vehicle: [intercity-180, ../../there/secret.yaml]"),
+        ("stop.yaml", "rail.condition: [dry, {extends: ../../there/secret.yaml}]"),
+    ],
+)
+def test_sweeps_are_confined(place: Path, base: str, axis: str) -> None:
+    scenario(SPEED)
+    Path("sub/s.sweep.yaml").write_text(SWEEP.format(base=base, axis=axis))
+
+    assert "leads out of" in refused(lambda: load_sweep(Path("sub/s.sweep.yaml"))).message
+
+
+def test_a_trusted_folder_is_open_to_a_sweep_and_the_scenario_it_names(place: Path) -> None:
+    (place / "there" / "child.yaml").write_text(HEAD + "extends: base.yaml\nvehicle: car.yaml\n")
+    text = SWEEP.format(base="../../there/child.yaml", axis="vehicle: [crh380a, ../../there/car.yaml]")
+    Path("sub/s.sweep.yaml").write_text(text)
+
+    assert load_sweep(Path("sub/s.sweep.yaml"), trusted=[place / "there"]).size == 2
+
+
+BENCH = "schema: uictest/bench/1\nname: b\ninputs: [{kind: rest, duration: 1 s}]\n"
+TRACE = "schema: uictest/bench/1\nname: b\ninputs:\n- {kind: trace, file: %s}\n"
+MAP = "schema: uictest/channel-map/1\nname: m\nchannels: {}\n"
+READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
+    "bench stop": (BENCH + "stop: {vehicle: ../../there/secret.yaml}\n", load_bench),
+    "bench trace": (TRACE % "../../there/secret.yaml", load_bench),
+    "bench trace by its absolute path": (TRACE % "/there/secret.yaml", load_bench),
+    "channel map": (MAP + "extends: ../../there/secret.yaml\n", lambda path: load_map(str(path))),
+    "compensation": (
+        "schema: uictest/compensation/1\nextends: ../../there/secret.yaml\n",
+        lambda path: load_compensation(str(path)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_other_files_are_confined_too(place: Path, name: str) -> None:
+    text, read = READERS[name]
+    Path("sub/file.yaml").write_text(text)
+
+    found = refused(lambda: read(Path("sub/file.yaml")))
+
+    assert "leads out of" in found.message or "is an absolute path" in found.message
