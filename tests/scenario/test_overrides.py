@@ -153,7 +153,9 @@ WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
 def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
     refused: Callable[..., tuple[Diagnostic, ...]], head: str, more: str, override: str
 ) -> None:
-    (found,) = refused(head + more, override)
+    over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
+
+    (found,) = refused(head + more, override, over_time)
 
     assert (found.file, found.key) == ("--set", "rail.condition")
     assert "rail.friction stays '0.09'" in found.message or "stays '[0.09, 0.1]'" in found.message

@@ -17,6 +17,11 @@ CONDITION: Final = "rail.condition"
 _CONDITION: Final = ("rail", "condition")
 
 
+def sets_friction(key: str) -> bool:
+    """Whether a dotted key is that of the friction or lies inside it."""
+    return f"{key}.".startswith(f"{FRICTION}.")
+
+
 def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
     """Yield a change of the condition from ``before`` to ``after`` that leaves `rail.friction` as it was.
 
@@ -31,7 +36,7 @@ def overridden_alone(
     tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]
 ) -> Iterator[Diagnostic]:
     """Yield the overrides of the condition beside which a friction of the file stays, swept or not."""
-    if any(override.key.startswith(FRICTION) for override in overrides):
+    if any(sets_friction(override.key) for override in overrides):
         return
     friction = next(_swept_friction(tree), _at(tree, "rail", "friction"))
     for override in overrides:

@@ -12,7 +12,7 @@ from uictest.scenario.assignment import FIXED
 from uictest.scenario.diagnostics import ScenarioErrors, diagnose, in_reading_order, refusal
 from uictest.scenario.identifiers import LONGEST, short_keys
 from uictest.scenario.overrides import Override, parse_overrides
-from uictest.scenario.rail_friction import FRICTION
+from uictest.scenario.rail_friction import sets_friction
 from uictest.scenario.reading import display_name, read_file
 from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Entry, Map, Node, Scalar, describe, plain
@@ -127,7 +127,7 @@ class _Reader:
                     message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
                     self.axes.found.append(diagnose(entry.key, message, f"{axis.section}.{key}"))
                 seen[key] = axis.section
-        if not any(key.startswith(FRICTION) for key in seen):
+        if not any(map(sets_friction, seen)):
             for axis in (*axes, _Axis("sample", drawn)):
                 self.axes.refuse_conditions_alone(axis.entries)
         if not seen:
