@@ -82,7 +82,7 @@ def test_tables_and_summaries_say_what_was_changed(
     (row,) = csv.DictReader(io.StringIO(summary_csv([result])))
     assert row["changed_parameters"] == CHANGE
     assert "3 km/h" in markdown_summary(make_content(result))
-    assert CHANGE in "".join(case_annotations([result]))
+    assert CHANGE in "".join(case_annotations(result))
     rows = {each["parameter"]: each for each in parameter_rows([result.parts])}
     slip, hold = rows["controller.slip_threshold"], rows["controller.hold_limit"]
     assert (slip["value"], slip["unit"], slip["library"], slip["mark"]) == (0.8, "m/s", "1.146 m/s", "user")
