@@ -168,3 +168,18 @@ def test_a_preset_that_fits_is_named() -> None:
     by_unit_alone = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"))
     assert fitting_preset(by_unit_alone) is None
     assert fitting_preset(_contents(x=([0.0, 1.0], "V"))) is None
+
+
+@pytest.mark.parametrize(
+    ("section", "message"),
+    [
+        ("encoding: cp12521", "unknown encoding 'cp12521'"),
+        ("encoding: base64", "unknown encoding 'base64'"),
+        ('decimal: ",", thousands: ","', "',' is the decimal sign already"),
+    ],
+)
+def test_a_wrong_dialect_is_refused_in_the_map(tmp_path: Path, section: str, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load_map(_map(tmp_path, f"channels: {{speed: v}}\ncsv: {{{section}}}\n"))
+    assert message in str(caught.value)
+    assert "mine.yaml:4:" in str(caught.value)

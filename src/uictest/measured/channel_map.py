@@ -27,6 +27,7 @@ SCHEMA: Final = "uictest/channel-map/1"
 DEFAULT: Final = "uictest"
 NUMBER: Final = "{n}"
 """Stands for the number of the wheelset, in the name of a channel and in its sources."""
+_USUAL_ENCODINGS: Final = ("utf-8", "cp1252", "latin-1", "utf-16", "cp1250", "cp437", "cp850", "mac_roman")
 _PRESETS: Final = Path(library.__file__).parent / "channel_maps"
 
 
@@ -56,10 +57,21 @@ class DialectSection(Model):
 
     delimiter: str = Field(default=",", min_length=1, max_length=1, description="Between two cells.")
     decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
+    thousands: Literal["", ".", ",", "'", " "] = Field(default="", description="Between groups of digits.")
     header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
-    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: in the names.")
+    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: found, or none.")
     first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
-    encoding: str = Field(default="utf-8-sig", max_length=40, description="Encoding of the text.")
+    encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield an encoding that is not known, and a sign that would have two meanings."""
+        try:
+            "".encode(self.encoding)
+        except (LookupError, ValueError):
+            hint = suggestion(self.encoding, _USUAL_ENCODINGS)
+            yield Contradiction(("encoding",), f"unknown encoding {quoted(self.encoding)}", hint)
+        if self.thousands == self.decimal:
+            yield Contradiction(("thousands",), f"{quoted(self.thousands)} is the decimal sign already")
 
 
 class ChannelMap(Model):

@@ -20,6 +20,7 @@ class Group:
         channels: name in the file -> samples, all equally long. Nothing is assumed of their order or value.
         units: name -> unit as the file writes it; channels without a unit are left out.
         time: the time axis in seconds, where the format has one of its own; else one of the channels is it.
+        first_texts: name of a channel that holds texts among numbers -> place of the first text in the file.
 
     """
 
@@ -27,6 +28,7 @@ class Group:
     channels: dict[str, Samples]
     units: dict[str, str] = field(default_factory=dict)
     time: NDArray[Any] | None = None
+    first_texts: dict[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Return the number of samples."""

@@ -128,10 +128,10 @@ def test_a_declared_dialect(tmp_path: Path) -> None:
     assert group.units == {"t": "s", "v": "km/h"}
 
 
-def test_names_that_are_there_twice_are_told_apart(tmp_path: Path) -> None:
+def test_names_that_are_there_twice_all_get_a_number(tmp_path: Path) -> None:
     path = tmp_path / "twice.csv"
     path.write_text("v,v,\n1,2,3\n")
-    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["v", "v (2)", "column 3"]
+    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["v (1)", "v (2)", "column 3"]
 
 
 @pytest.mark.parametrize(
@@ -168,11 +168,15 @@ def test_the_same_recording_gives_the_same_text(written: Written) -> None:
         (
             "t;v;p\n0,0;80,5;1\n",
             Dialect(),
-            'by \';\' with decimal commas: set csv: {delimiter: ";", decimal: ","}',
+            'be separated by \';\' with decimal commas: set csv: {delimiter: ";", decimal: ","}',
         ),
-        ("# rig\n\nt;v\n0.0;80.5\n", Dialect(), 'by \';\': set csv: {delimiter: ";", decimal: "."}'),
-        ("t\tv\n0,0\t80,5\n", Dialect(), 'by tabs with decimal commas: set csv: {delimiter: "\\t"'),
-        ("a\nt,v\n0.0,80.5\n", Dialect(";", header_line=2), "by ',': set csv"),
+        ("# rig\n\nt;v\n0.0;80.5\n", Dialect(), "be separated by ';': set csv: {delimiter: \";\"}"),
+        (
+            "t\tv\n0,0\t80,5\n",
+            Dialect(),
+            'be separated by tabs with decimal commas: set csv: {delimiter: "\\t"',
+        ),
+        ("a\nt,v\n0.0,80.5\n", Dialect(";", header_line=2), "be separated by ',': set csv"),
     ],
 )
 def test_a_table_of_another_dialect_says_what_to_declare(
@@ -180,7 +184,7 @@ def test_a_table_of_another_dialect_says_what_to_declare(
 ) -> None:
     path = tmp_path / "table.csv"
     path.write_text(text)
-    with pytest.raises(UnreadableError, match=f"looks separated {re.escape(advice)}"):
+    with pytest.raises(UnreadableError, match=f"seems to {re.escape(advice)}"):
         read_here("csv", path, dialect)
 
 

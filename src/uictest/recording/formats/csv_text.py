@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import itertools
+import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,9 +16,16 @@ import numpy as np
 from uictest.recording.atomic import write_text_atomic
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.dialect import COMMENT, Dialect
-from uictest.recording.formats.limits import MOST_CHANNELS, MOST_VALUES
+from uictest.recording.formats.encoding import MARK, encoding_of, undecodable
+from uictest.recording.formats.layout import Layout, cells_of, layout_of
+from uictest.recording.formats.limits import MOST_CHANNELS
 from uictest.recording.formats.problems import UnreadableError
-from uictest.recording.formats.separation import refusal
+from uictest.recording.formats.sample_lines import (
+    LONGEST_LINE,
+    SampleLines,
+    refuse_open_quotation,
+    sample_lines,
+)
 from uictest.recording.formats.unit_in_name import name_and_unit
 
 if TYPE_CHECKING:
@@ -24,36 +33,32 @@ if TYPE_CHECKING:
 
 _HEADING = 1000
 """Most lines before the first sample."""
-_LONGEST_LINE = 2**20
 _LONGEST_TEXT = 64
 _DIGITS = 10
+_DATE = re.compile(r"\s*\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d.*)?")
 
 
 def read(path: Path, dialect: Dialect | None = None) -> Contents:
     """Read a table; lines that begin with `#` are comments, `# key: value` among them facts.
 
-    A cell that is no number makes its channel one of texts: a channel map says what they mean.
+    A cell that is no number makes its channel one of texts: a channel map says what they mean. Dates become
+    seconds after the first.
 
     Raises UnreadableError where the file is no table of this dialect.
     """
     dialect = dialect or Dialect()
+    encoding = encoding_of(path, dialect.encoding)
     try:
-        heading = _heading(path, dialect)
-        header_line = dialect.header_line or _first_content(heading)
-        if otherwise := refusal(heading, header_line, dialect):
-            raise UnreadableError(otherwise)
-        names = _cells(heading, header_line, dialect)
-        units = _cells(heading, dialect.unit_line, dialect) if dialect.unit_line else []
-        names, units = _named(names, units)
-        first = dialect.first_line or max(header_line, dialect.unit_line) + 1
-        columns = _columns(path, dialect, first, len(names))
-    except (UnicodeError, LookupError, csv.Error) as error:
-        raise UnreadableError(f"not a text in {dialect.encoding}: {error}") from error
-    channels = dict(zip(names, columns, strict=True))
-    return Contents(
-        (Group("", channels, {name: unit for name, unit in zip(names, units, strict=True) if unit}),),
-        _facts(heading),
-    )
+        heading = _heading(path, encoding, dialect)
+        layout = layout_of(heading, dialect)
+        names, units = _names_and_units(heading, layout, dialect)
+        lines = sample_lines(path, encoding, dialect, layout, len(names))
+        group = _group(names, units, _table(path, encoding, dialect, lines), lines)
+    except UnicodeError as error:
+        raise UnreadableError(undecodable(path, encoding)) from error
+    except csv.Error as error:
+        raise UnreadableError(f"not a table: {error}") from error
+    return Contents((group,), _facts(heading))
 
 
 def write(recording: Recording, path: Path) -> None:
@@ -72,80 +77,114 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _heading(path: Path, dialect: Dialect) -> list[str]:
+def _heading(path: Path, encoding: str, dialect: Dialect) -> list[str]:
     """Return the first lines; enough of them to hold every declared one."""
-    wanted = max(dialect.header_line, dialect.unit_line, dialect.first_line, _HEADING)
-    with path.open(encoding=dialect.encoding, newline="") as file:
-        lines = list(
-            itertools.islice(iter(lambda: file.readline(_LONGEST_LINE), ""), min(wanted, 10 * _HEADING))
-        )
-    if any(len(line) >= _LONGEST_LINE for line in lines):
-        raise UnreadableError(f"a line of more than {_LONGEST_LINE} characters")
-    return lines
+    count = max(dialect.header_line, dialect.unit_line, dialect.first_line) + _HEADING
+    with path.open(encoding=encoding) as file:
+        lines = list(itertools.islice(iter(lambda: file.readline(LONGEST_LINE), ""), count))
+    if any(len(line) >= LONGEST_LINE for line in lines):
+        raise UnreadableError(f"a line of more than {LONGEST_LINE} characters")
+    return [lines[0].removeprefix(MARK), *lines[1:]] if lines else []
 
 
-def _first_content(heading: Sequence[str]) -> int:
-    for number, line in enumerate(heading, start=1):
-        if line.strip() and not line.startswith(COMMENT):
-            return number
-    raise UnreadableError("no line but comments")
+def _names_and_units(heading: Sequence[str], layout: Layout, dialect: Dialect) -> tuple[list[str], list[str]]:
+    """Return names, made distinct, and their units: those in the names, else those of the line of units."""
+    named = [name_and_unit(cell) for cell in _cells(heading, layout.header_line, dialect)]
+    below = _cells(heading, layout.unit_line, dialect) if layout.unit_line else []
+    if not 0 < len(named) <= MOST_CHANNELS:
+        raise UnreadableError(f"{len(named)} columns; expected 1 to {MOST_CHANNELS}")
+    below += [""] * len(named)
+    units = [unit or below[k].strip("[]() ") for k, (_, unit) in enumerate(named)]
+    return _distinct([name for name, _ in named]), units
 
 
 def _cells(heading: Sequence[str], number: int, dialect: Dialect) -> list[str]:
     if number > len(heading):
         raise UnreadableError(f"the file has no line {number}")
-    return [cell.strip() for cell in next(csv.reader([heading[number - 1]], delimiter=dialect.delimiter), [])]
+    refuse_open_quotation(number, heading[number - 1])
+    return cells_of(heading[number - 1], dialect.delimiter)
 
 
-def _named(names: list[str], units: list[str]) -> tuple[list[str], list[str]]:
-    """Return names, made distinct, and their units."""
-    if not units:
-        names, units = map(list, zip(*map(name_and_unit, names), strict=True)) if names else ([], [])
-    if not names or len(names) > MOST_CHANNELS:
-        raise UnreadableError(f"{len(names)} columns; expected 1 to {MOST_CHANNELS}")
-    units = [*units, *[""] * len(names)][: len(names)]
-    units = [unit.strip("[]() ") for unit in units]
-    met: dict[str, int] = {}
+def _distinct(names: Sequence[str]) -> list[str]:
+    """Return names with a number behind each that is there more than once: none of them is *the* channel."""
+    filled = [name or f"column {position}" for position, name in enumerate(names, start=1)]
+    counts = Counter(filled)
+    numbers: Counter[str] = Counter()
     distinct = []
-    for position, name in enumerate(names, start=1):
-        name = name or f"column {position}"
-        met[name] = met.get(name, 0) + 1
-        distinct.append(name if met[name] == 1 else f"{name} ({met[name]})")
-    return distinct, units
+    for name in filled:
+        numbers[name] += 1
+        distinct.append(name if counts[name] == 1 else f"{name} ({numbers[name]})")
+    return distinct
 
 
-def _columns(path: Path, dialect: Dialect, first: int, width: int) -> list[Samples]:
+def _table(path: Path, encoding: str, dialect: Dialect, lines: SampleLines) -> Any:
+    """Return the samples as a data frame whose columns are counted from zero."""
     import pandas as pd
 
     try:
-        table = pd.read_csv(
+        return pd.read_csv(
             path,
             sep=dialect.delimiter,
             decimal=dialect.decimal,
-            encoding=dialect.encoding,
-            skiprows=first - 1,
+            thousands=dialect.thousands or None,
+            encoding=encoding,
+            skiprows=[number - 1 for number in lines.skipped],
             header=None,
-            names=range(width),
+            names=range(lines.width),
             index_col=False,
-            comment=COMMENT,
-            skip_blank_lines=True,
-            nrows=MOST_VALUES // width + 1,
+            skipinitialspace=True,
+            skip_blank_lines=False,
             low_memory=False,
-            on_bad_lines="error",
         )
     except (ValueError, OverflowError) as error:
         if isinstance(error, UnicodeError):
             raise
-        raise UnreadableError(f"not a table from line {first} on: {str(error).strip()}") from error
-    if len(table) * width > MOST_VALUES:
-        raise UnreadableError(f"more than {MOST_VALUES} values")
-    return [_samples(table[k]) for k in range(width)]
+        raise UnreadableError(f"not a table from line {lines.number(0)} on") from error
+
+
+def _group(names: Sequence[str], units: Sequence[str], table: Any, lines: SampleLines) -> Group:
+    channels: dict[str, Samples] = {}
+    stated = {name: unit for name, unit in zip(names, units, strict=True) if unit}
+    first_texts: dict[str, str] = {}
+    for position, name in enumerate(names):
+        column = table[position]
+        if (seconds := _seconds(column)) is not None:
+            channels[name], stated[name] = seconds, "s"
+            continue
+        channels[name] = _samples(column)
+        if (row := _first_text(column)) is not None:
+            first_texts[name] = f"line {lines.number(row)}, column {position + 1}"
+    return Group("", channels, stated, first_texts=first_texts)
 
 
 def _samples(column: Any) -> Samples:
     if column.dtype.kind in "biuf":
         return np.asarray(column, dtype=np.float64)
     return np.array([str(cell)[:_LONGEST_TEXT] if cell == cell else "" for cell in column], dtype=np.str_)
+
+
+def _seconds(column: Any) -> Samples | None:
+    """Return dates and times as seconds after the first, NaN where there is none; None for other columns."""
+    import pandas as pd
+
+    texts = column.dropna()
+    if column.dtype.kind in "biuf" or not len(texts) or not _DATE.fullmatch(str(texts.iloc[0])):
+        return None
+    stamps = pd.to_datetime(column, format="ISO8601", errors="coerce", utc=True)
+    if stamps.isna().sum() > column.isna().sum():
+        return None
+    return np.asarray((stamps - stamps.dropna().iloc[0]).dt.total_seconds(), dtype=np.float64)
+
+
+def _first_text(column: Any) -> int | None:
+    """Return the row of the first text in a column that also holds numbers, else None."""
+    import pandas as pd
+
+    if column.dtype.kind in "biuf":
+        return None
+    numbers = pd.to_numeric(column, errors="coerce")
+    texts = np.flatnonzero(numbers.isna() & column.notna())
+    return int(texts[0]) if len(texts) and numbers.notna().any() else None
 
 
 def _facts(heading: Sequence[str]) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -18,19 +19,22 @@ class Dialect:
     Args:
         delimiter: the character between two cells.
         decimal: the character before decimals, `.` or `,`.
+        thousands: the character between groups of three digits; empty: none.
         header_line: the line of the channels' names; 0: the first that is no comment.
-        unit_line: the line of their units; 0: units stand in the names, as in `speed [m/s]`.
-        first_line: the first line of samples; 0: the one after the heading.
-        encoding: of the text.
+        unit_line: the line of their units; 0: the line after the names where it holds units; units may also
+            stand in the names, as in `speed [m/s]`.
+        first_line: the first line of samples; 0: the one after names and units.
+        encoding: of the text, where it does not begin with a byte-order mark.
 
     """
 
     delimiter: str = ","
     decimal: str = "."
+    thousands: str = ""
     header_line: int = 0
     unit_line: int = 0
     first_line: int = 0
-    encoding: str = "utf-8-sig"
+    encoding: str = "utf-8"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields by name."""
@@ -41,6 +45,8 @@ class Dialect:
         """Return the dialect whose `to_dict` is `fields`."""
         return cls(**fields)
 
-    def __str__(self) -> str:
-        """Return the dialect as the `csv` section of a channel map would declare it."""
-        return ", ".join(f"{name}: {value!r}" for name, value in self.to_dict().items())
+    def changes_to(self, other: Dialect) -> str:
+        """Return the `csv` section that declares what differs in another dialect."""
+        declared = self.to_dict()
+        changes = {name: value for name, value in other.to_dict().items() if value != declared[name]}
+        return f"csv: {{{', '.join(f'{name}: {json.dumps(value)}' for name, value in changes.items())}}}"

@@ -95,4 +95,5 @@ def _group(told: Mapping[str, Any], folder: Path) -> Group:
         {name: array(number) for name, number in told["channels"].items()},
         told["units"],
         None if told["time"] is None else array(told["time"]),
+        told["first_texts"],
     )

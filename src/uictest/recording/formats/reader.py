@@ -86,6 +86,7 @@ def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
         "channels": {name: left(samples) for name, samples in group.channels.items()},
         "units": group.units,
         "time": None if group.time is None else left(np.asarray(group.time, dtype=np.float64)),
+        "first_texts": group.first_texts,
     }
 
 

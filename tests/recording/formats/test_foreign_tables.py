@@ -1,0 +1,142 @@
+"""Text tables as other programs write them: understood, or refused with the line and what to declare."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.recording.contents import Group
+from uictest.recording.formats import Dialect, UnreadableError
+from uictest.recording.formats.limits import MOST_CHANNELS
+from uictest.recording.formats.reader import read_here
+
+ROWS = "0.0,80.5,1\n0.1,80.25,2\n0.2,80.0,3\n"
+
+
+def _read(path: Path, content: str | bytes, dialect: Dialect | None = None) -> Group:
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    [group] = read_here("csv", path, dialect or Dialect()).groups
+    return group
+
+
+@pytest.fixture
+def table(tmp_path: Path) -> Path:
+    return tmp_path / "table.csv"
+
+
+@pytest.mark.parametrize("units", ["s,km/h,bar", "[s],[km/h],[bar]", "(s),(km/h),(bar)", "s, km/h ,bar"])
+def test_a_line_of_units_below_the_names_is_found(table: Path, units: str) -> None:
+    group = _read(table, f"t,v,p\n{units}\n{ROWS}")
+    assert group.units == {"t": "s", "v": "km/h", "p": "bar"}
+    np.testing.assert_array_equal(group.channels["v"], [80.5, 80.25, 80.0])
+
+
+def test_names_that_look_like_units_are_names(table: Path) -> None:
+    assert list(_read(table, f"s,v,a\n{ROWS}").channels) == ["s", "v", "a"]
+
+
+def test_a_first_line_of_states_is_no_line_of_units(table: Path) -> None:
+    group = _read(table, "t,v,MV\n0.0,80.5,fill\n0.1,80.25,vent\n")
+    assert list(group.channels["MV"]) == ["fill", "vent"]
+
+
+@pytest.mark.parametrize(
+    ("text", "advice"),
+    [
+        (f"Rig 7\nRun 12, May\n\nt,v,p\n{ROWS}", "have its names in line 4: set csv: {header_line: 4}"),
+        (f"Report,,\nt,v,p\ns,km/h,bar\n{ROWS}", "have its names in line 2: set csv: {header_line: 2}"),
+        (f"t,v,p\nTime,Speed,Pressure\n{ROWS}", "begin its samples in line 3: set csv: {first_line: 3}"),
+        (
+            "Rig\nt;v\ns;km/h\n0,0;80,5\n",
+            'and have its names in line 2: set csv: {delimiter: ";", decimal: ",", header_line: 2}',
+        ),
+    ],
+    ids=["titles", "padded", "descriptions", "all-at-once"],
+)
+def test_lines_that_are_no_part_of_the_table_are_to_be_declared(table: Path, text: str, advice: str) -> None:
+    with pytest.raises(UnreadableError, match=f"the table seems to .*{re.escape(advice)}"):
+        _read(table, text)
+
+
+def test_what_the_message_says_reads_the_table(table: Path) -> None:
+    dialect = Dialect(";", ",", header_line=2)
+    group = _read(table, "Rig\nt;v\ns;km/h\n0,0;80,5\n", dialect)
+    assert (group.units, list(group.channels["v"])) == ({"t": "s", "v": "km/h"}, [80.5])
+
+
+def test_an_undecodable_byte_is_placed(table: Path) -> None:
+    text = f"t,v,p\n{ROWS}".encode() + "0.3,79.5,Öl\n".encode("cp1252")
+    with pytest.raises(
+        UnreadableError, match=r"line 5, byte 10: 0xd6 is not UTF-8; .* csv: \{encoding: cp1252\}"
+    ):
+        _read(table, text)
+    assert _read(table, text, Dialect(encoding="cp1252")).channels["p"][-1] == "Öl"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+def test_a_byte_order_mark_tells_the_encoding(table: Path, encoding: str) -> None:
+    mark = "" if encoding in ("utf-8-sig", "utf-16") else "\ufeff"
+    group = _read(table, f"{mark}t,v,Öl\n{ROWS}".encode(encoding), Dialect(encoding="cp1252"))
+    assert list(group.channels) == ["t", "v", "Öl"]
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"t,v,p\n" + ROWS.encode() + b"0.3,79,1,9\n", "line 5 has 4 cells; line 1 names 3 channels"),
+        (b'"t,v,p\n' + ROWS.encode(), "line 1 has a quotation mark that is not closed"),
+        (b't,v,p\n0.0,"80,1\n' + ROWS.encode(), "line 2 has a quotation mark that is not closed"),
+        (b"t,v,p\n" + ROWS.encode() + b"\0\0,1,2\n", "line 5 holds a NUL character"),
+        (b"t,v,p\n", "no line of samples follows the names in line 1"),
+        (ROWS.encode(), "no line of names stands above the samples"),
+        (b"\n \n", "every line is blank or a comment"),
+        (b"," * MOST_CHANNELS, f"line 1 has {MOST_CHANNELS + 1} cells"),
+        (b"t,v\n" + b"," * 1_000_000 + b"\n1,2\n", "line 2 has 1000001 cells"),
+        (b"t,v\n" + b"1,2\n" * 2000 + b"1," * 400_000, "line 2002 has 400000 cells"),
+    ],
+    ids=[
+        "wide",
+        "open-names",
+        "open-row",
+        "nul",
+        "no-rows",
+        "no-names",
+        "blank",
+        "too-many",
+        "a-million-commas",
+        "late-commas",
+    ],
+)
+def test_a_damaged_table_is_refused_with_its_line(table: Path, content: bytes, message: str) -> None:
+    with pytest.raises(UnreadableError, match=re.escape(message)):
+        _read(table, content)
+
+
+def test_a_cell_that_excel_could_not_compute_takes_no_other_with_it(table: Path) -> None:
+    group = _read(table, "t,v,p\n0.0,#N/A,1\n0.1,80.0,2\n")
+    np.testing.assert_array_equal(group.channels["v"], [np.nan, 80.0])
+    np.testing.assert_array_equal(group.channels["p"], [1.0, 2.0])
+
+
+def test_delimiters_at_the_end_of_rows_and_rows_of_nothing_else_are_no_samples(table: Path) -> None:
+    group = _read(table, "t,v\n0.0,80.5,\n# a remark, with commas,\n0.1,80.0,,\n,,,\n")
+    assert [list(samples) for samples in group.channels.values()] == [[0.0, 0.1], [80.5, 80.0]]
+
+
+def test_the_first_text_among_numbers_is_placed(table: Path) -> None:
+    group = _read(table, "t,v,MV\n\n0.0,80.5,fill\n# remark\n\n0.1,n.a.,vent\n")
+    assert group.first_texts == {"v": "line 6, column 2"}
+
+
+def test_dates_become_seconds(table: Path) -> None:
+    group = _read(table, "when,v\n2026-05-31T23:59:59.5,1\n2026-06-01T00:00:00.250,2\n")
+    np.testing.assert_allclose(group.channels["when"], [0.0, 0.75])
+    assert group.units["when"] == "s"
+
+
+def test_thousands_are_read_where_they_are_declared(table: Path) -> None:
+    group = _read(table, "t;v\n0,5;1.080,5\n", Dialect(";", ",", thousands="."))
+    np.testing.assert_array_equal(group.channels["v"], [1080.5])
