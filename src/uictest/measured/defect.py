@@ -11,6 +11,7 @@ Kind = Literal[
     "time-duplicate",
     "gap",
     "not-a-number",
+    "out-of-range",
     "dropout",
     "stuck",
     "offset",

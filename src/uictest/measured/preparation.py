@@ -21,7 +21,7 @@ class Preparation(Model):
         description="What marks the brake command: a time the file states, its start, the brake command, the"
         " demanded pressure or the first pressure to rise; auto takes the first of these that is recorded.",
     )
-    trigger_time: Annotated[Quantity, kind("time", at_least="-1e9 s", at_most="1e9 s")] | None = Field(
+    trigger_time: Annotated[Quantity, kind("time", at_least="-1e10 s", at_most="1e10 s")] | None = Field(
         default=None, description="Time of the brake command in the file; takes the place of `trigger`."
     )
     trigger_lead: Annotated[Quantity, kind("time", at_least="0 s", at_most="60 s")] = Field(

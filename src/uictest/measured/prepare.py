@@ -9,13 +9,22 @@ import numpy as np
 
 from uictest.measured.analogue import analogue_defects
 from uictest.measured.channels import UNITS
+from uictest.measured.deceleration import refuse_implausible_deceleration
 from uictest.measured.defect import Defect
 from uictest.measured.filtering import low_passed
 from uictest.measured.preparation import Preparation
 from uictest.measured.raw import Array, RawChannel
 from uictest.measured.resampling import at
 from uictest.measured.standstill import Standstill, find_standstill
-from uictest.measured.time_axis import by_axis, disorder, gap_defects, gaps, missing_samples, usual_interval
+from uictest.measured.time_axis import (
+    by_axis,
+    disorder,
+    gap_defects,
+    gaps,
+    missing_samples,
+    usual_interval,
+    without_implausible,
+)
 from uictest.measured.trigger import FoundTrigger, find_trigger
 from uictest.measured.wheel_speeds import speed_defects
 from uictest.recording import TIME, Recording
@@ -59,8 +68,8 @@ def prepare(
     Nothing is put in where nothing was recorded: a gap stays a gap.
 
     Raises:
-        UnusableError: the train speed has no usable time axis, or no sample at the brake command.
-        MapError: nothing marks the brake command.
+        UnusableError: the train speed has no usable time axis, no number, or none at the brake command.
+        MapError: nothing marks the brake command, or no train slows so fast or so little.
 
     """
     sound, defects = _ordered(channels)
@@ -68,12 +77,18 @@ def prepare(
     for axis in by_axis(sound.values()):
         defects += gap_defects(axis[0].time, _names(axis), raster)
     defects += [defect for channel in sound.values() for defect in missing_samples(channel)]
+    for name, channel in sound.items():
+        sound[name], implausible = without_implausible(channel)
+        defects += implausible
+    if not np.isfinite(sound["speed"].samples).any():
+        raise UnusableError(tuple(defects))
     trigger = find_trigger(sound, facts, wanted)
     unfiltered = sound
     if wanted.low_pass is not None:
         sound = {name: low_passed(channel, float(wanted.low_pass)) for name, channel in sound.items()}
     speed = sound["speed"]
     rest = find_standstill(speed.time, speed.samples, trigger.time, float(wanted.standstill_speed))
+    refuse_implausible_deceleration(speed, trigger.time)
     end = rest.time if rest else float(speed.time[-1])
     defects += _unlike_a_stop(sound, trigger, end)
     defects += _cut_off(speed, trigger, rest)

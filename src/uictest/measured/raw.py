@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -13,10 +15,14 @@ from uictest.measured.channel_map import ChannelMap, Source
 from uictest.measured.channels import UNITS
 from uictest.measured.units import accepted, factor
 from uictest.recording import TIME
-from uictest.recording.contents import Contents, Group, Samples
+from uictest.recording.contents import Contents, Group
+from uictest.recording.plausibility import implausible_time, implausible_unit
 from uictest.recording.states import STATES, state_kind
 from uictest.scenario.wording import quoted, suggestion
 
+_GROUPED = re.compile(r"[-+]?\d{1,3}(?:([., '])\d{3}(?:\1\d{3})+(?:[.,]\d+)?|([., '])\d{3}[.,]\d+)")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
+_DATE = re.compile(r"\d{1,4}[-./]\d\d?[-./]\d{1,4}\b")
 Array = NDArray[np.float64]
 
 
@@ -96,7 +102,8 @@ def _matches(contents: Contents, wanted: str) -> Iterator[tuple[Group, str]]:
 
 def _time_of(group: Group, source: Source | None, beside: str) -> Array:
     if group.time is not None:
-        return np.asarray(group.time, dtype=np.float64)
+        time = np.asarray(group.time, dtype=np.float64)
+        return _refused_if(implausible_time(time, "s", {"s": 1.0}), TIME, f"of {quoted(beside)}", time)
     for wanted in source.source if source else ():
         if source and wanted in group.channels:
             return _in_si(TIME, source, wanted, group)
@@ -106,11 +113,29 @@ def _time_of(group: Group, source: Source | None, beside: str) -> Array:
 def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind == "U":
-        return _numbered(name, source, original, samples)
+        samples = _numbered(name, source, original, group)
+        if state_kind(name) is not None:
+            return samples
     unit = source.unit or group.units.get(original, "")
     size = _size(name, unit, original)
-    converted: Array = source.sign * (source.scale * samples + source.offset) * size
-    return converted
+    # What overflows becomes infinite, and is told as a sample that is no number.
+    with np.errstate(over="ignore", invalid="ignore"):
+        converted: Array = source.sign * (source.scale * samples + source.offset) * size
+    return _refused_if(_implausible(name, converted, unit), name, quoted(original), converted)
+
+
+def _implausible(name: str, converted: Array, unit: str) -> str:
+    si = UNITS[name]
+    sizes = {**{each: float(size) for each, size in accepted(si).items()}, unit: factor(unit, si) or 1.0}
+    if name == TIME:
+        return implausible_time(converted, unit, sizes)
+    return implausible_unit(converted, si, unit, sizes)
+
+
+def _refused_if(reason: str, name: str, original: str, samples: Array) -> Array:
+    if reason:
+        raise MapError(f"{name}: {original} {reason}")
+    return samples
 
 
 def _size(name: str, unit: str, original: str) -> float:
@@ -130,18 +155,32 @@ def _size(name: str, unit: str, original: str) -> float:
     return size
 
 
-def _numbered(name: str, source: Source, original: str, samples: Samples) -> Array:
+def _numbered(name: str, source: Source, original: str, group: Group) -> Array:
+    samples = group.channels[original]
     kind = state_kind(name)
     known: dict[str, int] = {**(STATES[kind] if kind else {}), **source.states}
     numbers = {str(text): _number(str(text), known) for text in np.unique(samples)}
     strange = [text for text, number in numbers.items() if number is None]
     if strange:
         listed = ", ".join(map(quoted, strange[:3]))
+        place = f", the first in {group.first_texts[original]}" if original in group.first_texts else ""
         raise MapError(
-            f"{name}: {quoted(original)} holds texts that are no numbers: {listed}; name them in 'states'"
+            f"{name}: {quoted(original)} holds texts that are no numbers: {listed}{place};"
+            f" {_remedy(strange[0])}"
         )
     values: Any = np.vectorize(lambda text: numbers[str(text)], otypes=[np.float64])(samples)
     return np.asarray(values, dtype=np.float64)
+
+
+def _remedy(text: str) -> str:
+    if grouped := _GROUPED.fullmatch(text.strip()):
+        separator = grouped[1] or grouped[2]
+        return f"for thousands separators set csv: {{thousands: {json.dumps(separator)}}} in the channel map"
+    if _DECIMAL_COMMA.fullmatch(text.strip()):
+        return 'for decimal commas set csv: {decimal: ","} in the channel map'
+    if _DATE.match(text.strip()):
+        return "dates are read where all are written as 2026-05-31T12:00:00.000"
+    return "name them in 'states'"
 
 
 def _number(text: str, known: Mapping[str, int]) -> float | None:

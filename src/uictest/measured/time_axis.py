@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.measured.channels import UNITS
 from uictest.measured.defect import Defect
 from uictest.measured.raw import Array, RawChannel
+from uictest.recording.plausibility import LARGEST, beyond
 
 _GAP_INTERVALS = 2.5
 """An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
@@ -29,7 +32,8 @@ def disorder(time: Array, names: str) -> Iterator[Defect]:
         yield Defect(
             "time-missing", names, f"has {_counted(missing)} without a time, first {_place(missing)}", True
         )
-    step = np.diff(time)
+    with np.errstate(invalid="ignore"):
+        step = np.diff(time)
     for kind, wrong, words in (
         ("time-backwards", step < 0.0, "goes back in time"),
         ("time-duplicate", step == 0.0, "has a time twice"),
@@ -59,6 +63,18 @@ def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     if len(found):
         yield Defect("gap", names, f"is not recorded from {listed}{more}")
+
+
+def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
+    """Return a channel with NaN for samples larger than can be, and the defect that says so."""
+    si = UNITS[channel.name]
+    wrong = beyond(channel.samples, si)
+    if not wrong.any():
+        return channel, []
+    first, last = channel.time[wrong][[0, -1]]
+    text = f"has {_counted(wrong)} beyond {LARGEST[si].text}, from {first:.6g} to {last:.6g} s"
+    samples = np.where(wrong, np.nan, channel.samples)
+    return replace(channel, samples=samples), [Defect("out-of-range", channel.name, text)]
 
 
 def missing_samples(channel: RawChannel) -> Iterator[Defect]:

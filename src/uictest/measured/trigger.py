@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
@@ -12,9 +11,9 @@ from uictest.measured.channels import of_wheelsets
 from uictest.measured.preparation import Preparation
 from uictest.measured.raw import Array, MapError, RawChannel
 from uictest.recording.recording import BRAKE_COMMAND_TIME
+from uictest.scenario.quantities import QuantityError, parse_quantity
 
 Channels = Mapping[str, RawChannel]
-_SECONDS = re.compile(r"\s*([-+]?[0-9]{1,9}(?:\.[0-9]{1,12})?)\s*s\s*")
 _PRESSURES = ("brake_line_pressure", *of_wheelsets("cylinder_pressure"), *of_wheelsets("tank_pressure"))
 _ON = 0.5
 """Above it the brake command, a state of 0 and 1, is given."""
@@ -53,12 +52,22 @@ def _nothing_marks_it(wanted: Preparation) -> str:
 
 
 def _by_fact(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    match = _SECONDS.fullmatch(facts.get(BRAKE_COMMAND_TIME, ""))
-    return None if match is None else _stated(channels, float(match[1]), "stated by the file")
+    text = facts.get(BRAKE_COMMAND_TIME)
+    if text is None:
+        return None
+    try:
+        return _stated(channels, float(parse_quantity(text, "time")), "stated by the file")
+    except QuantityError as error:
+        hint = f"{error.hint or 'write a time such as 12.3 s'}, or state the time with --trigger"
+        raise MapError(f"{BRAKE_COMMAND_TIME} in the header of the file: {error}; {hint}") from error
 
 
 def _stated(channels: Channels, time: float, by: str) -> FoundTrigger:
-    first = float(channels["speed"].time[0])
+    first, last = (float(channels["speed"].time[k]) for k in (0, -1))
+    if time >= last:
+        raise MapError(
+            f"the brake command at {time:.6g} s, {by}, is not in the record, which ends at {last:.6g} s"
+        )
     text = f"at {time:.6g} s, {by}"
     return FoundTrigger(max(time, first), text, late=time < first - 1e-6)
 

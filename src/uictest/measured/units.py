@@ -13,7 +13,7 @@ _KIND_OF_SI: Final = MappingProxyType(
 )
 _FURTHER: Final = MappingProxyType(
     {
-        "s": {"us": Fraction("1e-6"), "sec": Fraction(1)},
+        "s": {"us": Fraction("1e-6"), "ns": Fraction("1e-9"), "sec": Fraction(1)},
         "m/s": {
             "kph": Fraction(5, 18),
             "kmh": Fraction(5, 18),
