@@ -104,6 +104,16 @@ def test_a_dropout_of_a_wheel_speed(case: Any, channels: Channels, prepared: Any
     )
 
 
+def test_a_dropout_of_the_train_speed_is_no_standstill(channels: Channels, prepared: Any) -> None:
+    standstill = prepared(channels).standstill
+    samples = channels["speed"].samples.copy()
+    samples[100:104] = 0.0
+    _change(channels, "speed", samples)
+    stop = prepared(channels)
+    assert stop.standstill[0] == standstill[0]
+    assert ("dropout", "speed") in _kinds(stop)
+
+
 @pytest.mark.parametrize("name", ["speed", "wheel_speed_1"])
 def test_a_stuck_speed(channels: Channels, prepared: Any, name: str) -> None:
     samples = channels[name].samples.copy()

@@ -72,15 +72,6 @@ def test_a_stop_that_no_train_makes_is_refused(
         prepared(scaled)
 
 
-def test_a_dropout_of_the_speed_is_no_deceleration(
-    channels: Channels, prepared: Callable[..., MeasuredStop]
-) -> None:
-    speed = channels["speed"]
-    samples = np.where((speed.time > 0.05) & (speed.time < 0.1), 0.0, speed.samples)
-    channels["speed"] = replace(speed, samples=samples)
-    assert "dropout" in {defect.kind for defect in prepared(channels).defects}
-
-
 def test_a_speed_without_a_number_is_unusable(
     channels: Channels, prepared: Callable[..., MeasuredStop]
 ) -> None:

@@ -13,6 +13,9 @@ _WINDOW = 0.5
 _LONGEST_REST = 2.0
 """s after falling below the standstill speed in which a sample of zero is the same stop's; chosen."""
 
+_LONGEST_DROPOUT = 1.0
+"""s after a fall of which the train must be slow for more than half; chosen."""
+
 
 @dataclass(frozen=True, slots=True)
 class Standstill:
@@ -33,15 +36,24 @@ def find_standstill(time: Array, speed: Array, begin: float, slow: float) -> Sta
     """
     known = np.isfinite(speed) & (time >= begin)
     time, speed = time[known], speed[known]
-    below = np.flatnonzero(speed <= slow)
-    if not len(below) or below[0] == 0:
+    first = first_lasting_fall(time, speed, slow)
+    if first is None or speed[0] <= slow:
         return None
-    first = int(below[0])
     rest = slice(first, int(np.searchsorted(time, time[first] + _LONGEST_REST, side="right")))
     zero = np.flatnonzero(speed[rest] <= 0.0)
     if len(zero):
         return _between(time, speed, first + int(zero[0]))
     return _run_out(time, speed, first + int(np.argmin(speed[rest])))
+
+
+def first_lasting_fall(time: Array, speed: Array, level: float) -> int | None:
+    """Return the sample at which a speed falls to `level` and stays there for longer than a dropout."""
+    below = speed <= level
+    for k in np.flatnonzero(below[1:] & ~below[:-1]) + 1:
+        end = np.searchsorted(time, time[k] + _LONGEST_DROPOUT, side="right")
+        if np.median(speed[k:end]) <= level:
+            return int(k)
+    return None
 
 
 def _between(time: Array, speed: Array, zero: int) -> Standstill:
