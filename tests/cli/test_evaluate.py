@@ -175,6 +175,32 @@ def test_list_proposes_a_map_where_no_preset_fits(call: Call, workplace: Path) -
     assert "schema: uictest/channel-map/1" in call("evaluate", "run.csv", "--list").out
 
 
+def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call: Call, workplace: Path) -> None:
+    header = "Zeit [s],vZug [km/h],Achse1 [km/h],Achse2 [km/h],Achse3 [km/h],Achse4 [km/h]"
+    (workplace / "run.csv").write_text(f"{header}\n0,10,10,10,10,10\n1,9,9,9,9,9\n")
+    out = call("evaluate", "run.csv", "--list").out
+    assert "the preset common-names fits in part" in out
+    assert "not assigned: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4; without it no" in out
+    assert 'not used: "Achse1", "Achse2", "Achse3", "Achse4"' in out
+    assert 'speed: "vZug"' in out
+
+
+def test_a_proposed_map_reads_the_file_it_was_proposed_for(call: Call, workplace: Path) -> None:
+    units = ";".join(["s", *["km/h"] * 5, "°C"])
+    rows = [";".join([f"{k / 10:.1f}", *[f"{36 - 3.6 * k / 10:.2f}"] * 5, "20"]) for k in range(101)]
+    names = "Zeit;vZug;v1;v2;v3;v4;T"
+    text = "\n".join(["Prüfzug", names, units, *rows]).replace(".", ",")
+    (workplace / "zug.csv").write_bytes(text.encode("cp1252"))
+    (workplace / "table.yaml").write_text(
+        "schema: uictest/channel-map/1\nname: table\nextends: common-names\n"
+        'csv: {encoding: cp1252, delimiter: ";", decimal: ",", header_line: 2}\n'
+    )
+    lines = call("evaluate", "zug.csv", "--map", "table.yaml", "--list").out.splitlines()
+    (workplace / "own.yaml").write_text("\n".join(lines[lines.index("schema: uictest/channel-map/1") :]))
+    answer = call("evaluate", "zug.csv", "--map", "own.yaml", "--trigger", "start", *STATED)
+    assert (answer.code, "braking_time_s=10 " in answer.out) == (0, True), answer.err
+
+
 def test_list_says_how_a_table_of_another_dialect_is_declared(call: Call, workplace: Path) -> None:
     (workplace / "run.csv").write_text("t [s];v [km/h]\n0,0;10,5\n1,0;9,5\n")
     answer = call("evaluate", "run.csv", "--list")

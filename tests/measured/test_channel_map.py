@@ -183,3 +183,8 @@ def test_a_wrong_dialect_is_refused_in_the_map(tmp_path: Path, section: str, mes
         load_map(_map(tmp_path, f"channels: {{speed: v}}\ncsv: {{{section}}}\n"))
     assert message in str(caught.value)
     assert "mine.yaml:4:" in str(caught.value)
+
+
+def test_a_name_in_the_unit_of_another_quantity_is_not_proposed() -> None:
+    contents = _contents(T=([20.0, 21.0], "°C"), Zeit=([0.0, 1.0], "s"), v=([10.0, 9.0], "km/h"))
+    assert 'time: "Zeit"' in proposed_map(contents)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -39,6 +39,8 @@ from uictest.cli.streams import data, message
 
 if TYPE_CHECKING:
     from uictest.measured import ChannelMap
+    from uictest.recording.contents import Contents
+    from uictest.recording.formats import Dialect
     from uictest.scenario import Case
 
 _OPTIONS = {
@@ -160,7 +162,7 @@ def _checked(make: Callable[[], Case]) -> Case:
 
 
 def _list(files: Sequence[Path], mapped: ChannelMap) -> ExitCode:
-    from uictest.measured import fitting_preset, listing, proposed_map
+    from uictest.measured import listing
     from uictest.recording.formats import read_contents
     from uictest.report.escaping import printable
 
@@ -172,6 +174,25 @@ def _list(files: Sequence[Path], mapped: ChannelMap) -> ExitCode:
             data("  " + "\t".join(printable(cell) for cell in row))
         for key, text in contents.metadata.items():
             data(f"  # {printable(key)}: {printable(text)}")
-        preset = fitting_preset(contents)
-        data(f"the preset {preset} fits (--map {preset})" if preset else proposed_map(contents))
+        for line in _proposal(contents, mapped.dialect):
+            data(line)
     return ExitCode.MET
+
+
+def _proposal(contents: Contents, dialect: Dialect) -> Iterator[str]:
+    """Yield the preset that fits and what it leaves open, or a map to begin with where it does so in part."""
+    from uictest.measured import fitting_preset, lacks_essentials, proposed_map, remarks
+    from uictest.recording.formats import Dialect
+    from uictest.report.escaping import printable
+
+    preset = fitting_preset(contents) if dialect == Dialect() else None
+    partly = lacks_essentials(contents)
+    for remark in remarks(contents):
+        yield f"# {printable(remark)}"
+    if preset and partly:
+        yield f"# the preset {preset} fits in part: complete this map, or use the preset as it is"
+    yield (
+        f"the preset {preset} fits (--map {preset})"
+        if preset and not partly
+        else proposed_map(contents, dialect)
+    )

@@ -11,7 +11,7 @@ from uictest.measured.file import digest_of, stop_in
 from uictest.measured.judgement import judge_recording, judge_stop, unusable_result
 from uictest.measured.preparation import Preparation
 from uictest.measured.prepare import MeasuredStop, UnusableError, prepare
-from uictest.measured.proposal import fitting_preset, listing, proposed_map
+from uictest.measured.proposal import fitting_preset, lacks_essentials, listing, proposed_map, remarks
 from uictest.measured.raw import MapError, RawChannel, select
 from uictest.measured.subject import recorded_subject
 
@@ -28,12 +28,14 @@ __all__ = [
     "fitting_preset",
     "judge_recording",
     "judge_stop",
+    "lacks_essentials",
     "listing",
     "load_map",
     "prepare",
     "presets",
     "proposed_map",
     "recorded_subject",
+    "remarks",
     "select",
     "stated_case",
     "stop_in",

@@ -9,11 +9,15 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from uictest.measured.channel_map import DEFAULT, load_map
-from uictest.measured.channels import UNITS
+from uictest.measured.channels import UNITS, of_wheelsets
+from uictest.measured.support import measures_of
 from uictest.measured.units import factor
 from uictest.recording.contents import Contents, Group, Samples
+from uictest.recording.formats import Dialect
 
 _COMMON = "common-names"
+_ESSENTIAL = ("speed", *of_wheelsets("wheel_speed"))
+_MOST_LISTED = 20
 
 
 def listing(contents: Contents) -> Iterator[tuple[str, ...]]:
@@ -26,15 +30,42 @@ def listing(contents: Contents) -> Iterator[tuple[str, ...]]:
         yield name, "", "-", f"left out: {reason}"
 
 
-def proposed_map(contents: Contents) -> str:
-    """Return a channel map as YAML: what common names find, then what a unit alone tells."""
+def proposed_map(contents: Contents, dialect: Dialect | None = None) -> str:
+    """Return a channel map as YAML: what common names find, then what a unit alone tells.
+
+    `dialect` is the one by which a text file was read.
+    """
     found = _found(contents)
     lines = ["schema: uictest/channel-map/1", "name: proposed", "channels:"]
     order = ("time", *(name for name in UNITS if name != "time"))
     lines += [f"  {name}: {_entry(contents, name, found[name])}" for name in order if name in found]
     if len(lines) == 3:
         lines[-1] = "channels: {}  # no name or unit gives a hint"
+    if dialect not in (None, Dialect()):
+        lines.append(Dialect().changes_to(dialect))
     return "\n".join(lines)
+
+
+def remarks(contents: Contents) -> Iterator[str]:
+    """Yield what a proposed map leaves open: measures that lack channels, and channels without use."""
+    found = _found(contents)
+    missing: dict[tuple[str, ...], list[str]] = {}
+    for canonical in UNITS:
+        if canonical not in found and (measures := measures_of(canonical)):
+            missing.setdefault(measures, []).append(canonical)
+    for measures, channels in missing.items():
+        yield f"not assigned: {', '.join(channels)}; without it no {', '.join(measures)}"
+    used = set(found.values())
+    unused = [name for group in contents.groups for name in group.channels if name not in used]
+    if unused:
+        more = f" and {len(unused) - _MOST_LISTED} more" if len(unused) > _MOST_LISTED else ""
+        yield f"not used: {', '.join(map(_quoted, unused[:_MOST_LISTED]))}{more}"
+
+
+def lacks_essentials(contents: Contents) -> bool:
+    """Return whether a proposed map leaves the speed of the train or of a wheelset unassigned."""
+    found = _found(contents)
+    return any(name not in found for name in _ESSENTIAL)
 
 
 def fitting_preset(contents: Contents) -> str | None:
@@ -62,10 +93,16 @@ def _found(contents: Contents) -> dict[str, str]:
 
 
 def _by_name(contents: Contents) -> Iterator[tuple[str, str]]:
-    names = {_plain(name): name for group in contents.groups for name in group.channels}
+    names: dict[str, list[tuple[Group, str]]] = {}
+    for group in contents.groups:
+        for name in group.channels:
+            names.setdefault(_plain(name), []).append((group, name))
     for canonical, source in load_map(_COMMON)[0].sources().items():
-        match = next((names[_plain(alias)] for alias in source.source if _plain(alias) in names), None)
-        if match is not None:
+        alike = (each for alias in source.source for each in names.get(_plain(alias), ()))
+        fitting = (
+            name for group, name in alike if not group.units.get(name) or _has_unit(group, canonical, name)
+        )
+        if (match := next(fitting, None)) is not None:
             yield canonical, match
 
 

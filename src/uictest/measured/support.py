@@ -77,6 +77,14 @@ def _missing(stop: MeasuredStop, measure: str, channels: Channels) -> MissingDat
     return None
 
 
+def measures_of(channel: str) -> tuple[str, ...]:
+    """Return the measures that need a channel; none need `distance`, which the speed gives, too."""
+    if channel == "distance":
+        return ()
+    needs = {**_THROUGHOUT, **_AT_THE_ENDS}
+    return tuple(measure for measure, values in needs.items() if any(channel in value for value in values))
+
+
 def _unusable(stop: MeasuredStop, measure: str, channels: Channels) -> Iterator[str]:
     """Yield why a value cannot even be bounded; all wheelsets that lack a channel are named together."""
     recorded = stop.recording.channels
