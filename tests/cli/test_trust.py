@@ -60,6 +60,7 @@ def test_a_reference_out_of_the_folders_given_needs_trust(
         ["bench", "triangular"],
         ["identify", "hysteresis", "stop.csv"],
         ["identify", "cylinder", "stop.csv"],
+        ["library", "show", "stop.yaml"],
     ],
     ids=" ".join,
 )
@@ -71,6 +72,26 @@ def test_every_command_that_reads_scenarios_takes_folders_to_trust(
     assert answer.code == 4
     assert "'--trust'" in answer.err
     assert "missing" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("car.yaml", "schema: uictest/vehicle/1\nextends: %s\n"),
+        ("map.yaml", "schema: uictest/channel-map/1\nname: m\nchannels: {}\nextends: %s\n"),
+    ],
+)
+def test_the_file_of_a_part_is_shown_with_what_lies_beside_it(
+    call: Call, inside: Path, name: str, text: str
+) -> None:
+    beside = inside.parent / "beside"
+    (beside / "own.yaml").write_text(text % {"car.yaml": "crh380a", "map.yaml": "uictest"}[name])
+    (beside / name).write_text(text % "own.yaml")
+    (inside / name).write_text(text % "../beside/own.yaml")
+
+    assert call("library", "show", beside / name).code == 0
+    assert call("library", "show", name).code == 4
+    assert call("library", "show", name, "--trust", beside).code == 0
 
 
 def test_a_sweep_below_a_folder_that_is_a_link_out_of_it_is_not_read(call: Call, inside: Path) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
+from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.registration import command
 from uictest.cli.streams import data
@@ -34,6 +34,7 @@ def show_part(
     reference: Annotated[
         str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180, or the file of a part.")
     ],
+    trusted: Trusted = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
@@ -43,7 +44,7 @@ def show_part(
     have in a file.
     """
     if reference.endswith((".yaml", ".yml")):
-        _show_file(Path(reference))
+        _show_file(Path(reference), trusted or ())
         return ExitCode.MET
     if reference not in _references():
         raise InvalidInputError(f"uictest: no part {reference!r} in the library; {_hint(reference)}")
@@ -56,7 +57,7 @@ def show_part(
     return ExitCode.MET
 
 
-def _show_file(path: Path) -> None:
+def _show_file(path: Path, trusted: Sequence[Path]) -> None:
     """Show the file of a part, a bench recipe or a channel map. Raises InvalidInputError for any other."""
     from uictest.scenario import ScenarioErrors, load_part_file
     from uictest.scenario.reading import read_file
@@ -68,10 +69,11 @@ def _show_file(path: Path) -> None:
         heading = printable(f"{path}: {title}")
         schema = written.get("schema")
         if schema == "uictest/channel-map/1":
-            channels = _channels(str(path))
+            channels = _channels(str(path), trusted)
             data(f"{heading}\n{_aligned(channels)}")
             return
-        part = _part("benches", str(path)) if schema == "uictest/bench/1" else load_part_file(path)
+        is_bench = schema == "uictest/bench/1"
+        part = _part("benches", str(path), trusted) if is_bench else load_part_file(path, trusted)
     except ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
     data(f"{heading}\nbased on {part.based_on}" if part.based_on else heading)
@@ -118,18 +120,18 @@ def _difference(number: Number, original: Mapping[str, Number], part: Part) -> s
     return f"({part.based_on}: {'none' if other is None else other.quantity.text})"
 
 
-def _channels(name: str) -> list[tuple[str, ...]]:
+def _channels(name: str, trusted: Sequence[Path] = ()) -> list[tuple[str, ...]]:
     from uictest.measured import load_map
 
-    channels = load_map(name)[0].channels
+    channels = load_map(name, trusted)[0].channels
     return [(channel, ", ".join(source.source), source.unit) for channel, source in channels.items()]
 
 
-def _part(folder: str, name: str) -> Part:
+def _part(folder: str, name: str, trusted: Sequence[Path] = ()) -> Part:
     if folder == "benches":
         from uictest.rig.bench_loading import load_bench, recipe_path
 
-        return load_bench(recipe_path(name)).recipe
+        return load_bench(recipe_path(name), trusted=trusted).recipe
     from uictest.scenario import load_part
 
     return load_part(f"{folder}/{name}")

@@ -1,6 +1,6 @@
 """Parts of the library by name, and every number of a part with its source."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +9,7 @@ from uictest.scenario.part_keys import PART_KEYS
 from uictest.scenario.parts.model import Key, Part, Source, quantities_in
 from uictest.scenario.quantities import Quantity
 from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, folder_of
+from uictest.scenario.roots import Roots
 from uictest.scenario.tree import Document, Place, Scalar
 from uictest.scenario.wording import quoted
 
@@ -21,9 +22,14 @@ class Number(NamedTuple):
     source: Source | None
 
 
-def load_part_file(path: Path) -> Part:
-    """The part that a file describes, whatever kind it is of. Raises ScenarioErrors."""
-    tree = Files().at(path)
+def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
+    """The part that a file describes, whatever kind it is of.
+
+    References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
+    ScenarioErrors.
+    """
+    files = Files(Roots.of([path], trusted))
+    tree = files.at(path)
     schema = tree.get("schema")
     models = {f"uictest/{KIND_OF_FOLDER[folder_of(each.model)]}/1": each.model for each in PART_KEYS.values()}
     if not isinstance(schema, Scalar) or schema.text not in models:
@@ -31,7 +37,7 @@ def load_part_file(path: Path) -> Part:
         place = tree.place if schema is None else schema.place
         raise refusal(place, f"not a part: its schema is {found}", "schema", f"accepted: {', '.join(models)}")
     name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
-    part: Part = Parts(Files()).resolve(name, models[schema.text], ()).part
+    part: Part = Parts(files).resolve(name, models[schema.text], ()).part
     return part
 
 
