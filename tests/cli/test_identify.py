@@ -150,12 +150,20 @@ def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace
     [
         (("hysteresis", "missing.parquet"), "no such file"),
         (("hysteresis", "record.parquet", "--force", "kraft"), "no channel 'kraft'"),
-        (("hysteresis", "record.parquet", "--pressure", "clamping_force_1"), "unit 'kN'"),
+        (("cylinder", "record.parquet", "--input", "clamping_force_1"), "unit 'kN'"),
         (("hysteresis", "record.parquet", "--wsp", "3"), "--wsp"),
         (("hysteresis", "record.parquet", "--base", "seven-inch"), "six-inch"),
         (("cylinder", "record.parquet", "--input", "valve_command_1"), "unit '1'"),
         (("hysteresis", "record.parquet", "-o", "nowhere/x.yaml"), "no folder"),
         (("cylinder", "record.parquet", "-o", "x.yaml", "--name", "Our caliper"), "--name"),
+        (
+            ("cylinder", "record.parquet", "--input", "cylinder_pressure_1"),
+            "--input and --output-channel both name 'cylinder_pressure_1'",
+        ),
+        (("hysteresis", "record.parquet", "--force", "valve_command_1"), "--force and --command both name"),
+        (("hysteresis", "record.parquet", "--wsp", "0..inf"), "--wsp '0..inf'"),
+        (("hysteresis", "record.parquet", "--acting-time", "nan"), "--acting-time"),
+        (("hysteresis", "record.parquet", "--transition-time", "-1"), "--transition-time"),
     ],
 )
 def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workplace, arguments, told):
@@ -163,6 +171,54 @@ def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workpl
     assert answer.code == 4
     assert told in answer.err
     assert [path.name for path in workplace.iterdir()] == ["record.parquet"]
+
+
+@pytest.mark.parametrize(
+    ("channel", "change", "reason"),
+    [
+        ("time", lambda time: time * 1e12, "runs from 0 to 2.2e+13 s with a sample every 1e+09 s"),
+        ("time", lambda time: time * 1e4, "is it in ms, not in s?"),
+        ("measured_pressure_2", lambda p: p * 1e307, "reaches inf bar"),
+        (
+            "measured_pressure_2",
+            lambda p: p * np.nan,
+            "'measured_pressure_2' has 22001 samples that are no number",
+        ),
+        ("measured_pressure_2", lambda p: -p, "never above zero"),
+        ("measured_pressure_2", lambda p: 4.0 - p, "does not follow from the tank pressure"),
+        ("clamping_force_1", lambda force: 0.0 * force + 5.0, "the force varies by 0 N only"),
+        ("valve_command_1", lambda command: command + 7.3, "a valve command is 0 fill, 1 hold or 2 vent"),
+    ],
+)
+def test_a_record_that_supports_nothing_is_refused_with_the_reason(
+    call, record, workplace, channel, change, reason
+):
+    recording = read_parquet(record)
+    channels = {**recording.channels, channel: change(recording[channel])}
+    write_parquet(Recording(channels, recording.units), record)
+    kind = "cylinder" if channel == "measured_pressure_2" else "hysteresis"
+    answer = call("identify", kind, "record.parquet", "-o", "found.yaml")
+    assert answer.code == 4
+    assert answer.err.startswith("uictest: record.parquet: ")
+    assert reason in answer.err
+    assert "Warning" not in answer.err
+    assert not (workplace / "found.yaml").exists()
+
+
+def test_times_that_do_not_rise_are_refused(call, workplace):
+    (workplace / "m.csv").write_text("time [s],BC [bar],F [kN]\n0,1,1\n0.1,1,1\n0.05,1,1\n")
+    answer = call("identify", "hysteresis", "m.csv", "--pressure", "BC", "--force", "F", "--wsp", "0..1")
+    assert answer.code == 4
+    assert "does not rise: 0.05 s follows 0.1 s at sample 2" in answer.err
+
+
+def test_two_names_of_one_signal_hold_no_dynamics(call, record):
+    recording = read_parquet(record)
+    channels = {**recording.channels, "measured_pressure_2": recording["cylinder_pressure_1"]}
+    write_parquet(Recording(channels, recording.units), record)
+    answer = call("identify", "cylinder", "record.parquet")
+    assert answer.code == 4
+    assert "the same, sample by sample" in answer.err
 
 
 def test_a_file_that_is_no_recording_is_refused(call, workplace):

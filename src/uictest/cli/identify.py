@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from collections.abc import Sequence
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -27,6 +29,14 @@ identify = typer.Typer(
     help="Identify hysteresis or cylinder dynamics from a recording.",
 )
 
+_OPTIONS = {
+    "input": "--input",
+    "output": "--output-channel",
+    "pressure": "--pressure",
+    "force": "--force",
+    "command": "--command",
+}
+"""Role of a channel -> the option that names it."""
 Recording = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
 ]
@@ -77,10 +87,19 @@ def hysteresis(
         ),
     ] = None,
     acting_time: Annotated[
-        float, typer.Option("--acting-time", help="Time of filling in s after which the WSP no longer acts.")
+        float,
+        typer.Option(
+            "--acting-time",
+            min=0.0,
+            max=60.0,
+            help="Time of filling in s after which the WSP no longer acts.",
+        ),
     ] = 2.0,
     transition_time: Annotated[
-        float, typer.Option("--transition-time", help="Time in s from one pair of lines to the other.")
+        float,
+        typer.Option(
+            "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
+        ),
     ] = 0.1,
     held_out: HeldOut = 0.25,
     date: Date = "",
@@ -88,7 +107,6 @@ def hysteresis(
 ) -> ExitCode:
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
     from uictest.identification import UnsuitableRecordError, identify_hysteresis
-    from uictest.identification.channels import read_record
     from uictest.identification.compensation_file import with_hysteresis
     from uictest.identification.phases import wsp_acting_from_commands, wsp_acting_in_intervals
 
@@ -96,20 +114,20 @@ def hysteresis(
     part_name = "" if output is None else _name(name, record)
     given = [_interval(text) for text in intervals or ()]
     wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
+    recorded = _record(record, wanted)
+    channels = recorded.channels
+    time = channels["time"]
+    acting = (
+        wsp_acting_in_intervals(time, given)
+        if given
+        else wsp_acting_from_commands(time, channels["command"], acting_time)
+    )
     try:
-        recorded = read_record(_existing(record), wanted)
-        channels = recorded.channels
-        time = channels["time"]
-        acting = (
-            wsp_acting_in_intervals(time, given)
-            if given
-            else wsp_acting_from_commands(time, channels["command"], acting_time)
-        )
         result = identify_hysteresis(
             time, channels["pressure"], channels["force"], acting, transition_time, held_out
         )
     except UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
     data(_hysteresis_report(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
@@ -144,25 +162,41 @@ def cylinder(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
-    from uictest.identification import UnsuitableRecordError, identify_cylinder
-    from uictest.identification.channels import read_record
+    from uictest.identification import UnsuitableRecordError, identify_cylinder, require_fit
     from uictest.identification.compensation_file import with_cylinder
 
     kept = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
+    recorded = _record(record, {"input": tank, "output": cylinder})
+    channels = recorded.channels
     try:
-        recorded = read_record(_existing(record), {"input": tank, "output": cylinder})
-        channels = recorded.channels
         result = identify_cylinder(
             channels["time"], channels["input"], channels["output"], criterion, held_out
         )
+        require_fit(result)
     except UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
     data(_cylinder_report(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         _write(output, with_cylinder(kept, part_name, result, provenance))
     return ExitCode.MET
+
+
+def _record(record: Path, wanted: dict[str, str]) -> Record:
+    """Read the channels of a record by role. Raises InvalidInputError where two options name the same one."""
+    from uictest.identification import UnsuitableRecordError
+    from uictest.identification.channels import read_record
+
+    for (role, name), (other, same) in combinations(wanted.items(), 2):
+        if name == same:
+            raise InvalidInputError(
+                f"uictest: {_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
+            )
+    try:
+        return read_record(_existing(record), wanted)
+    except UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
 
 
 def _existing(record: Path) -> Path:
@@ -177,7 +211,7 @@ def _interval(text: str) -> tuple[float, float]:
         begin, end = float(first), float(last)
     except ValueError:
         begin, end = 1.0, 0.0
-    if not dots or not begin < end:
+    if not dots or not -math.inf < begin < end < math.inf:
         raise InvalidInputError(
             f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
         )

@@ -1,6 +1,6 @@
 """Hysteresis and cylinder dynamics from records, whoever made them: this room knows no rig."""
 
-from uictest.identification.cylinder import CylinderResult, identify_cylinder
+from uictest.identification.cylinder import CylinderResult, identify_cylinder, require_fit
 from uictest.identification.hysteresis import HysteresisResult, identify_hysteresis
 from uictest.identification.suitability import UnsuitableRecordError
 
@@ -10,4 +10,5 @@ __all__ = [
     "UnsuitableRecordError",
     "identify_cylinder",
     "identify_hysteresis",
+    "require_fit",
 ]

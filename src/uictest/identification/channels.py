@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.identification.suitability import UnsuitableRecordError
+from uictest.identification.suitability import UnsuitableRecordError, require_finite
+from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.recording import ORIGIN
+
+if TYPE_CHECKING:
+    from uictest.recording.contents import Group
 
 Samples = NDArray[np.float64]
 TIME = "time"
+_SI = {"time": "s", "pressure": "Pa", "force": "N"}
 _UNKNOWN_ORIGIN = "recorded, origin not stated"
 _LONGEST_ORIGIN = 200
 
@@ -36,59 +41,100 @@ class Record:
 def read_record(path: Path, wanted: Mapping[str, str]) -> Record:
     """Read the channels that ``wanted`` maps from role to name, in SI units, and the time.
 
-    A role that begins with ``command`` is a pure number; ``force`` is a force; every other role but ``time``
-    is a pressure. Time is the channel ``time`` unless ``wanted`` maps the role to another.
+    A role that begins with ``command`` is a valve command; ``force`` is a force; every other role but
+    ``time`` is a pressure. Time is the channel ``time`` unless ``wanted`` maps the role to another.
 
     Raises:
-        UnsuitableRecordError: the file is no recording, a channel is not there or its unit is unknown.
+        UnsuitableRecordError: the file is no recording, a channel is not there, its unit is unknown or its
+            samples are no numbers, or none that a train shows; times do not rise.
         OSError: the file cannot be opened.
     """
     from uictest.recording.formats import MissingExtraError, UnreadableError, read_contents
 
     try:
         contents = read_contents(path)
-    except (UnreadableError, MissingExtraError) as error:
+        return Record(_channels(contents.groups, {TIME: TIME, **wanted}), _origin(contents.metadata))
+    except (UnreadableError, MissingExtraError, UnsuitableRecordError) as error:
         raise UnsuitableRecordError(f"{path}: {error}") from error
-    named = {TIME: TIME, **wanted}
-    for group in contents.groups:
+
+
+def _channels(groups: Sequence[Group], named: Mapping[str, str]) -> dict[str, Samples]:
+    for group in groups:
         if all(name in group.channels for name in named.values()):
-            channels = {
-                role: _in_si(path, role, name, group.channels[name], group.units.get(name, ""))
+            return {
+                role: _in_si(role, name, group.channels[name], group.units.get(name, ""))
                 for role, name in named.items()
             }
-            return Record(channels, _origin(contents.metadata))
-    there = sorted({name for group in contents.groups for name in group.channels})
+    there = sorted({name for group in groups for name in group.channels})
     missing = [name for name in named.values() if name not in there]
-    raise UnsuitableRecordError(
-        f"{path}: no channel {', '.join(map(repr, missing)) or 'group with all channels'};"
-        f" there are {', '.join(there)}"
-    )
+    absent = ", ".join(map(repr, missing)) or "group with all channels"
+    raise UnsuitableRecordError(f"no channel {absent}; there are {', '.join(there)}")
 
 
 def _origin(facts: Mapping[str, str]) -> str:
     return " ".join(facts.get(ORIGIN, "").split())[:_LONGEST_ORIGIN] or _UNKNOWN_ORIGIN
 
 
-def _in_si(path: Path, role: str, name: str, samples: NDArray[np.generic], unit: str) -> Samples:
+def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Samples:
     if samples.dtype.kind not in "biuf":
-        raise UnsuitableRecordError(f"{path}: channel {name!r} holds texts where numbers are needed")
+        raise UnsuitableRecordError(f"channel {name!r} holds texts where numbers are needed")
     numbers = np.asarray(samples, dtype=np.float64)
     if role.startswith("command"):
+        _require_commands(name, numbers)
         return numbers
     kind = role if role in ("time", "force") else "pressure"
-    factor = _factor(path, name, unit, kind)
-    return numbers if factor == 1 else numbers * float(factor)
+    sizes = _sizes(name, unit, kind)
+    with np.errstate(over="ignore"):
+        converted = numbers if sizes[unit] == 1.0 else numbers * sizes[unit]
+    _require_plausible(name, converted, kind, unit, sizes)
+    require_finite({name: converted})
+    if kind == "time":
+        _require_rising(name, converted)
+    return converted
 
 
-def _factor(path: Path, name: str, unit: str, kind: str) -> Fraction:
+def _sizes(name: str, unit: str, kind: str) -> dict[str, float]:
     from uictest.scenario.units import KINDS
 
-    known = KINDS[kind].units
+    known = {symbol: float(each.factor) for symbol, each in KINDS[kind].units.items()}
     if unit not in known:
         raise UnsuitableRecordError(
-            f"{path}: channel {name!r} has the unit {unit or 'none'!r}; accepted: {', '.join(known)}"
+            f"channel {name!r} has the unit {unit or 'none'!r}; accepted: {', '.join(known)}"
         )
-    return known[unit].factor
+    return known
+
+
+def _require_plausible(
+    name: str, converted: Samples, kind: str, unit: str, sizes: Mapping[str, float]
+) -> None:
+    from uictest.recording.plausibility import implausible_time, implausible_unit
+
+    if kind == "time":
+        implausible = implausible_time(converted, unit, sizes)
+    else:
+        implausible = implausible_unit(converted, _SI[kind], unit, sizes, faulty=0.0)
+    if implausible is not None:
+        likely = implausible.likely_unit
+        question = f"; is it in {likely}, not in {unit}?" if likely else ""
+        raise UnsuitableRecordError(f"channel {name!r} {implausible.reason}{question}")
+
+
+def _require_commands(name: str, commands: Samples) -> None:
+    strange = commands[~np.isin(commands, (FILL, HOLD, VENT))]
+    if len(strange):
+        raise UnsuitableRecordError(
+            f"channel {name!r} holds {strange[0]:g}; a valve command is {FILL:g} fill, {HOLD:g} hold or"
+            f" {VENT:g} vent"
+        )
+
+
+def _require_rising(name: str, time: Samples) -> None:
+    wrong = np.flatnonzero(np.diff(time) <= 0.0)
+    if len(wrong):
+        k = int(wrong[0])
+        raise UnsuitableRecordError(
+            f"channel {name!r} does not rise: {time[k + 1]:.6g} s follows {time[k]:.6g} s at sample {k + 1}"
+        )
 
 
 def samples_digest(channels: Mapping[str, Samples]) -> str:

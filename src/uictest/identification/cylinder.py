@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from uictest.identification.applications import applications
 from uictest.identification.output_error import Stretch, least_largest_weights, least_squares_weights, refined
 from uictest.identification.suitability import (
+    UnsuitableRecordError,
     held_out,
     require_duration,
     require_excitation,
@@ -23,6 +24,8 @@ Samples = NDArray[np.float64]
 Criterion = Literal["least-squares", "largest-error"]
 _SHORTEST = 5.0
 _LONGEST_STEP = 0.01
+_POOREST_FIT = 50.0
+"""%: below it the fit is closer to a constant than to the pressure; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +76,11 @@ def identify_cylinder(
     step = sampling_time(time, _LONGEST_STEP)
     require_excitation("tank_pressure", tank_pressure, step)
     require_excitation("cylinder_pressure", cylinder_pressure, step)
+    _require_dynamics(tank_pressure, cylinder_pressure)
     kept = held_out(len(time), held_out_share)
     parts = applications(tank_pressure, cylinder_pressure, step)
+    if not any(kept[part].any() and not kept[part].all() for part in parts):
+        raise UnsuitableRecordError("no brake application: the pressures must rise from rest and hold")
     stretches = [_stretch(tank_pressure[part], cylinder_pressure[part], ~kept[part]) for part in parts]
     poles, weights = refined(stretches, step, least_squares_weights)
     if criterion == "largest-error":
@@ -86,6 +92,23 @@ def identify_cylinder(
     ]
     tank, cylinder = (np.concatenate(column) for column in zip(*measured, strict=True))
     return _assessed(model, tank, cylinder, np.concatenate(computed))
+
+
+def _require_dynamics(tank: Samples, cylinder: Samples) -> None:
+    for name, pressure in (("tank", tank), ("cylinder", cylinder)):
+        if pressure.max() <= 0.0:
+            raise UnsuitableRecordError(f"the {name} pressure is never above zero: is its sign wrong?")
+    if np.array_equal(tank, cylinder):
+        raise UnsuitableRecordError("tank and cylinder pressure are the same, sample by sample: no dynamics")
+
+
+def require_fit(result: CylinderResult) -> None:
+    """Refuse a result that hardly computes the record it was found in. Raises UnsuitableRecordError."""
+    if not result.fit >= _POOREST_FIT:
+        raise UnsuitableRecordError(
+            f"the cylinder pressure does not follow from the tank pressure: the fit of the part held out is"
+            f" {result.fit:.3g} %, at least {_POOREST_FIT:g} % are needed"
+        )
 
 
 def _stretch(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> Stretch:

@@ -28,7 +28,7 @@ _SMALLEST_FORCE = 100.0
 _INDEPENDENT = 0.01
 """Sampling time in s of the points that are fitted; closer readings of a sensor are not independent."""
 _LEAST_SPAN = 0.1
-"""Range of pressures that the points of a phase must cover, share of the record's own."""
+"""Range of pressures that the points of a phase must cover, and of forces, share of the record's own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +83,8 @@ def identify_hysteresis(
     largest = float(force.max())
     if largest < _SMALLEST_FORCE:
         raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
+    if np.ptp(force) < _LEAST_SPAN * largest:
+        raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
     kept = held_out(len(time), held_out_share)
     lines = _lines(pressure, force, wsp_acting, ~kept, step)
     computed = computed_force(pressure, wsp_acting, _all_four(lines), transition_time, step, float(force[0]))

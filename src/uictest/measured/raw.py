@@ -16,7 +16,7 @@ from uictest.measured.channels import UNITS
 from uictest.measured.units import accepted, factor
 from uictest.recording import TIME
 from uictest.recording.contents import Contents, Group
-from uictest.recording.plausibility import implausible_time, implausible_unit
+from uictest.recording.plausibility import Implausible, implausible_time, implausible_unit
 from uictest.recording.states import STATES, state_kind
 from uictest.scenario.wording import quoted, suggestion
 
@@ -124,7 +124,7 @@ def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
     return _refused_if(_implausible(name, converted, unit), name, quoted(original), converted)
 
 
-def _implausible(name: str, converted: Array, unit: str) -> str:
+def _implausible(name: str, converted: Array, unit: str) -> Implausible | None:
     si = UNITS[name]
     sizes = {**{each: float(size) for each, size in accepted(si).items()}, unit: factor(unit, si) or 1.0}
     if name == TIME:
@@ -132,9 +132,11 @@ def _implausible(name: str, converted: Array, unit: str) -> str:
     return implausible_unit(converted, si, unit, sizes)
 
 
-def _refused_if(reason: str, name: str, original: str, samples: Array) -> Array:
-    if reason:
-        raise MapError(f"{name}: {original} {reason}")
+def _refused_if(implausible: Implausible | None, name: str, original: str, samples: Array) -> Array:
+    if implausible is not None:
+        unit = implausible.likely_unit
+        question = f"; is it in {unit}? write `unit: {unit}` in a channel map" if unit else ""
+        raise MapError(f"{name}: {original} {implausible.reason}{question}")
     return samples
 
 

@@ -14,6 +14,14 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
+class Implausible:
+    """Why samples cannot be what they are said to be, and the unit that they may be in; empty: none fits."""
+
+    reason: str
+    likely_unit: str
+
+
+@dataclass(frozen=True, slots=True)
 class Limit:
     """A number in SI, and how a reader writes it."""
 
@@ -37,7 +45,7 @@ SHORTEST_INTERVAL: Final = Limit(1e-5, "0.01 ms")
 LONGEST_INTERVAL: Final = Limit(5.0, "5 s")
 """Between two samples; chosen. A raster coarser than a second shows no slide."""
 LONGEST_RECORD: Final = Limit(86_400.0, "one day")
-_FEW: Final = 0.1
+FEW: Final = 0.1
 """Share of samples beyond the largest that may be faults; more say that the unit is wrong; chosen."""
 
 
@@ -49,41 +57,45 @@ def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(samples) & (np.abs(samples) > limit.value))
 
 
-def implausible_unit(samples: Array, si: str, unit: str, sizes: Mapping[str, float]) -> str:
-    """Return why samples cannot be in a unit, and which of `sizes` would do; empty where they can.
+def implausible_unit(
+    samples: Array, si: str, unit: str, sizes: Mapping[str, float], faulty: float = FEW
+) -> Implausible | None:
+    """Return why samples cannot be in a unit; None where they can.
 
     Args:
         samples: as SI, converted from `unit`.
         si: the SI unit.
         unit: what the samples are said to be in; a key of `sizes`.
         sizes: unit -> its size in SI.
+        faulty: share of samples that may be beyond the largest for other reasons.
 
     """
     numbers, limit = np.abs(samples[~np.isnan(samples)]), LARGEST.get(si)
-    if limit is None or not len(numbers) or np.mean(numbers > limit.value) <= _FEW:
-        return ""
+    if limit is None or not len(numbers) or np.mean(numbers > limit.value) <= faulty:
+        return None
     largest = float(numbers.max())
     fitting = [each for each, size in sizes.items() if largest / sizes[unit] * size <= limit.value]
     likely = max(fitting, key=lambda each: sizes[each], default="")
-    question = f"; is it in {likely}? write `unit: {likely}` in a channel map" if likely else ""
-    return f"reaches {largest / sizes[unit]:.4g} {unit}; at most {limit.text} is plausible{question}"
+    return Implausible(
+        f"reaches {largest / sizes[unit]:.4g} {unit}; at most {limit.text} is plausible", likely
+    )
 
 
-def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> str:
-    """Return why times, in s and rising, cannot be those of a recording; empty where they can.
+def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> Implausible | None:
+    """Return why times, in s, cannot be those of a recording; None where they can, or do not rise.
 
     `unit` is what they are said to be in, a key of `sizes` (unit -> s).
     """
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
     if not rising or _plausible(time, 1.0):
-        return ""
+        return None
     likely = next((each for each, size in sizes.items() if _plausible(time, size / sizes[unit])), "")
-    question = f"; is it in {likely}? write `unit: {likely}` in a channel map" if likely else ""
     first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], _interval(time) / sizes[unit]
-    return (
+    return Implausible(
         f"runs from {first:.6g} to {last:.6g} {unit} with a sample every {step:.4g} {unit};"
         f" {SHORTEST_INTERVAL.text} to {LONGEST_INTERVAL.text} between samples and at most"
-        f" {LONGEST_RECORD.text} are plausible{question}"
+        f" {LONGEST_RECORD.text} are plausible",
+        likely,
     )
 
 
