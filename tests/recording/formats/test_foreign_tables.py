@@ -131,6 +131,11 @@ def test_the_first_text_among_numbers_is_placed(table: Path) -> None:
     assert group.first_texts == {"v": "line 6, column 2"}
 
 
+def test_a_number_of_four_hundred_digits_is_a_number(table: Path) -> None:
+    group = _read(table, f"t,v\n0.0,{'9' * 400}\n0.1,off\n")
+    assert group.first_texts == {"v": "line 3, column 2"}
+
+
 def test_dates_become_seconds(table: Path) -> None:
     group = _read(table, "when,v\n2026-05-31T23:59:59.5,1\n2026-06-01T00:00:00.250,2\n")
     np.testing.assert_allclose(group.channels["when"], [0.0, 0.75])

@@ -55,6 +55,37 @@ def test_a_process_of_its_own_reads_the_same(name: str, written: Written) -> Non
             np.testing.assert_array_equal(one.channels[channel], other.channels[channel])
 
 
+def test_parquet_columns_as_other_programs_write_them(tmp_path: Path) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    stamps = pa.array([None, 0, 50_000], pa.timestamp("us"))
+    states = pa.array(["fill", "hold", "vent"])
+    columns = {
+        "stamps": stamps,
+        "lasted": pa.array([0, 50, 100], pa.duration("ms")),
+        "large": states.cast(pa.large_string()),
+        "coded": states.dictionary_encode(),
+        "count": pa.array([0, 1, 2**64 - 1], pa.uint64()),
+    }
+    pq.write_table(pa.table(columns), tmp_path / "foreign.parquet")
+    [group] = read_here("parquet", tmp_path / "foreign.parquet", Dialect()).groups
+    np.testing.assert_allclose(group.channels["stamps"], [np.nan, 0.0, 0.05])
+    np.testing.assert_allclose(group.channels["lasted"], [0.0, 0.05, 0.1])
+    assert list(group.channels["large"]) == list(group.channels["coded"]) == ["fill", "hold", "vent"]
+    assert group.channels["count"][-1] == 2.0**64
+    assert group.units == {"stamps": "s", "lasted": "s"}
+
+
+def test_parquet_columns_of_one_name_are_refused(tmp_path: Path) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    pq.write_table(pa.table([[0.0], [1.0]], names=["time", "time"]), tmp_path / "twice.parquet")
+    with pytest.raises(UnreadableError, match="2 columns have the name 'time'"):
+        read_here("parquet", tmp_path / "twice.parquet", Dialect())
+
+
 def test_mdf_opens_in_its_own_library(written: Written) -> None:
     asammdf = pytest.importorskip("asammdf")
     with asammdf.MDF(written("mdf")) as mdf:

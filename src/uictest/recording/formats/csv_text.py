@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import itertools
+import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -178,13 +179,18 @@ def _seconds(column: Any) -> Samples | None:
 
 def _first_text(column: Any) -> int | None:
     """Return the row of the first text in a column that also holds numbers, else None."""
-    import pandas as pd
-
     if column.dtype.kind in "biuf":
         return None
-    numbers = pd.to_numeric(column, errors="coerce")
-    texts = np.flatnonzero(numbers.isna() & column.notna())
-    return int(texts[0]) if len(texts) and numbers.notna().any() else None
+    numbers = np.array([_is_number(cell) for cell in column])
+    texts = np.flatnonzero(~numbers & column.notna().to_numpy())
+    return int(texts[0]) if len(texts) and numbers.any() else None
+
+
+def _is_number(cell: object) -> bool:
+    try:
+        return not math.isnan(float(str(cell)))
+    except ValueError:
+        return False
 
 
 def _facts(heading: Sequence[str]) -> dict[str, str]:

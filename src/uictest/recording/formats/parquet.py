@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,13 +30,15 @@ def read(path: Path) -> Contents:
     try:
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
             rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
+            _refuse_same_names(schema.names)
             wanted = [field.name for field in schema if _holds_samples(field.type)]
             check_size([(rows,)] * len(schema))
             table = parquet.read(columns=wanted, use_threads=False)
     except (pa.ArrowException, OSError) as error:
-        raise UnreadableError(f"not a Parquet file: {error}") from error
+        raise UnreadableError("no Parquet file, or a damaged one") from error
     facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
     units = {**_object(facts.get("uictest.units")), **_field_units(schema)}
+    units |= {field.name: "s" for field in schema if _holds_times(field.type)}
     skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in wanted}
     channels = {name: _samples(table.column(name)) for name in wanted}
     return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
@@ -46,28 +49,48 @@ def write(recording: Recording, path: Path) -> None:
     write_parquet(recording, path)
 
 
+def _refuse_same_names(names: list[str]) -> None:
+    for name, count in Counter(names).items():
+        if count > 1:
+            raise UnreadableError(f"{count} columns have the name {name!r}")
+
+
 def _holds_samples(kind: pa.DataType) -> bool:
     import pyarrow as pa
 
     numbers = pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_boolean(kind)
-    others = pa.types.is_string(kind) or pa.types.is_decimal(kind) or pa.types.is_timestamp(kind)
-    return bool(numbers or others)
+    return bool(numbers or pa.types.is_decimal(kind) or _holds_times(kind) or _holds_texts(kind))
+
+
+def _holds_times(kind: pa.DataType) -> bool:
+    import pyarrow as pa
+
+    return bool(pa.types.is_timestamp(kind) or pa.types.is_duration(kind))
+
+
+def _holds_texts(kind: pa.DataType) -> bool:
+    import pyarrow as pa
+
+    if pa.types.is_dictionary(kind):
+        return _holds_texts(kind.value_type)
+    return bool(pa.types.is_string(kind) or pa.types.is_large_string(kind))
 
 
 def _samples(column: Any) -> Samples:
     import pyarrow as pa
 
-    if pa.types.is_string(column.type):
+    if _holds_texts(column.type):
         return np.array([(text or "")[:_LONGEST_TEXT] for text in column.to_pylist()], dtype=np.str_)
     if pa.types.is_timestamp(column.type):
-        stamps = column.to_numpy().astype("datetime64[ns]")
-        return _seconds(stamps)
-    return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=np.float64)
+        return _seconds(column.to_numpy().astype("datetime64[us]"))
+    if pa.types.is_duration(column.type):
+        return np.asarray(column.to_numpy() / np.timedelta64(1, "ns") * 1e-9, dtype=np.float64)
+    return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(), dtype=np.float64)
 
 
 def _seconds(stamps: Any) -> Samples:
     """Return time stamps as seconds after the first; one that is missing becomes NaN."""
-    since = (stamps - stamps[:1]) / np.timedelta64(1, "ns") * 1e-9
+    since = (stamps - stamps[~np.isnat(stamps)][:1]) / np.timedelta64(1, "us") * 1e-6
     return np.asarray(since, dtype=np.float64)
 
 

@@ -45,7 +45,7 @@ def main(name: str, path: str, dialect: str) -> int:
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
             return NO_ROOM
-        return _refuse(f"not a sound {name} file: {type(error).__name__}: {error}", REFUSED)
+        return _refuse(f"damaged, or nothing that can be read as {name} ({type(error).__name__})", REFUSED)
     try:
         leave(contents, Path.cwd())
     except OSError:
