@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from uictest import lanes
+from uictest.lanes import select, vectors
 from uictest.physics.noise import bell, threefry
 from uictest.rig.compiled import translate
 
@@ -31,10 +32,10 @@ OPERATIONS: dict[str, Operation] = {
     "number on the right": lambda a, b: b + 5,
 }
 CHOICES: dict[str, tuple[Operation, Operation]] = {
-    "less": (lambda a, b: lanes.select(a < b, a, b), lambda a, b: np.where(a < b, a, b)),
-    "less than a number": (lambda a, b: lanes.select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
+    "less": (lambda a, b: select(a < b, a, b), lambda a, b: np.where(a < b, a, b)),
+    "less than a number": (lambda a, b: select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
     "equal": (
-        lambda a, b: lanes.select(a & 1 == b & 1, 7, a + 1),
+        lambda a, b: select(a & 1 == b & 1, 7, a + 1),
         lambda a, b: np.where(a & 1 == b & 1, 7, a + 1),
     ),
 }
@@ -46,7 +47,7 @@ def applied(function: Operation) -> Callable[[Any, Any], NDArray[np.int64]]:
 
     @numba.njit
     def apply(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.result = compiled(record.a, record.b)
 
     def call(a: Any, b: Any) -> NDArray[np.int64]:
@@ -89,7 +90,7 @@ def test_choices_are_those_of_numpy(choice: tuple[Operation, Operation], a: list
 def test_a_counter_counts_in_every_lane() -> None:
     @numba.njit
     def count(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.a += 1
 
     block = lanes.block(PAIR, WIDTH)
@@ -101,7 +102,7 @@ def test_a_counter_counts_in_every_lane() -> None:
 def test_a_sum_with_a_float_is_a_float() -> None:
     @numba.njit
     def halve(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.number = (record.a + 1.0) * 0.5
 
     block = lanes.block(PAIR, WIDTH)
@@ -115,7 +116,7 @@ def test_noise_in_lanes_has_the_bits_of_noise_one_by_one() -> None:
 
     @numba.njit
     def draw(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         word_0, word_1 = in_lanes(record.a, record.b, record.result, 35)
         record.number = together(word_0, word_1)
 

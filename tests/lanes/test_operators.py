@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from uictest import lanes
+from uictest.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
 from uictest.physics import arithmetic
 from uictest.rig.compiled import translate
 
@@ -27,7 +28,7 @@ def applied(function: Callable[..., Any]) -> Callable[[Any, Any], Numbers]:
 
     @numba.njit(error_model="numpy")
     def apply(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.result = compiled(record.a, record.b)
 
     def call(a: Any, b: Any) -> Numbers:
@@ -44,25 +45,25 @@ BINARY: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
     "sub": (lambda a, b: a - b, np.subtract),
     "mul": (lambda a, b: a * b, np.multiply),
     "truediv": (lambda a, b: a / b, np.divide),
-    "minimum": (lambda a, b: lanes.minimum(a, b), lambda a, b: np.where(a < b, a, b)),
-    "maximum": (lambda a, b: lanes.maximum(a, b), lambda a, b: np.where(a > b, a, b)),
-    "lt": (lambda a, b: lanes.select(a < b, 1.0, 0.0), np.less),
-    "le": (lambda a, b: lanes.select(a <= b, 1.0, 0.0), np.less_equal),
-    "gt": (lambda a, b: lanes.select(a > b, 1.0, 0.0), np.greater),
-    "ge": (lambda a, b: lanes.select(a >= b, 1.0, 0.0), np.greater_equal),
-    "select": (lambda a, b: lanes.select(a > 0.0, a, b), lambda a, b: np.where(a > 0.0, a, b)),
+    "minimum": (lambda a, b: minimum(a, b), lambda a, b: np.where(a < b, a, b)),
+    "maximum": (lambda a, b: maximum(a, b), lambda a, b: np.where(a > b, a, b)),
+    "lt": (lambda a, b: select(a < b, 1.0, 0.0), np.less),
+    "le": (lambda a, b: select(a <= b, 1.0, 0.0), np.less_equal),
+    "gt": (lambda a, b: select(a > b, 1.0, 0.0), np.greater),
+    "ge": (lambda a, b: select(a >= b, 1.0, 0.0), np.greater_equal),
+    "select": (lambda a, b: select(a > 0.0, a, b), lambda a, b: np.where(a > 0.0, a, b)),
     "and": (
-        lambda a, b: lanes.select((a > 0.0) & (b > 0.0), a, b),
+        lambda a, b: select((a > 0.0) & (b > 0.0), a, b),
         lambda a, b: np.where((a > 0.0) & (b > 0.0), a, b),
     ),
     "or": (
-        lambda a, b: lanes.select((a > 0.0) | (b > 0.0), a, b),
+        lambda a, b: select((a > 0.0) | (b > 0.0), a, b),
         lambda a, b: np.where((a > 0.0) | (b > 0.0), a, b),
     ),
     "neg": (lambda a, b: -a, lambda a, b: -a),
     "abs": (lambda a, b: abs(a), lambda a, b: np.abs(a)),
-    "floor": (lambda a, b: lanes.floor(a), lambda a, b: np.floor(a)),
-    "sqrt": (lambda a, b: lanes.sqrt(a), lambda a, b: np.sqrt(a)),
+    "floor": (lambda a, b: floor(a), lambda a, b: np.floor(a)),
+    "sqrt": (lambda a, b: sqrt(a), lambda a, b: np.sqrt(a)),
     "number on the left": (lambda a, b: 3.0 - a, lambda a, b: 3.0 - a),
     "number on the right": (lambda a, b: a / 3, lambda a, b: a / 3),
 }
@@ -120,9 +121,9 @@ def without_instruction(**replaced: Any) -> Any:
 
 
 FUSED = {
-    "instruction": (lanes.fma, lanes.fma),
+    "instruction": (fma, fma),
     "source": (
-        without_instruction(select=lanes.select, maximum=lanes.maximum),
+        without_instruction(select=select, maximum=maximum),
         without_instruction(),
     ),
 }
@@ -139,7 +140,7 @@ def fused(request: pytest.FixtureRequest) -> tuple[Callable[..., Any], Callable[
 
     @numba.njit
     def apply(block: Any, c: float) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.result = fma_in_lanes(record.a, record.b, c)
 
     def in_lanes(a: float, b: float, c: float) -> Numbers:

@@ -8,6 +8,7 @@ import pytest
 from numba.core.errors import TypingError
 
 from uictest import lanes
+from uictest.lanes import lane, put, take, vectors
 
 LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8"), ("load", "f8")]))
 WIDTHS = [2, 4, 8, 16]
@@ -27,7 +28,7 @@ def counted(width: int) -> Any:
 def test_attributes_of_vectors_are_the_fields_of_all_lanes(width: int) -> None:
     @numba.njit
     def move(block: Any) -> None:
-        records = lanes.vectors(block)
+        records = vectors(block)
         for i in range(3):
             records[i].load = records[i].speed + records[i].load
 
@@ -42,7 +43,7 @@ def test_attributes_of_vectors_are_the_fields_of_all_lanes(width: int) -> None:
 def test_one_lane_leaves_the_others_alone(width: int) -> None:
     @numba.njit
     def change(block: Any, number: int) -> None:
-        record = lanes.lane(block, number)[1]
+        record = lane(block, number)[1]
         record.speed = -record.speed
         record.mode = record.mode + 1
         record.load = 7
@@ -59,8 +60,8 @@ def test_one_lane_leaves_the_others_alone(width: int) -> None:
 def test_a_number_stored_into_a_vector_fills_every_lane() -> None:
     @numba.njit
     def reset(block: Any) -> None:
-        lanes.vectors(block).load = 0.5
-        lanes.vectors(block)[2].load = 3
+        vectors(block).load = 0.5
+        vectors(block)[2].load = 3
 
     block = counted(8)
     reset(block)
@@ -71,7 +72,7 @@ def test_a_number_stored_into_a_vector_fills_every_lane() -> None:
 def test_integers_keep_all_their_bits() -> None:
     @numba.njit
     def shift(block: Any) -> None:
-        record = lanes.lane(block, 3)
+        record = lane(block, 3)
         record.mode = (record.mode << 1) | 1
 
     block = counted(8)
@@ -83,7 +84,7 @@ def test_integers_keep_all_their_bits() -> None:
 def test_put_copies_every_field_of_a_record() -> None:
     @numba.njit
     def copy(block: Any, records: Any) -> None:
-        lanes.put(lanes.lane(block, 5)[2], records[0])
+        put(lane(block, 5)[2], records[0])
 
     block = counted(8)
     record = np.array([(1.5, BIG, -0.0)], LAYOUT)
@@ -94,7 +95,7 @@ def test_put_copies_every_field_of_a_record() -> None:
 def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
     @numba.njit
     def copy(records: Any, block: Any) -> None:
-        lanes.take(records[1], lanes.lane(block, 5)[2])
+        take(records[1], lane(block, 5)[2])
 
     block = counted(8)
     block["mode"][2, 5] = BIG
@@ -108,7 +109,7 @@ def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
 def test_a_record_without_a_field_of_the_lane_takes_nothing() -> None:
     @numba.njit
     def copy(records: Any, block: Any) -> None:
-        lanes.take(records[0], lanes.lane(block, 0))
+        take(records[0], lane(block, 0))
 
     with pytest.raises(TypingError, match="take"):
         copy(np.zeros(1, np.dtype([("speed", "f8")])), counted(8))
@@ -117,7 +118,7 @@ def test_a_record_without_a_field_of_the_lane_takes_nothing() -> None:
 def test_integer_fields_are_no_vectors() -> None:
     @numba.njit
     def read(block: Any) -> None:
-        lanes.vectors(block).load = lanes.vectors(block).mode
+        vectors(block).load = vectors(block).mode
 
     with pytest.raises(TypingError, match="mode"):
         read(counted(8))
@@ -126,7 +127,7 @@ def test_integer_fields_are_no_vectors() -> None:
 def test_an_unknown_field_is_named() -> None:
     @numba.njit
     def read(block: Any) -> None:
-        lanes.vectors(block).sped = 1.0
+        vectors(block).sped = 1.0
 
     with pytest.raises(TypingError, match="sped"):
         read(counted(8))
@@ -135,7 +136,7 @@ def test_an_unknown_field_is_named() -> None:
 def test_a_block_may_lie_anywhere() -> None:
     @numba.njit
     def double(block: Any) -> None:
-        record = lanes.vectors(block)
+        record = vectors(block)
         record.load = record.load * 2.0
 
     aligned = counted(8)[:1]

@@ -7,7 +7,8 @@ lanes at once. Every operation rounds as its scalar counterpart does: a lane giv
 gives, whatever its neighbours hold and however wide the register is.
 
 The room rests on internals of numba and is the only one that does. It knows nothing of the rig. What only
-compiled code calls is imported when it is first used: blocks are filled without a compiler.
+compiled code calls is imported when it is first used, since blocks are filled without a compiler; import it
+by name, for numba knows nothing of functions that appear while it compiles.
 """
 
 from importlib import import_module
