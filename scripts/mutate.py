@@ -252,8 +252,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         process.wait()
 
 
-def _difference(place: Place) -> str:
-    text = (REPOSITORY / place.file).read_text("utf-8")
+def _difference(place: Place, text: str) -> str:
     lines = difflib.unified_diff(text.splitlines(), place.mutated(text).splitlines(), n=0, lineterm="")
     return "\n".join(f"    {line}" for line in lines if not line.startswith(("---", "+++", "@@")))
 
@@ -263,9 +262,10 @@ def _try_all(places: Sequence[Place], copy: Copy, whole: bool, report: Callable[
     survivors = 0
     for place in places:
         begin = time.monotonic()
+        difference = _difference(place, (copy.root / place.file).read_text("utf-8"))
         verdict = copy.verdict(place, test_stages(place, whole))
         survivors += verdict == "survived"
-        report(f"{verdict:8}  {time.monotonic() - begin:5.0f} s  {place.name}\n{_difference(place)}")
+        report(f"{verdict:8}  {time.monotonic() - begin:5.0f} s  {place.name}\n{difference}")
     return survivors
 
 
