@@ -8,10 +8,21 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.measures import WINDOW_SECONDS, finish
+from uictest.measures import MEASURES, WINDOW_SECONDS, begin, begin_window, finish
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
+
+
+def begun(held_before: float) -> np.ndarray:
+    train = np.full(MEASURES.itemsize // 8, held_before).view(MEASURES)
+    begin(train[0], 0.5, 1.0, 30.0, 7e5)
+    begin_window(train[0])
+    return train.view(np.float64)
+
+
+def test_measures_begin_alike_whatever_the_record_held() -> None:
+    np.testing.assert_array_equal(begun(7.0), begun(0.0))
 
 
 def sliding(samples: Any) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import SPEED_CLASSES
+from uictest.measures import SPEED_CLASSES, WHEELSET_MEASURES, begin_slides, begin_wheelset
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
@@ -22,6 +22,17 @@ def slides(samples: Any) -> np.ndarray:
 def observed(samples: Any) -> np.ndarray:
     """Samples that count: all but the first, while the train moves."""
     return (samples.speed > 2.8) & (np.arange(samples.time.size) > 0)
+
+
+def begun(held_before: float) -> np.ndarray:
+    wheelset = np.full(WHEELSET_MEASURES.itemsize // 8, held_before).view(WHEELSET_MEASURES)
+    begin_wheelset(wheelset[0])
+    begin_slides(wheelset[0])
+    return wheelset.view(np.float64)
+
+
+def test_measures_begin_alike_whatever_the_record_held() -> None:
+    np.testing.assert_array_equal(begun(7.0), begun(0.0))
 
 
 def test_largest_slide(samples: Any, stop: Stop) -> None:

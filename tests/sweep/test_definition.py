@@ -27,6 +27,12 @@ def test_every_combination_first_key_slowest(load: Load) -> None:
     assert plan.ids(np.array([3])) == ["study[friction=0.08,command=100,seed=2,gradient=5permille]"]
 
 
+def test_values_without_a_name_are_numbered_from_one(load: Load) -> None:
+    profiles = "{points: [{position: 0 m, friction: 0.1}]}, {points: [{position: 0 m, friction: 0.2}]}"
+    plan = load(f"grid: {{rail.friction: [{profiles}]}}\n")
+    assert plan.ids(np.arange(2)) == ["study[friction=value1]", "study[friction=value2]"]
+
+
 def test_ranges_by_step_and_count(load: Load) -> None:
     plan = load(
         "ranges:\n  rail.friction: {first: 0.08, last: 0.10, step: 0.01}\n"
