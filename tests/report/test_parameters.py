@@ -14,6 +14,7 @@ from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, junit_xml, manifest, part_lines
 from uictest.report.markdown import markdown_summary
 from uictest.report.page import page_html, sweep_page_html
+from uictest.report.page.parameter_tables import shown_parts
 from uictest.report.parameters import changed_parameters, part_sentences
 from uictest.report.sweep.content import SweepContent
 from uictest.report.tables import summary_csv
@@ -126,3 +127,20 @@ def test_the_manifest_names_the_parts_with_their_digests() -> None:
         CONTROLLER.id: f"threshold, changed: {CHANGE[11:]}",
         PLAIN.id: "threshold",
     }
+
+
+def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are(
+    make_result: MakeResult, make_content: MakeContent
+) -> None:
+    parts = [dataclasses.replace(PLAIN, name=f"own-{k}") for k in range(102)]
+    html = page_html(make_content(*(make_result(id=each.name, parts={"controller": each}) for each in parts)))
+    assert sum(f'id="{each.id}"' in html for each in parts) == 100
+    assert "2 more parts not shown here: results.json has all of them." in html
+    few = page_html(make_content(make_result(parts={"controller": PLAIN})))
+    assert "not shown here" not in few
+
+
+def test_a_stop_links_to_the_parts_that_the_page_shows_and_to_no_other() -> None:
+    shown = shown_parts([{"controller": CONTROLLER}])
+    assert CONTROLLER in shown
+    assert PLAIN not in shown

@@ -33,6 +33,8 @@ def page_html(content: RunContent) -> str:
         parts=shown_parts([view.result.parts for view in drawn] or [each.parts for each in content.results]),
         varied=(),
         of_which="the drawn stops" if drawn else "the cases",
+        all_parts_in="results.json",
+        counted=counted,
         words=_words(content),
         plots=plots_json(),
         with_plots=bool(drawn),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from itertools import islice
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.report.parameters import base_word, changed_parameters, part_sentences
@@ -22,8 +22,21 @@ PARAMETER_WORDS: Final[dict[str, Any]] = {
 """What parameters.html.j2 puts parts into words with."""
 
 
-def shown_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> list[EffectivePart]:
-    """Return the distinct parts of some cases, in the order of their first use."""
+@dataclass(frozen=True, slots=True)
+class ShownParts:
+    """The parts that a page shows in full, and how many more there are that it does not show."""
+
+    parts: Sequence[EffectivePart]
+    not_shown: int
+
+    def __contains__(self, part: EffectivePart) -> bool:
+        """Whether the page shows a part, so that a link to it leads somewhere."""
+        return any(each.id == part.id for each in self.parts)
+
+
+def shown_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> ShownParts:
+    """Return the distinct parts of some cases, in the order of their first use, as far as a page shows them."""
     from uictest.evaluation import parts_table
 
-    return list(islice(parts_table(cases).values(), _MOST))
+    parts = list(parts_table(cases).values())
+    return ShownParts(parts[:_MOST], max(len(parts) - _MOST, 0))

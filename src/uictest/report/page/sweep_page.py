@@ -52,6 +52,7 @@ def sweep_page_html(content: SweepContent) -> str:
         parts=shown_parts([content.base, *(view.result.parts for view in drawn)]),
         varied=document.get("varied", ()),
         of_which="the scenario that is varied and the drawn stops",
+        all_parts_in="sweep.json",
         plots=plots_json(),
         with_plots=bool(drawn),
         alone=command_alone(content.manifest),
