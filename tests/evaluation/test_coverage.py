@@ -85,7 +85,7 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
         ("braking_time", {"upper": "1 s"}, {}, "fail"),
         ("braking_time", {"lower": "1 s"}, {}, "pass"),
         ("braking_time", {"upper": "30 s"}, {}, "inconclusive"),
-        ("air_consumed", {"upper": "50 L"}, {}, "fail"),
+        ("air_consumed", {"upper": "50 NL"}, {}, "fail"),
         ("energy_residual", {"upper": "0.1 %"}, {}, "pass"),
         ("energy_residual", {"upper": "0.1 %"}, {"energy_residual": 0.5}, "fail"),
         ("standstill", {"lower": 1}, {}, "inconclusive"),

@@ -80,13 +80,13 @@ def test_a_friction_of_the_scenario_stands_in_place_of_the_conditions(cases: Cas
 
 
 def test_the_mark_says_whose_number_it_is(cases: Cases) -> None:
-    (case,) = cases("rail: {gradient: 0 permille}\nvehicle: crh380a\n")
+    (case,) = cases("rail: {gradient: 0 permille}\nvehicle: manchester-benchmark\n")
     found = parameters(of(case))
     marks = {key: found[key].mark for key in ("rail.gradient", "brake.command", "vehicle.body.mass")}
     assert marks == {"rail.gradient": "user", "brake.command": "default", "vehicle.body.mass": "published"}
     assert not found["rail.gradient"].differs
     source = found["vehicle.body.mass"].source
-    assert "CRH380A" in of(case)["vehicle"].sources[source]
+    assert "Iwnicki 1998" in of(case)["vehicle"].sources[source]
 
 
 def test_criteria_that_were_left_out_or_added_are_told(cases: Cases) -> None:
