@@ -10,6 +10,7 @@ from uictest.evaluation.units import in_unit, text, with_unit
 from uictest.evaluation.verdict import AppliedDefinition
 
 if TYPE_CHECKING:
+    from uictest.scenario import Quantity
     from uictest.scenario.parts.criteria import Criteria, Criterion
     from uictest.scenario.parts.definition import Parameter
     from uictest.scenario.parts.measures import MeasureDefinitions
@@ -30,7 +31,7 @@ def meaning_of(criterion: Criterion, profile: Criteria, observation: MeasureDefi
         meaning[name] = _parameter(parameter, profile.sources)
     for name in criterion.observed_by:
         quantity = getattr(observation, name)
-        meaning[name] = f"{quantity.text} ({_mark(quantity.source, observation.sources)})"
+        meaning[name] = f"{quantity.text} ({_mark(quantity, observation.sources)})"
     return meaning
 
 
@@ -43,13 +44,13 @@ def applied_definitions(
             name,
             float(parameter.value),
             parameter.value.unit,
-            _mark(parameter.source, profile.sources),
+            _mark(parameter.value, profile.sources),
             *map(float, parameter.range),
         )
         for name, parameter in criterion.definition.parameters().items()
     )
     observed = (
-        AppliedDefinition(name, float(quantity), quantity.unit, _mark(quantity.source, observation.sources))
+        AppliedDefinition(name, float(quantity), quantity.unit, _mark(quantity, observation.sources))
         for name in criterion.observed_by
         for quantity in (getattr(observation, name),)
     )
@@ -61,9 +62,11 @@ def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:
         text(in_unit(number, parameter.unit), parameter.unit)
         for number in (parameter.value, *parameter.range)
     )
-    return f"{value} ({_mark(parameter.source, sources)}; range {lower} .. {upper})"
+    return f"{value} ({_mark(parameter.value, sources)}; range {lower} .. {upper})"
 
 
-def _mark(source: str, sources: Mapping[str, Source]) -> str:
-    """Return how far a number can be trusted: the mark of its source; `user` for a user's own number."""
-    return sources[source].mark if source in sources else "user"
+def _mark(quantity: Quantity, sources: Mapping[str, Source]) -> str:
+    # Only who judges has scenarios loaded: results are read without them.
+    from uictest.scenario.values import mark_of
+
+    return mark_of(quantity, sources)

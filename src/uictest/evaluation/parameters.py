@@ -22,8 +22,9 @@ class Parameter:
         value: in `unit`; a text or a truth value for a setting.
         unit: SI, `1` for a pure number, empty for a setting.
         written: the value as the file writes it.
-        mark: how far it can be trusted: stated, published, chosen, ...; `user` for a value that the user gave
-            without a source, `default` for one that nobody wrote, empty for a setting of a library part.
+        mark: how far it can be trusted: stated, published, identified or chosen; `user` for a value that the
+            user gave without a source, `default` for one that was not given, empty for a setting of a library
+            part.
         source: a key of the part's `sources`, else empty.
         differs: whether the part that this one is based on has another value, or none.
         library_value: its value there where it differs, in `unit`; None where it has none.

@@ -75,7 +75,7 @@ class AppliedDefinition:
     """A definition as a number: what a verdict, or the measure behind it, was taken to mean.
 
     `value`, `lowest` and `highest` are in `unit`, an SI unit; without a range the last two are None.
-    `mark` says how far the number can be trusted: stated, published or chosen.
+    `mark` says how far the number can be trusted, as that of :class:`~uictest.evaluation.Parameter` does.
     """
 
     name: str
