@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING
 
 from uictest.comparison.wording import verdict_line
 from uictest.report.difference import value_text
-from uictest.report.lines import listed
 from uictest.report.page.overlay_view import overlay_view
 from uictest.report.page.rendering import render
-from uictest.report.wording import number
+from uictest.report.wording import listed, number
 
 if TYPE_CHECKING:
     from uictest.comparison.difference import Comparison

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from uictest.report.escaping import printable
-from uictest.report.lines import listed
+from uictest.report.wording import listed
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult, EffectivePart, Parameter

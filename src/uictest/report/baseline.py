@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from uictest.report.difference import Difference, difference_sentence, worst_of_wheelsets
 from uictest.report.escaping import printable
-from uictest.report.wording import DIFFERS, counted, explanation, tally, verdict_word
+from uictest.report.wording import DIFFERS, counted, explanation, listed, tally, verdict_word
 
 if TYPE_CHECKING:
     from uictest.evaluation import CaseResult
-
-_NAMED_CASES = 3  # of those that are not compared
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,10 +114,4 @@ def not_compared_sentences(baseline: BaselineComparison) -> Iterator[str]:
     """Yield which cases of the baseline were not compared, and why."""
     for ids, reason in ((baseline.not_run, "not run"), (baseline.not_selected, "not selected")):
         if ids:
-            yield f"not compared with the baseline: {counted(len(ids), 'case')} {reason} ({_named(ids)})"
-
-
-def _named(ids: Sequence[str]) -> str:
-    more = len(ids) - _NAMED_CASES
-    names = ", ".join(map(printable, ids[:_NAMED_CASES]))
-    return f"{names} and {more} more" if more > 0 else names
+            yield f"not compared with the baseline: {counted(len(ids), 'case')} {reason} ({listed(ids)})"

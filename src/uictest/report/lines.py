@@ -12,6 +12,7 @@ from uictest.report.wording import (
     DIFFERS,
     criterion_sentences,
     definition_sentence,
+    listed,
     number,
 )
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from uictest.report.baseline import BaselineComparison
     from uictest.report.difference import Difference
 
-_NAMED_CASES = 3
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
 
 
@@ -69,13 +69,6 @@ def part_lines(results: Sequence[CaseResult]) -> Iterator[str]:
     for (role, sentence), names in cases.items():
         where = "" if len(names) == len(results) else f" (in {listed(names)})"
         yield f"part {role}{where}: {sentence}"
-
-
-def listed(names: Sequence[str]) -> str:
-    """Return the first names, and how many more there are."""
-    left = len(names) - _NAMED_CASES
-    shown = ", ".join(map(printable, names[:_NAMED_CASES]))
-    return f"{shown} and {left} more" if left > 0 else shown
 
 
 def _figures(result: CaseResult) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from uictest.report.escaping import printable
@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 DIFFERS = "DIFFERS"
 """The word for a case that meets its expectation and differs from the baseline."""
+
+_NAMED = 3
+"""Names that a list shows before it counts the rest."""
 
 
 def number(value: float | None) -> str:
@@ -109,6 +112,13 @@ def counts_words(met: int, missed: int, errors: int, inconclusive: int, differen
     counts = {"met": met, f"missed{open_}": missed, "in error": errors}
     counts["different from the baseline"] = different
     return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return the first names, and how many more there are."""
+    more = len(names) - _NAMED
+    shown = ", ".join(map(printable, names[:_NAMED]))
+    return f"{shown} and {more} more" if more > 0 else shown
 
 
 def counted(count: int, noun: str) -> str:

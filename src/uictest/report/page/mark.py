@@ -35,7 +35,7 @@ class Mark:
     status: Judgement = "pass"
 
 
-def limits(
+def limit_marks(
     verdict: Verdict, plot: str, *, x0: float | None = None, x1: float | None = None, scale: float = 1.0
 ) -> Iterator[Mark]:
     """Yield the bounds of a criterion as level lines; a plot's unit is `scale` of the criterion's."""

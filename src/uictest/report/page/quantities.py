@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 WHEELSETS = (1, 2, 3, 4)
+KMH = 1.0 / 3.6
+"""m/s"""
+GRAVITY = 9.80665
+"""m/s2, exact by definition."""
 ORDINARY_CREEP = 10.0
 """%: the axis of the slide reaches at least so far, so that a wheel that only creeps is seen to; chosen."""
 
@@ -21,9 +25,9 @@ class Quantity:
 
 QUANTITIES = {
     "distance": Quantity("distance", "m"),
-    "speed": Quantity("train", "km/h", 1 / 3.6),
-    "reference_speed": Quantity("reference", "km/h", 1 / 3.6),
-    "wheel_speed": Quantity("wheelset", "km/h", 1 / 3.6, of_wheelsets=True),
+    "speed": Quantity("train", "km/h", KMH),
+    "reference_speed": Quantity("reference", "km/h", KMH),
+    "wheel_speed": Quantity("wheelset", "km/h", KMH, of_wheelsets=True),
     "slide": Quantity("slide", "%", 0.01, of_wheelsets=True),
     "reservoir_pressure": Quantity("reservoir", "bar", 1e5),
     "brake_line_pressure": Quantity("brake line", "bar", 1e5),

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report.page.extremes import thinned
-from uictest.report.page.quantities import LOOPS, QUANTITIES, WHEELSETS, loop_lines, names_of
+from uictest.report.page.quantities import GRAVITY, LOOPS, QUANTITIES, WHEELSETS, loop_lines, names_of
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -32,8 +32,6 @@ STATES = ("valve_command",)
 
 UNKNOWN = -1
 """The state where none was recorded."""
-
-_GRAVITY = 9.80665  # m/s2
 
 Series = NDArray[np.float64]
 
@@ -106,7 +104,7 @@ def deceleration(time: Series, speed: Series) -> Series:
     before = np.maximum(time - DECELERATION_WINDOW / 2, time[0])
     after = np.minimum(time + DECELERATION_WINDOW / 2, time[-1])
     change = np.interp(before, time, speed) - np.interp(after, time, speed)
-    return np.asarray(change / (after - before) / _GRAVITY, dtype=np.float64)
+    return np.asarray(change / (after - before) / GRAVITY, dtype=np.float64)
 
 
 def slide(speed: Series, wheel_speed: Series) -> Series:

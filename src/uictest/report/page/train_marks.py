@@ -8,35 +8,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.report.escaping import printable
-from uictest.report.page.mark import Mark, instant, limits, point
-from uictest.report.wording import limits as limits_words
-from uictest.report.wording import number, quantity, value_and_limits
+from uictest.report.page.mark import Mark, instant, limit_marks, point
+from uictest.report.page.quantities import GRAVITY, KMH
+from uictest.report.wording import limits, number, quantity, value_and_limits
 
 if TYPE_CHECKING:
     from uictest.evaluation import Verdict
     from uictest.report.page.trace import Curve, Series, Trace
 
-_GRAVITY = 9.80665  # m/s2
-_KMH = 1.0 / 3.6
-"""m/s"""
-
 
 def braking_distance(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the band of distances within the bounds, and the distance reached."""
+    """Yield the band of distances within the bounds and, unless it passed, the distance reached."""
     yield from _band(verdict, "over-distance")
 
 
 def braking_time(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the band of times within the bounds, and the time reached."""
+    """Yield the band of times within the bounds and, unless it passed, the time reached."""
     yield from _band(verdict, "speed")
 
 
 def mean_deceleration(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the mean deceleration, and the mean over the whole stop."""
-    yield from limits(verdict, "deceleration", scale=_GRAVITY)
+    yield from limit_marks(verdict, "deceleration", scale=GRAVITY)
     if verdict.value is not None:
         label = f"mean {quantity(verdict.value, verdict.unit)}"
-        yield Mark("deceleration", "found", label, y=verdict.value / _GRAVITY)
+        yield Mark("deceleration", "found", label, y=verdict.value / GRAVITY)
 
 
 def standstill(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
@@ -53,7 +49,7 @@ def initial_adhesion(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     start, end = trace.sliding_time, trace.sliding_time + duration
     yield Mark("speed", "window", f"first phase, {number(duration)} s", start, end)
     yield Mark("deceleration", "window", "", start, end)
-    yield from limits(verdict, "deceleration", x0=start, x1=end)
+    yield from limit_marks(verdict, "deceleration", x0=start, x1=end)
     if verdict.value is not None:
         label = f"mean {verdict.value:.4g} {verdict.unit}"
         yield Mark("deceleration", "found", label, start, end, verdict.value)
@@ -71,7 +67,7 @@ def maximum_deceleration(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
 
 def reservoir_minimum_pressure(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the reservoir's pressure, and when it was lowest."""
-    yield from limits(verdict, "pressure")
+    yield from limit_marks(verdict, "pressure")
     curve = trace.curves.get("reservoir_pressure")
     if curve is not None and verdict.value is not None:
         lowest = float(curve.x[np.nanargmin(curve.y)])
@@ -79,22 +75,22 @@ def reservoir_minimum_pressure(verdict: Verdict, trace: Trace) -> Iterator[Mark]
 
 
 def air_consumed(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the end of the stop, up to which the air was counted."""
+    """Yield, unless it passed, the end of the stop, up to which the air was counted."""
     yield from _sum_at_the_end(verdict, trace, "pressure")
 
 
 def air_residual(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the end of the stop, at which the balance of air is drawn up."""
+    """Yield, unless it passed, the end of the stop, at which the balance of air is drawn up."""
     yield from _sum_at_the_end(verdict, trace, "pressure")
 
 
 def energy_residual(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the end of the stop, at which the balance of energy is drawn up."""
+    """Yield, unless it passed, the end of the stop, at which the balance of energy is drawn up."""
     yield from _sum_at_the_end(verdict, trace, "speed")
 
 
 def _band(verdict: Verdict, plot: str) -> Iterator[Mark]:
-    label = printable(f"{verdict.id}: {limits_words(verdict).removeprefix('limits ')}")
+    label = printable(f"{verdict.id}: {limits(verdict).removeprefix('limits ')}")
     yield Mark(plot, "band", label, verdict.lower, verdict.upper)
     if verdict.value is not None and verdict.verdict != "pass":
         yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
@@ -106,21 +102,21 @@ def _sum_at_the_end(verdict: Verdict, trace: Trace, plot: str) -> Iterator[Mark]
 
 
 def _extreme_deceleration(verdict: Verdict, trace: Trace, since: float, sign: float) -> Iterator[Mark]:
-    yield from limits(verdict, "deceleration", scale=_GRAVITY)
+    yield from limit_marks(verdict, "deceleration", scale=GRAVITY)
     curve, time_constant = trace.curves.get("speed"), verdict.defined("deceleration_filter")
     if curve is None or time_constant is None or verdict.value is None:
         return
-    slowest = (verdict.defined("moving_speed") or 0.0) / _KMH
+    slowest = (verdict.defined("moving_speed") or 0.0) / KMH
     counts = (curve.y >= slowest) & (curve.x >= since)
     if counts.any():
         filtered = np.where(counts, sign * _filtered(curve, time_constant), -np.inf)
         label = quantity(verdict.value, verdict.unit)
-        yield point("deceleration", float(curve.x[np.nanargmax(filtered)]), verdict.value / _GRAVITY, label)
+        yield point("deceleration", float(curve.x[np.nanargmax(filtered)]), verdict.value / GRAVITY, label)
 
 
 def _filtered(curve: Curve, time_constant: float) -> Series:
     """Return the deceleration of a speed (km/h) after the low-pass of the measures, m/s2."""
-    intervals, changes = np.diff(curve.x), -np.diff(curve.y * _KMH)
+    intervals, changes = np.diff(curve.x), -np.diff(curve.y * KMH)
     filtered = np.zeros_like(curve.x)
     for k, (interval, change) in enumerate(zip(intervals.tolist(), changes.tolist(), strict=True)):
         share = interval / (interval + time_constant)

@@ -10,32 +10,29 @@ from numpy.typing import NDArray
 
 from uictest.report.escaping import printable
 from uictest.report.page.bars import vents
-from uictest.report.page.mark import Mark, limits, misses, point
-from uictest.report.page.quantities import WHEELSETS
+from uictest.report.page.mark import Mark, limit_marks, misses, point
+from uictest.report.page.quantities import KMH, WHEELSETS
 from uictest.report.wording import quantity, value_and_limits
 
 if TYPE_CHECKING:
     from uictest.evaluation import Verdict
     from uictest.report.page.trace import Curve, Trace
 
-_KMH = 1.0 / 3.6
-"""m/s"""
-
 Interval = tuple[float, float]
 Samples = NDArray[np.float64]
 
 
 def maximum_slide(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the bounds down to the cut-off, and where it failed each wheelset's largest slide above it."""
+    """Yield the bounds down to the cut-off and, unless it passed, each wheelset's largest slide above it."""
     cutoff, speed = verdict.defined("low_speed_cutoff"), trace.curves.get("speed")
-    until = None if cutoff is None or speed is None else _slower_than(cutoff / _KMH, speed)
-    yield from limits(verdict, "slide", x1=until)
+    until = None if cutoff is None or speed is None else _slower_than(cutoff / KMH, speed)
+    yield from limit_marks(verdict, "slide", x1=until)
     yield from _largest(verdict, trace, "slide", "slide", trace.end if until is None else until)
 
 
 def maximum_clamping_force(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield the bounds, and where it failed the largest force of each wheelset."""
-    yield from limits(verdict, "force")
+    """Yield the bounds and, unless it passed, the largest force of each wheelset."""
+    yield from limit_marks(verdict, "force")
     yield from _largest(verdict, trace, "clamping_force", "force", trace.end)
 
 
@@ -50,7 +47,7 @@ def sliding(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
 
 
 def vented(verdict: Verdict, trace: Trace) -> Iterator[Mark]:
-    """Yield from the first to the last vent of each wheelset, where the criterion failed."""
+    """Yield, unless it passed, from the first to the last vent of each wheelset."""
     if verdict.verdict != "pass":
         spans = {n: [(bars[0][0], bars[-1][1])] for n in WHEELSETS if (bars := vents(trace, n))}
         yield from _intervals(verdict, "valves", spans)
@@ -63,7 +60,7 @@ def locks(verdict: Verdict, trace: Trace, n: int) -> list[Interval]:
     if pair is None or locked is None or moving is None:
         return []
     time, speed, wheel_speed = pair
-    return _runs(time, (speed > moving / _KMH) & (wheel_speed < locked / _KMH))
+    return _runs(time, (speed > moving / KMH) & (wheel_speed < locked / KMH))
 
 
 def slides(verdict: Verdict, trace: Trace, n: int) -> list[Interval]:
@@ -74,7 +71,7 @@ def slides(verdict: Verdict, trace: Trace, n: int) -> list[Interval]:
         return []
     time, speed, wheel_speed = pair
     behind = speed - wheel_speed
-    return _runs(time, (speed > moving / _KMH) & (behind > share * speed) & (behind > slip / _KMH))
+    return _runs(time, (speed > moving / KMH) & (behind > share * speed) & (behind > slip / KMH))
 
 
 def _speeds(trace: Trace, n: int) -> tuple[Samples, Samples, Samples] | None:
