@@ -71,3 +71,11 @@ def test_two_files_for_one_target_are_refused(call: Call, recording: Path, workp
     copy = workplace / "b" / recording.name
     copy.write_bytes(recording.read_bytes())
     assert call("export", recording, copy, "--to", "csv").code == 4
+
+
+def test_a_text_among_numbers_is_refused_with_its_place(call: Call, workplace: Path) -> None:
+    (workplace / "run.csv").write_text("time [s],speed [m/s]\n0,10\n1,n.a.\n")
+    answer = call("export", "run.csv", "--to", "mat")
+    assert answer.code == 4
+    assert "channel 'speed' holds texts, the first in line 3, column 2" in answer.err
+    assert not (workplace / "run.mat").exists()

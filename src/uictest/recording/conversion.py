@@ -21,6 +21,10 @@ def recording_of(contents: Contents, facts: Mapping[str, str]) -> Recording:
         raise UnreadableError(f"{len(contents.groups)} rasters; a recording has one")
     group = contents.groups[0]
     channels = {name: np.asarray(samples) for name, samples in group.channels.items() if name != TIME}
+    for name, samples in channels.items():
+        if samples.dtype.kind == "U":
+            place = f", the first in {group.first_texts[name]}" if name in group.first_texts else ""
+            raise UnreadableError(f"channel {name!r} holds texts{place}; a recording holds numbers")
     try:
         return Recording(
             {TIME: _time(group), **channels},
