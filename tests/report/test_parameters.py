@@ -49,9 +49,21 @@ def test_a_changed_part_is_named_with_what_was_changed() -> None:
 def test_what_a_users_own_file_has_instead_is_not_called_the_librarys() -> None:
     own = dataclasses.replace(CONTROLLER, based_on="mine.yaml", removed=("controller.gone",))
     assert changed_parameters({"controller": own}) == [
+        "controller threshold (own part based on mine.yaml)",
         "controller.slip_threshold 3 km/h (mine.yaml: 1.146 m/s)",
         "controller.gone removed",
     ]
+
+
+def test_a_users_part_is_not_taken_for_the_librarys_of_the_same_name() -> None:
+    own = dataclasses.replace(PLAIN, based_on=None)
+    assert part_sentences({"controller": own}) == {"controller": "threshold, own part"}
+    assert changed_parameters({"controller": own}) == ["controller threshold (own part)"]
+    assert not changed_parameters({"controller": own}, ["controller"])
+
+    profile = dataclasses.replace(own, kind="criteria", key="", name="uictest-stop")
+    assert part_sentences({"criteria.0": profile}) == {"criteria.0": "uictest-stop, own part"}
+    assert not changed_parameters({"criteria.0": profile})
 
 
 @pytest.mark.parametrize(

@@ -16,10 +16,11 @@ _PATHS = (".yaml", ".yml")
 def part_sentence(part: EffectivePart, setting: str = "") -> str:
     """Return name, setting and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`.
 
-    A section of a scenario has no name; the text is empty where it changes nothing.
+    A part whose root is no library part says so: its name may be that of one. A section of a scenario has no
+    name; the text is empty where it changes nothing.
     """
     changes = "; ".join(_changes(part, part.key if part.name else ""))
-    texts = (part.name, setting, changes and f"changed: {changes}")
+    texts = (part.name, _own_root(part), setting, changes and f"changed: {changes}")
     return printable(", ".join(text for text in texts if text))
 
 
@@ -35,7 +36,7 @@ def changed_parameters(parts: Mapping[str, EffectivePart], varied: Collection[st
 
     What the scenario says itself is held against its defaults. The keys of `varied` are left out.
     """
-    return [printable(change) for part in parts.values() for change in _changes(part, "", varied)]
+    return [printable(change) for part in parts.values() for change in _differences(part, varied)]
 
 
 def changes_line(result: CaseResult) -> list[str]:
@@ -49,6 +50,20 @@ def base_word(part: EffectivePart) -> str:
     if part.based_on is None:
         return "default"
     return part.based_on if part.based_on.endswith(_PATHS) else "library"
+
+
+def _own_root(part: EffectivePart) -> str:
+    """Return that a part does not go back to the library, and to which file of its user; else nothing."""
+    if not part.name or base_word(part) == "library":
+        return ""
+    return f"own part based on {part.based_on}" if part.based_on else "own part"
+
+
+def _differences(part: EffectivePart, varied: Collection[str]) -> Iterator[str]:
+    # The limits of a profile, which has no key, stand beside every verdict.
+    if part.key and part.key not in varied and (own := _own_root(part)):
+        yield f"{part.key} {part.name} ({own})"
+    yield from _changes(part, "", varied)
 
 
 def _changes(part: EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
