@@ -180,7 +180,7 @@ def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call: Call, wor
     (workplace / "run.csv").write_text(f"{header}\n0,10,10,10,10,10\n1,9,9,9,9,9\n")
     out = call("evaluate", "run.csv", "--list").out
     assert "the preset common-names fits in part" in out
-    assert "not assigned: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4; without it no" in out
+    assert "not assigned: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4; needed for" in out
     assert 'not used: "Achse1", "Achse2", "Achse3", "Achse4"' in out
     assert 'speed: "vZug"' in out
 

@@ -62,7 +62,7 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
             {"stopped": 0.0, "end_speed": 3.0},
             (0.1,),
             "inconclusive",
-            "standstill: no standstill; the simulation ended at `maximum_duration` (60 s) at 10.8 km/h",
+            "standstill: no standstill; the simulation ended after 60 s at 10.8 km/h",
         ),
     ],
 )

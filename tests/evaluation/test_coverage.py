@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from uictest.evaluation import Coverage, MissingData, evaluate, judge
 
 KMH = 1 / 3.6
-ENDED = "the simulation ended at `maximum_duration` (60 s) at 43.2 km/h; raise `maximum_duration`"
+ENDED = "the simulation ended after 60 s at 43.2 km/h; raise `simulation.maximum_duration`"
 RUNNING = {
     "stopped": 0.0,
     "braking_distance": math.nan,

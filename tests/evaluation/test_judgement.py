@@ -9,7 +9,7 @@ from uictest.evaluation import AppliedDefinition, judge
 
 G = 9.80665
 KMH = 1 / 3.6
-ENDED = "the simulation ended at `maximum_duration` (60 s) at 43.2 km/h; raise `maximum_duration`"
+ENDED = "the simulation ended after 60 s at 43.2 km/h; raise `simulation.maximum_duration`"
 positive = st.floats(0.0, 1e4)
 
 

@@ -73,7 +73,7 @@ def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
     assert counts == {"0.08": "2", "0.10": "0", "0.12": "0"}
     _, outcome, reason = findings.tally.missed[0]
     assert outcome == "inconclusive"
-    assert "the simulation ended at `maximum_duration` (60 s) at 7.2 km/h" in reason
+    assert "the simulation ended after 60 s at 7.2 km/h" in reason
 
 
 def table(path: Path) -> list[list[str]]:

@@ -32,7 +32,7 @@ class ParameterChange:
 def parameter_changes(pairs: Iterable[tuple[CaseResult, CaseResult]]) -> list[ParameterChange]:
     """Return what differs in the parameters of pairs of cases, once for all cases alike.
 
-    A case of a version that did not keep parameters is passed over.
+    Cases whose results hold no parameters, as those of earlier versions, are skipped.
     """
     cases: dict[tuple[str, str, str], list[str]] = {}
     for first, second in pairs:

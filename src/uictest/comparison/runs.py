@@ -84,7 +84,7 @@ def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
     """Yield what went into the runs differently: it explains differences and is none by itself."""
     for what in ("seed", "versions", "inputs"):
         yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
-    # With parts the settings are told parameter by parameter.
+    # Where results hold their parts, each changed parameter has its own line.
     told = {result.id for run in (first, second) for result in run.results if result.parts}
     for case_id in first.subjects:
         if case_id in second.subjects and case_id not in told:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from uictest.report.difference import Difference
 
 _MOST_PARAMETERS = 20
-"""Changed parameters that a reader is told of at first; two vehicles differ in some 25."""
+"""Changed parameters that are listed without `-v`; two vehicles differ in some 25."""
 
 
 def comparison_lines(

@@ -76,4 +76,4 @@ def why_cut_off(scenario: Scenario, measures: StopMeasures, coverage: Coverage |
     if coverage is not None:
         return f"the record ends after {text(measures.end_time, 's')} with the train at {speed}"
     limit = scenario.simulation.maximum_duration.text
-    return f"the simulation ended at `maximum_duration` ({limit}) at {speed}; raise `maximum_duration`"
+    return f"the simulation ended after {limit} at {speed}; raise `simulation.maximum_duration`"

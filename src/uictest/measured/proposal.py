@@ -54,7 +54,7 @@ def remarks(contents: Contents) -> Iterator[str]:
         if canonical not in found and (measures := measures_of(canonical)):
             missing.setdefault(measures, []).append(canonical)
     for measures, channels in missing.items():
-        yield f"not assigned: {', '.join(channels)}; without it no {', '.join(measures)}"
+        yield f"not assigned: {', '.join(channels)}; needed for {', '.join(measures)}"
     used = set(found.values())
     unused = [name for group in contents.groups for name in group.channels if name not in used]
     if unused:

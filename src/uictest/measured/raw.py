@@ -118,7 +118,7 @@ def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
             return samples
     unit = source.unit or group.units.get(original, "")
     size = _size(name, unit, original)
-    # What overflows becomes infinite, and is told as a sample that is no number.
+    # What overflows becomes infinite, which is reported as a sample that is no number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
     return _refused_if(_implausible(name, converted, unit), name, quoted(original), converted)

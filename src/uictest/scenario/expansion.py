@@ -163,7 +163,7 @@ def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Dia
 def _combined(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
     if not matrix and not zipped:
         return [()] if alone else []
-    # Lists of unequal length are refused by now; what they have in common is looked through all the same.
+    # Lists of unequal length are refused by now; the part they have in common is checked all the same.
     rows: list[Variant] = list(zip(*zipped, strict=False)) if zipped else [()]
     return [(*combination, *row) for combination in product(*matrix) for row in rows]
 

@@ -98,7 +98,7 @@ class _Loader:
         self.found.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
         merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
         base = merged.without(*SECTIONS)
-        # Errors of the sweep do not hide those of its values: what is sound is looked through all the same.
+        # Errors of the sweep do not hide those of its values: what is sound is checked all the same.
         variants = expand_sound(merged, self.found)
         if self.overrides:
             variants = distinct(

@@ -90,7 +90,7 @@ class Files:
 def trust_hint(path: Path) -> str:
     """What to do about a file outside the roots."""
     folder = visible(str(real(path).parent))
-    return f"allowed are the folders of the files given and the working folder; --trust {folder} allows it"
+    return f"add --trust {folder}; else only the folders of the files given and the working folder are read"
 
 
 def _nearest_file(path: Path) -> str:

@@ -23,7 +23,7 @@ DESCRIPTIVE: Final = frozenset(
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
     """Yield every number and setting inside a model, tuple or mapping with its key.
 
-    A criterion is named by its id. Parts inside are passed over, and so is what is not set.
+    A criterion is named by its id. Parts inside are skipped, and so is what is not set.
     """
     if isinstance(value, str | int | float):
         yield key, value
@@ -42,7 +42,7 @@ def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
 
 
 def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
-    """The mark of the source; `user` for a number given without one, `default` for one that nobody wrote."""
+    """The mark of the source; `user` for a number given without one, `default` for one that is not given."""
     if quantity.source in sources:
         return sources[quantity.source].mark
     return {SCENARIO_SOURCE: "user", DEFAULT_SOURCE: "default"}[quantity.source]

@@ -35,7 +35,7 @@ class ShownParts:
 
 
 def shown_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> ShownParts:
-    """Return the distinct parts of some cases in the order of first use, as far as a page shows them."""
+    """Return the distinct parts of some cases in the order of their first use, for a page to show."""
     from uictest.evaluation import parts_table
 
     parts = list(parts_table(cases).values())
