@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import HANGING
+
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")
 
 Write = Callable[..., Path]
@@ -46,7 +48,7 @@ def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Sign
     scenario("stop")
     command = [sys.executable, "-c", ASKED_WHILE_IMPORTING, module, str(int(number)), "run"]
     done = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=120, preexec_fn=heeding
+        command, capture_output=True, text=True, check=False, timeout=HANGING, preexec_fn=heeding
     )
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "uictest: interrupted\n")
     assert not Path("reports").exists()
@@ -59,11 +61,13 @@ def test_a_closed_terminal_leaves_what_is_finished(program: Path, scenario: Writ
         assert running.stdout is not None
         assert running.stdout.readline().startswith("met stop[friction=0.1000]")
         running.send_signal(signal.SIGHUP)
-        out, _ = running.communicate(timeout=60)
+        out, _ = running.communicate(timeout=HANGING)
     assert running.returncode == 2
     document = json.loads(Path("reports/latest/results.json").read_text())
     assert document["complete"] is False
-    assert len(document["cases"]) == 1 + len(out.splitlines())
+    # The signal may come between keeping a result and showing it.
+    shown = 1 + len(out.splitlines())
+    assert shown <= len(document["cases"]) <= shown + 1
 
 
 def test_what_the_caller_ignores_stays_ignored(scenario: Write) -> None:
@@ -71,6 +75,6 @@ def test_what_the_caller_ignores_stays_ignored(scenario: Write) -> None:
     scenario("stop")
     command = [sys.executable, "-c", ASKED_WHILE_IMPORTING, "numpy", str(int(signal.SIGHUP)), "run"]
     done = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=120, preexec_fn=ignoring
+        command, capture_output=True, text=True, check=False, timeout=HANGING, preexec_fn=ignoring
     )
     assert done.returncode == 0, done.stderr

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import HANGING
+
 Write = Callable[..., Path]
 
 COMMANDS = {
@@ -29,9 +31,13 @@ grid: {initial_speed: [30 km/h], expect: [pass, invalid]}
 """
 
 
+def run(program: Path, command: str, redirection: str) -> subprocess.CompletedProcess[str]:
+    script = ["sh", "-c", f'"{program}" {command} {redirection}']
+    return subprocess.run(script, capture_output=True, text=True, check=False, timeout=HANGING)
+
+
 def exit_code(program: Path, command: str, redirection: str) -> int:
-    script = f'"{program}" {command} {redirection}'
-    return subprocess.run(["sh", "-c", script], capture_output=True, check=False, timeout=120).returncode
+    return run(program, command, redirection).returncode
 
 
 @pytest.fixture
@@ -68,6 +74,8 @@ def test_no_file_is_opened_in_the_place_of_a_closed_stream(program: Path, scenar
 def test_data_that_a_full_disk_does_not_take_are_an_error(program: Path, scenarios: None) -> None:
     for command in ("run scenarios", "run scenarios --format json", "list scenarios", "schema"):
         script = f'"{program}" {command} >/dev/full'
-        done = subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=False, timeout=120)
+        done = subprocess.run(
+            ["sh", "-c", script], capture_output=True, text=True, check=False, timeout=HANGING
+        )
         assert done.returncode == 3, command
         assert done.stderr.splitlines()[-1] == "uictest: stdout: No space left on device; data are lost"

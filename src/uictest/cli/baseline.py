@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import message
 
@@ -47,17 +48,21 @@ def open_baseline(folder: Path, scope: Scope, tolerances: Tolerances, *, accepti
         raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {way_out}") from error
 
 
-def show_comparison(baseline: BaselineComparison, *, quiet: bool) -> None:
-    """Show on stderr how the run compares with its baseline; with `quiet` only where it differs."""
+def show_comparison(baseline: BaselineComparison | None, *, quiet: bool) -> ExitCode:
+    """Show on stderr how the run compares with its baseline, if with any; with `quiet` only where it differs.
+
+    Returns MISSED where it differs, else MET.
+    """
     from uictest.report import baseline_summary, not_compared_sentences
 
-    if quiet and baseline.agrees:
-        return
+    if baseline is None or (quiet and baseline.agrees):
+        return ExitCode.MET
     for note in baseline.notes:
         message(f"note: {note}")
     for sentence in not_compared_sentences(baseline):
         message(f"uictest: {sentence}")
     message(f"uictest: {baseline_summary(baseline)}")
+    return ExitCode.MET if baseline.agrees else ExitCode.MISSED
 
 
 def accept_run(run: Published, folder: Path, baseline: Baseline | None) -> None:

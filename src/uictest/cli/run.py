@@ -141,14 +141,14 @@ def run(
     if durations is not None:
         _show_slowest(done.results, durations or len(done.results))
     code = of_campaign(done)
-    if accept and baseline is not None and published is not None:
-        if done.interrupted:
-            message(f"uictest: interrupted: {baseline} stays as it was")
-        else:
-            accept_run(published, baseline, accepted)
-    if published is not None and (comparison := published.content.baseline) is not None:
-        show_comparison(comparison, quiet=quiet)
-        code = worst(code, ExitCode.MET if comparison.agrees else ExitCode.MISSED)
+    if baseline is None or published is None:
+        return code
+    if not accept:
+        return worst(code, show_comparison(published.content.baseline, quiet=quiet))
+    if done.interrupted:
+        message(f"uictest: interrupted: {baseline} stays as it was")
+    else:
+        accept_run(published, baseline, accepted)
     return code
 
 
