@@ -53,6 +53,15 @@ def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
     return {name: read(name, *records, DEFINITION).values for name in MEASURES}
 
 
+def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(
+    channels: Channels, case: Case, prepared: Any
+) -> None:
+    """A measure whose channels nobody states would be judged on whatever is there."""
+    late = observe(prepared(_of_part("from 3", channels)), case.scenario.measures)
+    of_a_train = {name for name, measure in MEASURES.items() if not measure.of_simulation}
+    assert late.coverage.missing.keys() == of_a_train - {"standstill"}
+
+
 def test_what_can_only_grow_never_falls_while_a_stop_goes_on(
     case: Case, channels: Channels, prepared: Any
 ) -> None:
