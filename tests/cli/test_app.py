@@ -23,10 +23,11 @@ def test_help_names_commands_and_exit_codes(call: Call, option: str) -> None:
         assert word in " ".join(answer.out.split())
 
 
-def test_without_a_command_the_help_is_shown_and_nothing_was_tested(call: Call) -> None:
-    answer = call()
+@pytest.mark.parametrize("group", [[], ["library"], ["identify"]])
+def test_without_a_command_the_help_is_shown_and_nothing_was_tested(call: Call, group: list[str]) -> None:
+    answer = call(*group)
     assert (answer.code, answer.err) == (4, "")
-    assert answer.out == call("--help").out
+    assert answer.out == call(*group, "--help").out
 
 
 @pytest.mark.parametrize("arguments", [["fly"], ["run\x1b[2J"], ["--nonsense"], ["library", "fly"]])

@@ -57,7 +57,17 @@ for _name, _function in (
     ("init", init),
 ):
     command(app, _name)(_function)
+
+
+def _show_help_alone(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        data(context.get_help())
+        # Not success: in a pipeline a command that is missing must not look like a test that passed.
+        raise typer.Exit(ExitCode.USAGE)
+
+
 for _name, _group in (("identify", identify), ("library", library)):
+    _group.callback(invoke_without_command=True)(_show_help_alone)
     app.add_typer(_group, name=_name, short_help=_group.info.help)
 
 
@@ -76,7 +86,4 @@ def main(
     ] = False,
 ) -> None:
     """Batch test runner for a simulated railway brake rig: scenarios in, verdicts and reports out."""
-    if context.invoked_subcommand is None:
-        data(context.get_help())
-        # Not success: in a pipeline a command that is missing must not look like a test that passed.
-        raise typer.Exit(ExitCode.USAGE)
+    _show_help_alone(context)
