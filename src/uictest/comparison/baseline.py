@@ -61,7 +61,9 @@ class Baseline:
     def compare(self, run: RunContent) -> BaselineComparison:
         """Compare every result of a run, and say which cases of the baseline were not compared."""
         quantities = {result.id: list(self._quantities(result)) for result in run.results}
-        apart = {case_id: [each for each in found if each] for case_id, found in quantities.items()}
+        apart = {
+            case_id: [difference for difference in each if difference] for case_id, each in quantities.items()
+        }
         rest = [result for result in self.run.results if result.id not in quantities]
         missing = {each.id: each.scenario for each in rest if self.scope.misses(each.id, each.scenario)}
         others = [each.id for each in rest if each.id not in missing]
@@ -71,7 +73,7 @@ class Baseline:
             without_machine(self.folder),
             self.sha256,
             compared=sum(map(len, quantities.values())) + len(missing),
-            within=sum(each.within for found in apart.values() for each in found),
+            within=sum(difference.within for each in apart.values() for difference in each),
             differences={case_id: each for case_id, each in beyond.items() if each},
             missing=missing,
             not_run=[case_id for case_id in others if case_id in self.scope.selected],

@@ -85,9 +85,9 @@ def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
     for what in ("seed", "versions", "inputs"):
         yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
     # Where results hold their parts, each changed parameter has its own line.
-    told = {result.id for run in (first, second) for result in run.results if result.parts}
+    with_parts = {result.id for run in (first, second) for result in run.results if result.parts}
     for case_id in first.subjects:
-        if case_id in second.subjects and case_id not in told:
+        if case_id in second.subjects and case_id not in with_parts:
             ours, theirs = first.subjects[case_id].settings, second.subjects[case_id].settings
             yield from _changes(case_id, dict(ours), dict(theirs))
 

@@ -20,21 +20,21 @@ Fold = list[range]
 """Which values stand together, as their places."""
 
 
-def map_lines(found: MapOf, width: int | None) -> Iterator[str]:
+def map_lines(grid: MapOf, width: int | None) -> Iterator[str]:
     """Yield the map in lines of at most `width` characters, None for any width.
 
     A row or column that stands for several values is labelled by its first and its last value.
     """
-    down, across = found.rows.labels, found.columns.labels
+    down, across = grid.rows.labels, grid.columns.labels
     rows = fold(len(down), _MOST_SHOWN)
     for most in range(min(_MOST_SHOWN, len(across)), 0, -1):
         columns = fold(len(across), most)
-        table = list(_table(found, rows, columns))
+        table = list(_table(grid, rows, columns))
         if width is None or max(map(len, table)) <= width or most == 1:
             break
-    what = "share met (# none, 1-9 tenths, . all)" if found.measure == MET else f"mean {found.measure}"
-    yield f"{what}: {found.rows.key} down, {found.columns.key} across"
-    yield from _remark(found, rows, columns)
+    what = "share met (# none, 1-9 tenths, . all)" if grid.measure == MET else f"mean {grid.measure}"
+    yield f"{what}: {grid.rows.key} down, {grid.columns.key} across"
+    yield from _remark(grid, rows, columns)
     yield from table
 
 
@@ -52,21 +52,21 @@ def folded_label(labels: Sequence[str]) -> str:
     return ends if STRETCH in labels[0] else f"{ends} ({len(labels)} values)"
 
 
-def _remark(found: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
+def _remark(grid: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
     folded = [
         f"{len(axis.labels)} values of {axis.key} in {len(places)} {name}"
-        for axis, places, name in ((found.rows, rows, "rows"), (found.columns, columns, "columns"))
+        for axis, places, name in ((grid.rows, rows, "rows"), (grid.columns, columns, "columns"))
         if len(places) < len(axis.labels)
     ]
     if folded:
-        yield f"folded: {', '.join(folded)}; map-{found.measure}.csv has every value"
+        yield f"folded: {', '.join(folded)}; map-{grid.measure}.csv has every value"
 
 
-def _table(found: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
-    sums, cases = (_folded(each, rows, columns) for each in found.sums())
-    cells = [[_shown(found.measure, mean) for mean in row] for row in mean_of(sums, cases).tolist()]
-    names = [folded_label([found.rows.labels[place] for place in places]) for places in rows]
-    heads = list(zip(*(_head([found.columns.labels[k] for k in places]) for places in columns), strict=True))
+def _table(grid: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
+    sums, cases = (_folded(each, rows, columns) for each in grid.sums())
+    cells = [[_shown(grid.measure, mean) for mean in row] for row in mean_of(sums, cases).tolist()]
+    names = [folded_label([grid.rows.labels[place] for place in places]) for places in rows]
+    heads = list(zip(*(_head([grid.columns.labels[k] for k in places]) for places in columns), strict=True))
     lines = [("", head) for head in heads if any(head)] + list(zip(names, cells, strict=True))
     widths = [max(map(len, column)) for column in zip(*(row for _, row in lines), strict=True)]
     margin = max(map(len, names))
