@@ -587,3 +587,11 @@ def test_errors_of_several_files_are_told_together(write: Callable[..., Path]) -
         load([Path("set")])
 
     assert [each.file for each in caught.value.diagnostics] == ["set/a.yaml", "set/b.yaml"]
+
+
+def test_a_hint_too_long_for_an_example_names_the_section_alone(
+    refused: Callable[..., tuple[Diagnostic, ...]],
+) -> None:
+    """An example cut off in the middle would be refused as well."""
+    (error,) = refused(f"{HEAD}seed: {list(range(40))}\n")
+    assert error.hint == "several values go under matrix"

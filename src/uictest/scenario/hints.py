@@ -111,12 +111,17 @@ def _takes(field: Any, node: Node) -> bool:
 
 def hint_for_list(key: str, node: List) -> str:
     """What to write where several values stand in place of one."""
-    return visible(f"several values go under matrix: `matrix: {{{key}: {as_written(node)}}}`"[:_LONGEST])
+    return "several values go under matrix" + _example(f": `matrix: {{{key}: {as_written(node)}}}`")
 
 
 def hint_for_item(key: Key, node: Node) -> str:
     """What to write where one value stands in place of a list."""
-    return visible(f"write `{key[-1]}: [{as_written(node)}]`"[:_LONGEST]) if key else ""
+    return (_example(f"write `{key[-1]}: [{as_written(node)}]`") or "write a list") if key else ""
+
+
+def _example(text: str) -> str:
+    """The text, or nothing where it is too long to be an example; half of one would be wrong."""
+    return visible(text) if len(text) <= _LONGEST else ""
 
 
 def switched(text: str, choices: list[str]) -> str:
