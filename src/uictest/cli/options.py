@@ -129,9 +129,7 @@ CheckFormat = Annotated[
     Format,
     typer.Option("--format", help="What stdout carries: nothing, the problems as JSON, or as annotations."),
 ]
-ListFormat = Annotated[
-    PlainFormat, typer.Option("--format", help="What stdout carries: lines or JSON.")
-]
+ListFormat = Annotated[PlainFormat, typer.Option("--format", help="What stdout carries: lines or JSON.")]
 Recording = Annotated[
     Recorded, typer.Option("--record", help="Record all cases, those that are not met, or none.")
 ]

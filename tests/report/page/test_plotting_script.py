@@ -13,10 +13,9 @@ from uictest.report.page.plotting_script import packed, plotting_script
 
 
 @pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path))
+def place(cache: Path) -> Iterator[Path]:
     plotting_script.cache_clear()
-    yield tmp_path
+    yield cache
     plotting_script.cache_clear()
 
 

@@ -15,12 +15,6 @@ def _rendered(source: str) -> str:
     return environment.get_template("page").render(name="WSP")
 
 
-@pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))
-    return tmp_path / "cache"
-
-
 def test_a_template_is_compiled_once(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert _rendered("the {{ name }}") == "the WSP"
     monkeypatch.setattr(Environment, "compile", lambda *_: pytest.fail("compiled again"))

@@ -1,0 +1,15 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty cache of its own; what earlier programs left in the temporary folder is not seen."""
+    (tmp_path / "file").write_text("not a folder")
+    (tmp_path / "cache").mkdir()
+    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
+    return tmp_path / "cache"
