@@ -28,6 +28,7 @@ def only_file(folder: Path) -> Path:
 
 def test_content_is_read_for_its_kind_and_inputs_and_no_others(root: Path) -> None:
     assert user_cache.read("code", INPUTS) is None
+    assert not root.exists(), "reading makes no folders"
     user_cache.write("code", INPUTS, CONTENT)
     assert user_cache.read("code", INPUTS) == CONTENT
     assert user_cache.read("code", INPUTS + b"!") is None

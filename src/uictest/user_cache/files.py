@@ -27,7 +27,7 @@ def read(kind: str, inputs: bytes) -> bytes | None:
         kind: what it is, part of the file's name.
         inputs: everything that the content was made of: sources, versions, options, the processor.
     """
-    for folder in _safe_folders():
+    for folder in _safe_folders(make=False):
         with contextlib.suppress(OSError):
             kept = _bytes_of(folder / _name(kind, inputs))
             content = kept[_DIGEST_SIZE:]
@@ -38,7 +38,7 @@ def read(kind: str, inputs: bytes) -> bytes | None:
 
 def write(kind: str, inputs: bytes, content: bytes) -> None:
     """Keep content for :func:`read`, in the first folder that takes it; where none does, warn once."""
-    for folder in _safe_folders():
+    for folder in _safe_folders(make=True):
         try:
             _replace(folder / _name(kind, inputs), _digest(inputs, content) + content)
         except OSError as error:
@@ -48,11 +48,12 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
     _warn("nothing is cached, each run compiles anew; set UICTEST_CACHE to a folder that you alone can write")
 
 
-def _safe_folders() -> Iterator[Path]:
-    """Yield the folders of the cache that exist, or can be made, and that this user alone can write."""
+def _safe_folders(*, make: bool) -> Iterator[Path]:
+    """Yield the folders of the cache that exist, or that are made now, and that this user alone can write."""
     for root in roots():
         try:
-            make_private(root)
+            if make:
+                make_private(root)
             reason = why_unsafe(root)
         except OSError:  # a home that is missing or read-only: the next root does
             continue
