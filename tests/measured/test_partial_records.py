@@ -183,3 +183,23 @@ def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Cha
         "the record begins after the brake command: no initial speed",
     )
     assert result.outcome == "inconclusive"
+
+
+@pytest.mark.parametrize("coarse", ["speed", "wheel_speed_3"])
+def test_samples_far_apart_do_not_show_that_no_wheelset_locked(
+    case: Case, channels: Channels, prepared: Any, coarse: str
+) -> None:
+    every = slice(None, None, 50)
+    dense = channels[coarse]
+    sparse = replace(dense, time=dense.time[every], samples=dense.samples[every])
+    stop = prepared({**channels, coarse: sparse})
+    result = judge_stop(case, stop)
+    verdicts = {each.id: each for each in result.criteria}
+
+    assert [str(each) for each in stop.defects if each.kind == "coarse"] == [
+        f"coarse: {coarse} is sampled every 0.5 s; at most 0.25 s shows all that happens"
+    ]
+    assert verdicts["locked-wheels"].verdict == "inconclusive"
+    assert "samples are 0.5 s apart" in verdicts["locked-wheels"].reason
+    assert verdicts["standstill"].verdict == "pass"
+    assert result.outcome == "inconclusive"

@@ -10,6 +10,7 @@ Kind = Literal[
     "time-backwards",
     "time-duplicate",
     "gap",
+    "coarse",
     "not-a-number",
     "out-of-range",
     "dropout",

@@ -18,6 +18,7 @@ from uictest.measured.resampling import at
 from uictest.measured.standstill import Standstill, find_standstill
 from uictest.measured.time_axis import (
     by_axis,
+    coarse_defects,
     disorder,
     gap_defects,
     gaps,
@@ -50,6 +51,7 @@ class MeasuredStop:
         standstill: time and distance from the brake command, s and m; None where the record does not hold it.
         defects: everything found wrong.
         choices: how the record was prepared, name -> text: part of the definition of every measure.
+        intervals: channel -> usual time between its samples in the file, s.
 
     """
 
@@ -58,6 +60,7 @@ class MeasuredStop:
     standstill: tuple[float, float] | None
     defects: tuple[Defect, ...]
     choices: dict[str, str] = field(default_factory=dict)
+    intervals: dict[str, float] = field(default_factory=dict)
 
 
 def prepare(
@@ -76,6 +79,7 @@ def prepare(
     raster = max(float(wanted.raster), usual_interval(sound["speed"].time))
     for axis in by_axis(sound.values()):
         defects += gap_defects(axis[0].time, _names(axis), raster)
+        defects += coarse_defects(axis[0].time, _names(axis))
     defects += [defect for channel in sound.values() for defect in missing_samples(channel)]
     for name, channel in sound.items():
         sound[name], implausible = without_implausible(channel)
@@ -97,6 +101,7 @@ def prepare(
     return replace(
         stop,
         choices={**stop.choices, "filter": _filter(wanted, unfiltered, sound), "sampling": sampling},
+        intervals={name: usual_interval(channel.time) for name, channel in sound.items()},
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from uictest.evaluation import Coverage, MissingData
 from uictest.measured.channels import WHEELSETS, of_wheelsets
 from uictest.measured.prepare import MeasuredStop
+from uictest.measured.time_axis import is_coarse
 from uictest.recording import TIME
 
 Channels = tuple[str, ...]
@@ -105,6 +106,9 @@ def _gaps(stop: MeasuredStop, measure: str, channels: Channels) -> Iterator[str]
         yield _LATE
     for name in channels:
         yield from _unknown(stop, name, throughout=measure in _THROUGHOUT)
+        interval = stop.intervals.get(name, 0.0)
+        if measure in _THROUGHOUT and is_coarse(interval):
+            yield f"samples are {interval:.6g} s apart"
 
 
 def _unknown(stop: MeasuredStop, name: str, *, throughout: bool) -> Iterator[str]:

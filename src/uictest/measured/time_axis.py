@@ -16,6 +16,9 @@ from uictest.recording.plausibility import LARGEST, beyond
 _GAP_INTERVALS = 2.5
 """An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
 
+_COARSEST = 0.25
+"""s between samples, a quarter of the time that the shipped criteria let a wheelset be locked; chosen."""
+
 
 def by_axis(channels: Iterable[RawChannel]) -> list[list[RawChannel]]:
     """Return the channels that share a time axis together, in their own order."""
@@ -63,6 +66,22 @@ def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
     more = f" and {len(found) - 3} more" if len(found) > 3 else ""
     if len(found):
         yield Defect("gap", names, f"is not recorded from {listed}{more}")
+
+
+def is_coarse(interval: float) -> bool:
+    """Return whether a wheelset can lock, or a valve vent, unseen between samples `interval` s apart."""
+    return interval > _COARSEST * (1.0 + 1e-6)
+
+
+def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
+    """Yield that the samples of a time axis are too far apart to show all that happens."""
+    interval = usual_interval(time)
+    if is_coarse(interval):
+        yield Defect(
+            "coarse",
+            names,
+            f"is sampled every {interval:.6g} s; at most {_COARSEST:g} s shows all that happens",
+        )
 
 
 def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
