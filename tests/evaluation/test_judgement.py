@@ -135,6 +135,20 @@ def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(
     assert near.reason == f"460 m so far; {ENDED}"
 
 
+@pytest.mark.parametrize("measure", ["longest_lock", "locked_time", "sliding_duration"])
+def test_a_train_slower_than_the_speed_of_observation_does_not_show_that_no_wheelset_locked(
+    criterion, verdict_of, stop, measure: str
+) -> None:
+    short = criterion(measure, upper="1 s", wheelsets="all")
+    slow = stop(initial_speed=9.0 / 3.6, maximum_deceleration=math.nan)
+    gaining = stop(initial_speed=9.0 / 3.6)
+    unobserved = verdict_of(short, slow)
+    assert unobserved.verdict == "not_applicable"
+    assert "`moving_speed` (10 km/h)" in unobserved.reason
+    assert verdict_of(short, gaining).verdict == "pass"
+    assert verdict_of(criterion(lower="440 m"), slow).verdict == "pass"
+
+
 @pytest.mark.parametrize(
     ("wheelsets_keep", "slides", "verdict", "value"),
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -51,7 +52,7 @@ def judge(
     verdicts = []
     for profile in scenario.criteria:
         for criterion in profile.criteria:
-            verdict = _judge(criterion, circumstances, stop, explain=explain)
+            verdict = _judge(criterion, circumstances, stop, scenario.measures, explain=explain)
             verdicts.append(_defined(verdict, criterion, profile, scenario.measures) if explain else verdict)
     return verdicts
 
@@ -60,11 +61,12 @@ def _judge(
     criterion: Criterion,
     circumstances: Circumstances,
     stop: ObservedStop,
+    observation: MeasureDefinitions,
     *,
     explain: bool,
 ) -> Verdict:
     bounds = bounds_of(criterion)
-    undecided = _before_judging(criterion, circumstances, stop)
+    undecided = _before_judging(criterion, circumstances, stop) or _unobserved(criterion, observation, stop)
     if undecided is not None:
         return _verdict(criterion, bounds, undecided)
     stated = criterion.definition.stated()
@@ -97,6 +99,18 @@ def _before_judging(
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if unknown and criterion.applies.initial_speed is not None:
         return Decision("inconclusive", None, unknown)
+    return None
+
+
+def _unobserved(criterion: Criterion, observation: MeasureDefinitions, stop: ObservedStop) -> Decision | None:
+    """Return that a measure was never observed: it would say that nothing slid or locked; else None."""
+    moving_speed = observation.moving_speed
+    never_faster = stop.measures.initial_speed < moving_speed and math.isnan(
+        stop.measures.maximum_deceleration  # kept from the first sample at this speed on
+    )
+    if never_faster and "moving_speed" in criterion.observed_by:
+        why = f"the train never ran at `moving_speed` ({moving_speed.text}), from which on this is observed"
+        return Decision("not_applicable", None, why)
     return None
 
 
