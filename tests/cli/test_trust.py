@@ -44,7 +44,7 @@ def test_a_reference_out_of_the_folders_given_needs_trust(
     refused = call(*command)
     assert refused.code == 4
     assert f"'../beside/base.yaml' leads out of {inside}" in refused.err
-    assert f"--trust {inside.parent / 'beside'} allows it" in refused.err
+    assert f"add --trust {inside.parent / 'beside'};" in refused.err
     assert call(*command, "--trust", "../beside").code == 0
 
 

@@ -90,7 +90,7 @@ class Files:
 def trust_hint(path: Path) -> str:
     """What to do about a file outside the roots."""
     folder = visible(str(real(path).parent))
-    return f"add --trust {folder}; else only the folders of the files given and the working folder are read"
+    return f"add --trust {folder}; without it only the working folder and those of the files given are read"
 
 
 def _nearest_file(path: Path) -> str:
