@@ -107,7 +107,7 @@ def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
     "part",
     [
         *("until 0.01", "until 2", "until 6", "until 12", "until 17.5"),
-        *("from 0.5", "from 3", "from 9"),
+        *("from 0.5", "from 3", "from 9", "from 15"),
         *("without 0.2", "without 2", "without 7", "without 15"),
     ],
 )

@@ -104,6 +104,8 @@ def _before_judging(
 
 def _unobserved(criterion: Criterion, observation: MeasureDefinitions, stop: ObservedStop) -> Decision | None:
     """Return that a measure was never observed: it would say that nothing slid or locked; else None."""
+    if stop.coverage is not None and stop.coverage.no_initial_speed:
+        return None
     moving_speed = observation.moving_speed
     never_faster = stop.measures.initial_speed < moving_speed and math.isnan(
         stop.measures.maximum_deceleration  # kept from the first sample at this speed on
