@@ -105,3 +105,8 @@ def test_a_sweep_below_a_folder_that_is_a_link_out_of_it_is_not_read(call: Call,
     assert answer.code == 4
     assert "sub/x.sweep.yaml:1:1: a link that leads out of the folders given" in answer.err
     assert "top secret" not in answer.err
+
+
+def test_what_a_shown_part_extends_is_named_by_its_key(call: Call, inside: Path) -> None:
+    (inside / "mine.yaml").write_text("schema: uictest/controller/1\nname: mine\nextends: ../beside/c.yaml\n")
+    assert "mine.yaml:3:10: extends: '../beside/c.yaml' leads out" in call("library", "show", "mine.yaml").err

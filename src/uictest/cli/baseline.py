@@ -77,5 +77,5 @@ def accept_run(run: Published, folder: Path, baseline: Baseline | None) -> None:
     for name, content in (("manifest.json", document["manifest"]), (RESULTS, document)):
         write_text_atomic(folder / name, to_json(content))
     kept = len(document["cases"]) - len(run.content.results)
-    others = f"; {counted(kept, 'case')} not selected stay as they were" if kept else ""
+    others = f"; {counted(kept, 'case')} that did not run stay as they were" if kept else ""
     message(f"uictest: {folder} now holds the results of {run.place.name}{others}")

@@ -137,7 +137,7 @@ class Parts:
         generations = [tree]
 
         def fetch(reference: Scalar) -> Map:
-            generations.append(self._fetch(reference, model, f"{dotted}.extends"))
+            generations.append(self._fetch(reference, model, f"{dotted}.extends" if dotted else "extends"))
             return generations[-1]
 
         merged, documents = inherit(tree, fetch)
