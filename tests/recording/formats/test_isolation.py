@@ -55,6 +55,28 @@ def test_a_full_temporary_folder_is_named(
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_reader_writes_nothing_but_what_it_read(written: Written, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a compiled module, as a full disk leaves it, would make every sound file seem damaged."""
+    commands: list[list[str]] = []
+    run = subprocess.run
+
+    def recorded(command: list[str], **options: Any) -> Any:
+        commands.append(command)
+        return run(command, **options)
+
+    monkeypatch.setattr(isolation.subprocess, "run", recorded)
+    read_contents(written("mdf"))
+    (command,) = commands
+    flags = command[: command.index("-m")]
+    shown = subprocess.run(
+        [*flags, "-c", "import sys; print(sys.dont_write_bytecode)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert shown.stdout == "True\n"
+
+
 def test_a_full_temporary_folder_excuses_no_damaged_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -50,7 +50,9 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
 
 def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
     # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
-    command = [sys.executable, "-I", "-m", _MODULE, name, str(path.absolute()), json.dumps(dialect.to_dict())]
+    # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
+    flags = ["-I", "-B", "-m", _MODULE]
+    command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(dialect.to_dict())]
     try:
         done = subprocess.run(
             command,
