@@ -17,8 +17,8 @@ import numpy as np
 from machine import processor
 from numpy.typing import NDArray
 
-from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.rig.records import BOGIE, CAR, PARAMETERS, WHEELSET
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.model.records import BOGIE, CAR, PARAMETERS, WHEELSET
 
 SOURCES = Path(__file__).parent / "c"
 PLAIN = ("-O3", "-march=native")
@@ -31,7 +31,7 @@ RECORDS = {
     "Car": CAR,
     "Bogie": BOGIE,
     "Wheelset": WHEELSET,
-    "Measures": MEASURES,
+    "Measures": STOP_MEASURES,
     "WheelsetMeasures": WHEELSET_MEASURES,
 }
 _C_TYPES = {"f": "real", "i": "integer"}
@@ -139,7 +139,7 @@ class CLanes:
 
 
 class CStop:
-    """The stop of the C rig, called as :func:`uictest.rig.stop.stop` is; nothing is recorded."""
+    """The stop of the C rig, called as :func:`uictest.rig.model.stop.stop` is; nothing is recorded."""
 
     def __init__(self, flags: tuple[str, ...]) -> None:
         self._stop = library(Unit("rig.c", flags)).stop

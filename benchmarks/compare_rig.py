@@ -10,8 +10,8 @@ from c_library import PLAIN, STRICT, CStop
 from stops import TIMED, Stop, shipped
 from timing import side_by_side
 
-from uictest.rig.native import compiled_stop
-from uictest.rig.run import Outcome, run
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.run_stop import SteppedStop, run
 
 TARGET = 1.3
 """Highest ratio of our time to that of C."""
@@ -31,7 +31,7 @@ def timed(name: str, stop: Stop, c_stop: CStop, turns: int) -> float:
     return comparison.ratio
 
 
-def disagreement(ours: Outcome, theirs: Outcome) -> float:
+def disagreement(ours: SteppedStop, theirs: SteppedStop) -> float:
     """Largest relative difference of any measure and of any final state."""
     pairs = [
         (ours.measures, theirs.measures),

@@ -8,11 +8,11 @@ import numpy as np
 from stops import Stop
 
 from uictest.physics import arithmetic
-from uictest.rig.compiled import translate
-from uictest.rig.cycle import begin_cycle, command_valves, sense
-from uictest.rig.records import BOGIE, CAR, WHEELSET
-from uictest.rig.start import start
-from uictest.rig.step import step
+from uictest.rig.backends.compiled import translate
+from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.model.start import start
+from uictest.rig.model.step import step
 
 
 class Rig:

@@ -20,10 +20,10 @@ from open_records import opened, rolling, step_in, step_on_floats
 from reduced_model import integrated_seconds
 from stops import Stop, shipped
 
-from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.rig.lanes import run_batch
-from uictest.rig.native import compiled_stop
-from uictest.rig.run import run
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.lanes import run_in_lanes
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.run_stop import run
 
 CASE = "slide-80[compensation=full]"
 STOPS = 64
@@ -64,14 +64,14 @@ def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
 def c_lanes(lanes: CLanes, stop: Stop) -> float:
     """Run stops in C in lanes."""
     parameters, rails = different_stops(stop)
-    measures, wheelset_measures = np.zeros(STOPS, MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
+    measures, wheelset_measures = np.zeros(STOPS, STOP_MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
     lanes(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
     return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
 
 
 def ours_in_lanes(stop: Stop) -> float:
     """Run stops on the rig compiled in lanes."""
-    measures = run_batch(*different_stops(stop)).measures
+    measures = run_in_lanes(*different_stops(stop)).measures
     return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
 
 

@@ -21,7 +21,7 @@ from uictest.physics.hysteresis import line
 from uictest.physics.polach import creep_force
 from uictest.physics.tank import pressure_change
 from uictest.physics.wheelset import SLOWEST_CREEP
-from uictest.rig.compiled import translate
+from uictest.rig.backends.compiled import translate
 
 _CYLINDER_LAG = 0.02
 """Time constant of the cylinder, s."""

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from parameters import Fields, fields, values
 
 from uictest.rig.assembly import assemble
-from uictest.rig.native import compiled_stop
-from uictest.rig.run import Outcome, run
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.run_stop import SteppedStop, run
 from uictest.scenario import load
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
@@ -31,7 +31,7 @@ class Stop:
     record: Any
     rail: NDArray[np.float64]
 
-    def run(self, changed: Fields, friction: float | None = None) -> Outcome:
+    def run(self, changed: Fields, friction: float | None = None) -> SteppedStop:
         """Run it with some record fields, and maybe the rail's friction, changed."""
         record = self.record.copy()
         for name, value in changed.items():
@@ -90,7 +90,7 @@ def _slide_test(changed: Fields, friction: float, seed: int) -> float:
     return misfit + sum(_course(outcome, 1.0 if name == "full" else 0.3) for name, outcome in stops.items())
 
 
-def _course(outcome: Outcome, weight: float) -> float:
+def _course(outcome: SteppedStop, weight: float) -> float:
     measures, wheelsets = outcome.measures, outcome.wheelset_measures
     if not measures.stopped:
         return GIVEN_UP

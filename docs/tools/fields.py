@@ -19,15 +19,15 @@ from uictest.scenario.parts.controller import SlipBandController, ThresholdContr
 from uictest.scenario.parts.criteria import Criterion
 from uictest.scenario.parts.measure_catalogue import MEASURES
 from uictest.scenario.parts.measures import MeasureDefinitions
-from uictest.scenario.parts.model import Part
 from uictest.scenario.parts.rail import RailCondition
 from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.parts.vehicle import Vehicle
-from uictest.scenario.physical import Physical
-from uictest.scenario.quantities import Quantity
-from uictest.scenario.reference_schema import PartReference
-from uictest.scenario.units import KINDS
-from uictest.sweep.model import Distribution, Sample
+from uictest.scenario.yaml.model import Part
+from uictest.scenario.yaml.physical import Physical
+from uictest.scenario.yaml.quantities import Quantity
+from uictest.scenario.yaml.reference_schema import PartReference
+from uictest.sweep.plan.model import Distribution, Sample
+from uictest.units import KINDS
 
 HEADINGS = ("key", "written as", "default", "range", "meaning")
 PARTS: dict[str, type[BaseModel]] = {

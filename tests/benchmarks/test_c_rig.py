@@ -3,8 +3,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig.native import compiled_stop
-from uictest.rig.run import Outcome, run
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.run_stop import SteppedStop, run
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""
@@ -27,7 +27,7 @@ def short_stop(name: str) -> tuple[Any, Any]:
     return parameters, rail
 
 
-def bits(outcome: Outcome) -> bytes:
+def bits(outcome: SteppedStop) -> bytes:
     records = (outcome.measures, outcome.wheelset_measures, outcome.car, outcome.wheelsets)
     return b"".join(np.asarray(record).tobytes() for record in records)
 
@@ -43,7 +43,7 @@ def test_c_rig_agrees_bit_for_bit(name: str) -> None:
 def test_header_follows_the_records() -> None:
     from c_library import records_header
 
-    from uictest.rig.records import PARAMETERS
+    from uictest.rig.model.records import PARAMETERS
 
     header = records_header()
     assert all(f" {name};" in header for name in PARAMETERS.names)
@@ -54,13 +54,13 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
     """Lanes are built with -ffast-math, and the poles of the cylinder dynamics magnify what that rounds."""
     from c_library import CLanes
 
-    from uictest.measures import MEASURES, WHEELSET_MEASURES
+    from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 
     parameters, rail = short_stop("dry-120")
     parameters.uses_cylinder_dynamics = 0.0
     scalar = run(c_stop(), parameters, rail, 0)
     stops = np.repeat(parameters.reshape(1), 11).view(parameters.dtype)
-    measures, wheelset_measures = np.zeros(11, MEASURES), np.zeros(44, WHEELSET_MEASURES)
+    measures, wheelset_measures = np.zeros(11, STOP_MEASURES), np.zeros(44, WHEELSET_MEASURES)
     CLanes()(stops, np.tile(rail[:, 0], (11, 1)), measures, wheelset_measures)
     np.testing.assert_allclose(measures["end_distance"], scalar.measures.end_distance, rtol=1e-9)
     np.testing.assert_allclose(

@@ -14,14 +14,14 @@ from typing import Any
 import pytest
 
 from uictest import rig
-from uictest.campaign import Examined, RecordingWish, execution
+from uictest.campaign import CaseRun, RecordingRequest, batch
 from uictest.cli.entry import execute
-from uictest.evaluation import CaseResult, Figures, error_result
+from uictest.evaluation import CaseMeasures, CaseResult, error_result
 
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
-FIGURES = Figures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+FIGURES = CaseMeasures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
 
 
 @dataclass(frozen=True)
@@ -113,15 +113,15 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Let stops come out as their tags say (`fail`, `invalid`, `error`, else `pass`); the ids as examined."""
     examined: list[str] = []
 
-    def examine(case: Any, wish: RecordingWish) -> Examined:
+    def examine(case: Any, wish: RecordingRequest) -> CaseRun:
         examined.append(case.id)
         if "error" in case.scenario.tags:
-            return Examined(error_result(case, "ZeroDivisionError: no wheel load"))
+            return CaseRun(error_result(case, "ZeroDivisionError: no wheel load"))
         outcome = next((tag for tag in ("fail", "invalid") if tag in case.scenario.tags), "pass")
         given = (case.id, case.path.as_posix(), dict(case.parameters), case.scenario.expect)
         result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")  # type: ignore[arg-type]
-        return Examined(result)
+        return CaseRun(result)
 
-    monkeypatch.setattr(execution, "examine", examine)
+    monkeypatch.setattr(batch, "run_case", examine)
     monkeypatch.setattr(rig, "is_warm", lambda: True)
     return examined

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from uictest.rig.native import compiled_stop
+from uictest.rig.backends.native import compiled_stop
 
 from .conftest import HANGING, Start
 

@@ -2,14 +2,14 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.campaign import Campaign
+from uictest.campaign import BatchResult
 from uictest.cli.exit_codes import ExitCode, of_campaign
 from uictest.evaluation import CaseResult
 
 
-def _campaign(*outcomes: str, interrupted: bool = False) -> Campaign:
+def _campaign(*outcomes: str, interrupted: bool = False) -> BatchResult:
     results = [CaseResult(outcome, "a.yaml", {}, "pass", outcome) for outcome in outcomes]  # type: ignore[arg-type]
-    return Campaign(results, interrupted)
+    return BatchResult(results, interrupted)
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,7 @@ def _campaign(*outcomes: str, interrupted: bool = False) -> Campaign:
         (_campaign(interrupted=True), ExitCode.INTERRUPTED),
     ],
 )
-def test_what_outweighs_what(campaign: Campaign, code: ExitCode) -> None:
+def test_what_outweighs_what(campaign: BatchResult, code: ExitCode) -> None:
     assert of_campaign(campaign) is code
 
 

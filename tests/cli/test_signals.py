@@ -43,7 +43,9 @@ def ignoring() -> None:
 
 
 @pytest.mark.parametrize("number", ASKING)
-@pytest.mark.parametrize("module", ["uictest.cli.entry", "typer", "uictest.cli.run", "pydantic", "numpy"])
+@pytest.mark.parametrize(
+    "module", ["uictest.cli.entry", "typer", "uictest.cli.commands.run", "pydantic", "numpy"]
+)
 def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Signals) -> None:
     scenario("stop")
     command = [sys.executable, "-c", ASKED_WHILE_IMPORTING, module, str(int(number)), "run"]

@@ -8,11 +8,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
+from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
 from uictest.recording import Recording
-from uictest.report import RunContent, Subject
+from uictest.report import CaseDescription, RunContent
 
-FIGURES = Figures(465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
+FIGURES = CaseMeasures(465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
 VERDICT = Verdict("braking-distance", "validity", 465.0, "m", 440.0, 490.0, 25.0, "pass", "")
 
 
@@ -28,7 +28,7 @@ def make_run() -> Callable[..., RunContent]:
         friction: str = "0.3",
         **figures: float,
     ) -> RunContent:
-        wheelset = WheelsetFigures(0.02, 0.0, 11, 25e3, 1.5)
+        wheelset = CaseWheelsetMeasures(0.02, 0.0, 11, 25e3, 1.5)
         result = CaseResult(
             id=case_id,
             scenario="dry.yaml",
@@ -40,7 +40,7 @@ def make_run() -> Callable[..., RunContent]:
             wheelsets=(wheelset, wheelset),
         )
         manifest = {"seed": 0, "versions": {"numba": "0.68.1"}, "inputs": {"dry.yaml": "a" * 64}}
-        subject = Subject("", (), {"friction": friction})
+        subject = CaseDescription("", (), {"friction": friction})
         return RunContent(name, [result], manifest, subjects={case_id: subject})
 
     return make

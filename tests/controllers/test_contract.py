@@ -4,12 +4,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.controllers import ALGORITHMS, CAR_MEMORY, WHEELSET_MEMORY, reference_speed
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.records import CAR, PARAMETERS, WHEELSET
+from uictest.rig.model.records import CAR, PARAMETERS, WHEELSET
 
 Benches = Callable[..., Any]
 CYCLE = 0.01

@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 from uictest import scenario
-from uictest.measured import load_map
-from uictest.rig.bench_loading import load_bench
+from uictest.field_data import load_map
+from uictest.rig.bench.loading import load_bench
 from uictest.scenario import ScenarioErrors
 from uictest.scenario.references import KIND_OF_FOLDER
 from uictest.sweep import load_sweep

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
-from uictest.rig.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
+from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 
 REPOSITORY = Path(__file__).parents[2]
 LONGEST = 110
@@ -51,7 +51,7 @@ def test_generated_tables_are_those_of_the_models(page: Path) -> None:
     assert with_generated(text, generated) == text, "run docs/tools/refresh.py"
 
 
-@pytest.mark.parametrize("figures", [Figures, WheelsetFigures, CaseResult, Verdict])
+@pytest.mark.parametrize("figures", [CaseMeasures, CaseWheelsetMeasures, CaseResult, Verdict])
 def test_every_field_of_a_result_is_described(figures: type) -> None:
     text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
     # How long the simulation took is not part of a result.

@@ -11,7 +11,7 @@ import pytest
 import yaml
 from hypothesis import settings
 
-from uictest.measures.records import MEASURES, WHEELSET_MEASURES
+from uictest.measures.records import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.scenario.parts.criteria import Criteria, Criterion
 from uictest.scenario.parts.measures import MeasureDefinitions
 
@@ -48,7 +48,7 @@ def _stop(**changes: Any) -> Any:
         "energy_residual": 2e-6,
         "air_residual": -3e-14,
     }
-    return _record(MEASURES, {**sound, **changes})
+    return _record(STOP_MEASURES, {**sound, **changes})
 
 
 def _sliding_stop(deceleration: float = 0.07 * G, **changes: Any) -> Any:

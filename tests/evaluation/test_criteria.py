@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from uictest.scenario.parts.criteria import Criteria
-from uictest.scenario.parts.model import quantities_in
+from uictest.scenario.yaml.model import quantities_in
 
 SHIPPED = ("uic-541-05-appendix-b", "uictest-stop")
 

@@ -6,9 +6,18 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import CaseResult, Sensitivity, Stretch, Verdict, narrowest_margin, relative_margin
+from uictest.evaluation import (
+    CaseResult,
+    Sensitivity,
+    Verdict,
+    VerdictInterval,
+    narrowest_margin,
+    relative_margin,
+)
 
-FLIPPING = Sensitivity("cut-off", "km/h", 20.0, 40.0, (Stretch(20, 30, "pass"), Stretch(30, 40, "fail")))
+FLIPPING = Sensitivity(
+    "cut-off", "km/h", 20.0, 40.0, (VerdictInterval(20, 30, "pass"), VerdictInterval(30, 40, "fail"))
+)
 
 
 def verdict(**changes: Any) -> Verdict:

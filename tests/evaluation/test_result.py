@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from uictest.evaluation import Figures, WheelsetFigures
+from uictest.evaluation import CaseMeasures, CaseWheelsetMeasures
 from uictest.evaluation.result import unit_of
 
 
@@ -25,6 +25,10 @@ def test_the_name_of_a_figure_says_its_unit(figure: str, unit: str) -> None:
 
 
 def test_only_pure_numbers_have_no_unit() -> None:
-    names = [field.name for figures in (Figures, WheelsetFigures) for field in dataclasses.fields(figures)]
+    names = [
+        field.name
+        for figures in (CaseMeasures, CaseWheelsetMeasures)
+        for field in dataclasses.fields(figures)
+    ]
     pure = {name for name in names if unit_of(name) == "1"}
     assert pure == {"energy_residual", "air_residual", "maximum_slide", "valve_actuations"}

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from uictest.evaluation import AppliedDefinition, Sensitivity, Stretch, Verdict
+from uictest.evaluation import AppliedDefinition, Sensitivity, Verdict, VerdictInterval
 
 # The interface's names; `sensitivity` adds how firm the verdict is, the last two say as data what was judged.
 FIELDS = [
@@ -21,9 +21,13 @@ FIELDS = [
     "definitions",
 ]
 SLIDE = Sensitivity(
-    "low_speed_cutoff", "km/h", 10.0, 60.0, (Stretch(10.0, 40.0, "pass"), Stretch(50.0, 60.0, "fail"))
+    "low_speed_cutoff",
+    "km/h",
+    10.0,
+    60.0,
+    (VerdictInterval(10.0, 40.0, "pass"), VerdictInterval(50.0, 60.0, "fail")),
 )
-STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (Stretch(2.0, 5.0, "pass"),))
+STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (VerdictInterval(2.0, 5.0, "pass"),))
 
 
 def verdict(**changes: object) -> Verdict:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measured import MeasuredStop, Preparation, RawChannel, prepare, stated_case
+from uictest.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
 from uictest.recording import TIME, Recording
 from uictest.rig import simulate
 from uictest.scenario import Case
@@ -18,7 +18,7 @@ NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
 LOADCELL_GAIN = 0.005
 """Standard deviation of the gain errors of loadcells, share."""
 
-Make = Callable[..., tuple[Case, MeasuredStop]]
+Make = Callable[..., tuple[Case, RecordedStop]]
 
 
 def _measured(recording: Recording, dice: np.random.Generator) -> dict[str, RawChannel]:

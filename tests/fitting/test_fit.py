@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest.field_data import stated_case
 from uictest.fitting import FitError, fit_stop
 from uictest.fitting.creep import wheelset_creep
 from uictest.fitting.friction_profile import stretch_names, stretch_of
 from uictest.fitting.wheel_loads import wheel_loads
-from uictest.measured import stated_case
 from uictest.physics.polach import contact_stiffness, creep_force
 
 Make = Callable[..., Any]

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.identification.lines import Line
+from uictest.identification.lines import FittedLine
 from uictest.identification.play import computed_force
 
 STEP = 0.0005
 LINES = {
-    "bc_squeezing": Line(0.0420, -1800.0),
-    "bc_releasing": Line(0.0475, -1650.0),
-    "wsp_squeezing": Line(0.0412, -1850.0),
-    "wsp_releasing": Line(0.0482, -1600.0),
+    "bc_squeezing": FittedLine(0.0420, -1800.0),
+    "bc_releasing": FittedLine(0.0475, -1650.0),
+    "wsp_squeezing": FittedLine(0.0412, -1850.0),
+    "wsp_releasing": FittedLine(0.0482, -1600.0),
 }
 
 

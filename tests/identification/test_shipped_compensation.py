@@ -11,7 +11,7 @@ import pytest
 from uictest.cli.entry import execute
 from uictest.identification.compensation_base import load_compensation
 from uictest.identification.transfer_function import TransferFunction
-from uictest.rig.bench_loading import recipe_path
+from uictest.rig.bench.loading import recipe_path
 from uictest.scenario.parts.compensation import Compensation
 
 PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")

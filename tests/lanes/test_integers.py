@@ -6,14 +6,13 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
 from uictest import lanes
 from uictest.lanes import select, vectors
 from uictest.physics.noise import bell, threefry
-from uictest.rig.compiled import translate
+from uictest.rig.backends.compiled import translate
 
 WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "i8"), ("b", "i8"), ("result", "i8"), ("number", "f8")]))

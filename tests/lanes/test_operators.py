@@ -7,14 +7,13 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
 from uictest import lanes
 from uictest.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
 from uictest.physics import arithmetic
-from uictest.rig.compiled import translate
+from uictest.rig.backends.compiled import translate
 
 WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "f8"), ("b", "f8"), ("result", "f8")]))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from uictest.measures import (
     DEFINITION,
-    MEASURES,
+    STOP_MEASURES,
     WHEELSET_MEASURES,
     begin,
     begin_slides,
@@ -76,7 +76,7 @@ def _measured(samples: Samples) -> tuple[Any, Any]:
     definition = np.zeros(1, np.dtype((np.record, list(DEFINITION))))[0]
     for name, value in _DEFINITION.items():
         definition[name] = value
-    train = np.zeros(1, MEASURES)[0]
+    train = np.zeros(1, STOP_MEASURES)[0]
     wheelsets = np.zeros(4, WHEELSET_MEASURES)
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
     begin(train, *map(float, first))

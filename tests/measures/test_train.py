@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.measures import MEASURES, WINDOW_SECONDS, begin, begin_window, finish
+from uictest.measures import STOP_MEASURES, WINDOW_SECONDS, begin, begin_window, finish
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
 
 
 def begun(held_before: float) -> np.ndarray:
-    train = np.full(MEASURES.itemsize // 8, held_before).view(MEASURES)
+    train = np.full(STOP_MEASURES.itemsize // 8, held_before).view(STOP_MEASURES)
     begin(train[0], 0.5, 1.0, 30.0, 7e5)
     begin_window(train[0])
     return train.view(np.float64)

@@ -1,8 +1,7 @@
 """Pressure demand of the brake command and the relay valve that follows it."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.physics.brake_operating_unit import demand, relay_opening
 

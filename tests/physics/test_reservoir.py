@@ -1,8 +1,7 @@
 """Reservoir and compressor."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.physics.reservoir import compressor_running, isothermal_pressure
 

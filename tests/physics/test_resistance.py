@@ -1,8 +1,7 @@
 """Running resistance and gradient."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.physics.resistance import gradient_force, running_resistance
 

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.physics.vehicle import kinetic_energy, longitudinal, spring_energy, suspension_force, vertical
 

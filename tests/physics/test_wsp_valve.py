@@ -1,8 +1,7 @@
 """WSP valve: the register of commands and the travel of its armatures."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.physics.wsp_valve import FILL, HOLD, LONGEST_DELAY_CYCLES, VENT, command_before, remember, travel
 

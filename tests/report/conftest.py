@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, Figures, Verdict, WheelsetFigures
+from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
 from uictest.recording import Recording
 from uictest.report import RunContent
-from uictest.report.page import Trace
 from uictest.report.sweep.content import SweepContent
+from uictest.report.traces.trace import Trace
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 
@@ -37,7 +37,7 @@ def make_result() -> Callable[..., CaseResult]:
             "outcome": "pass",
             "criteria": (verdict(),),
             "measures": FIGURES,
-            "wheelsets": tuple(WheelsetFigures(0.02 * n, 0.0, n, 25e3, 1.5) for n in range(1, 5)),
+            "wheelsets": tuple(CaseWheelsetMeasures(0.02 * n, 0.0, n, 25e3, 1.5) for n in range(1, 5)),
             "duration": 0.25,
         }
         return CaseResult(**(content | changes))  # type: ignore[arg-type]
@@ -107,7 +107,7 @@ def make_recording() -> Callable[..., Recording]:
     return make
 
 
-FIGURES = Figures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+FIGURES = CaseMeasures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
 
 
 def verdict(**changes: object) -> Verdict:

@@ -3,8 +3,7 @@ from __future__ import annotations
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.report.escaping import csv_cell, printable, workflow_message, workflow_property, xml_text
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from uictest.evaluation import CaseResult, Sensitivity, Stretch, Verdict
+from uictest.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
 from uictest.report.lines import case_line, criterion_lines, definition_lines
 
 MakeResult = Callable[..., CaseResult]
@@ -41,7 +41,7 @@ def test_every_line_is_one_line_whatever_is_in_it(make_result: MakeResult, hosti
 
 
 def test_criterion_lines_can_be_found_by_the_case(make_result: MakeResult, make_verdict: MakeVerdict) -> None:
-    firm = Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, (Stretch(10.0, 60.0, "pass"),))
+    firm = Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, (VerdictInterval(10.0, 60.0, "pass"),))
     lines = list(criterion_lines(make_result(criteria=(make_verdict(sensitivity=(firm,)),))))
     assert lines[0] == (
         "criterion dry-120[command=90] braking-distance (validity) pass: 465.25 m, limits 440 .. 490 m, "

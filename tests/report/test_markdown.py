@@ -7,7 +7,7 @@ import pytest
 from markdown_it import MarkdownIt
 
 from uictest.evaluation import CaseResult
-from uictest.report import RunContent, Subject, append_step_summary
+from uictest.report import CaseDescription, RunContent, append_step_summary
 from uictest.report.markdown import markdown_summary
 from uictest.report.step_summary import LIMIT
 
@@ -37,7 +37,7 @@ def test_the_summary_is_one_table_with_cases_not_met_first(
 def test_a_recorded_stop_is_told_from_a_simulated_one(
     make_content: MakeContent, make_result: MakeResult
 ) -> None:
-    subjects = {"b": Subject(recorded={"file": "b.csv"})}
+    subjects = {"b": CaseDescription(recorded={"file": "b.csv"})}
     text = markdown_summary(make_content(make_result(id="a"), make_result(id="b"), subjects=subjects))
     simulated, recorded = text.splitlines()[-2:]
     assert "| pass (recorded stop) |" in recorded

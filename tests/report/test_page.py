@@ -11,8 +11,9 @@ import pytest
 
 from uictest.evaluation import CaseResult, Verdict
 from uictest.recording import Recording
-from uictest.report import RunContent, Subject
-from uictest.report.page import DRAWN, page_html, trace_of
+from uictest.report import CaseDescription, RunContent
+from uictest.report.page import DRAWN, page_html
+from uictest.report.traces.trace import trace_of
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
@@ -113,7 +114,7 @@ def test_hostile_texts_are_shown_and_make_no_element(
         result,
         name=bad,
         manifest={"command": [bad], "inputs": {bad: bad}, "versions": {bad: bad}, "seed": None},
-        subjects={bad: Subject(bad, (bad,), {bad: bad})},
+        subjects={bad: CaseDescription(bad, (bad,), {bad: bad})},
         traces={bad: trace_of(make_recording())},
     )
     html = page_html(content)
@@ -138,7 +139,9 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
         make_result(id=f"wet-80-friction[friction=0.{n:03}]", outcome="fail", criteria=(broken,) * 7)
         for n in range(1000)
     ]
-    subject = Subject("Stop from 80 km/h at full command with initial friction coefficients", ("slide",))
+    subject = CaseDescription(
+        "Stop from 80 km/h at full command with initial friction coefficients", ("slide",)
+    )
     trace = trace_of(make_recording(sliding_time="5"))
     content = make_content(
         *results,
@@ -154,10 +157,10 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
 def test_a_verdict_that_hangs_on_a_definition_says_so(
     make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    from uictest.evaluation import Sensitivity, Stretch
+    from uictest.evaluation import Sensitivity, VerdictInterval
 
     flips = Sensitivity(
-        "low_speed_cutoff", "km/h", 10, 60, (Stretch(10, 40, "pass"), Stretch(50, 60, "fail"))
+        "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))
     )
     html = page_html(make_content(make_result(criteria=(make_verdict(sensitivity=(flips,)),))))
     assert "sensitive to definitions: braking-distance" in html

@@ -14,9 +14,10 @@ import pytest
 
 from uictest.evaluation import AppliedDefinition, CaseResult, Verdict
 from uictest.recording import Recording
-from uictest.report import RunContent, Subject
-from uictest.report.page import page_html, sweep_page_html, trace_of
+from uictest.report import CaseDescription, RunContent
+from uictest.report.page import page_html, sweep_page_html
 from uictest.report.sweep.content import SweepContent
+from uictest.report.traces.trace import trace_of
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
@@ -327,7 +328,7 @@ def test_hostile_texts_are_not_executed(
     content = make_content(
         result,
         name=bad,
-        subjects={bad: Subject(bad, (bad,), {bad: bad})},
+        subjects={bad: CaseDescription(bad, (bad,), {bad: bad})},
         traces={bad: trace_of(make_recording())},
     )
     browser.get(_written(tmp_path, content).as_uri())

@@ -7,7 +7,7 @@ import pytest
 
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
-from uictest.report import Subject, read_run, write_recording, write_reports
+from uictest.report import CaseDescription, read_run, write_recording, write_reports
 
 MakeResult = Callable[..., CaseResult]
 
@@ -15,14 +15,14 @@ MakeResult = Callable[..., CaseResult]
 def test_a_run_comes_back_from_its_folder(
     tmp_path: Path, make_result: MakeResult, make_recording: Callable[..., Recording]
 ) -> None:
-    result, subject = make_result(), Subject("A title", ("a",), {"rail": "dry"})
+    result, subject = make_result(), CaseDescription("A title", ("a",), {"rail": "dry"})
     write_reports(tmp_path, [result], {"seed": 3}, complete=False, subjects={result.id: subject})
     write_recording(tmp_path, result.id, make_recording())
     content = read_run(tmp_path, traces=True)
     assert [each.to_dict() for each in content.results] == [result.to_dict()]
     assert (content.name, content.manifest, content.complete) == (tmp_path.name, {"seed": 3}, False)
     assert content.subject(result.id) == subject
-    assert content.subject("another") == Subject()
+    assert content.subject("another") == CaseDescription()
     assert list(content.traces) == [result.id]
     assert read_run(tmp_path).traces == {}
 

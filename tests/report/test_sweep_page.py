@@ -9,12 +9,13 @@ import pytest
 
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
-from uictest.report.page import sweep_page_html, trace_of
-from uictest.report.page.frontier_plot import frontier_plot
-from uictest.report.page.heat import heat_map
-from uictest.report.page.histogram import histogram
-from uictest.report.page.trend_plot import TrendPlot, trend_plot
+from uictest.report.page import sweep_page_html
+from uictest.report.page.sweep.frontier_plot import frontier_plot
+from uictest.report.page.sweep.heat import heat_map
+from uictest.report.page.sweep.histogram import histogram
+from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
+from uictest.report.traces.trace import trace_of
 
 from .test_page import Page
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report import RunContent, Subject
+from uictest.report import CaseDescription, RunContent
 from uictest.report.sheet import LONGEST_TEXT
 from uictest.report.workbook import workbook_bytes
 
@@ -28,7 +28,7 @@ def _table(sheet: Any) -> list[dict[str, Any]]:
 
 
 def test_the_sheets_hold_what_the_run_found(make_content: MakeContent, make_result: MakeResult) -> None:
-    subject = Subject("A dry stop", ("dry", "stop"))
+    subject = CaseDescription("A dry stop", ("dry", "stop"))
     workbook = _read(make_content(make_result(), subjects={"dry-120[command=90]": subject}))
     assert workbook.sheetnames == ["Cases", "Wheelsets", "Criteria", "Provenance"]
     (case,) = _table(workbook["Cases"])
@@ -49,7 +49,7 @@ def test_text_stays_text(
 ) -> None:
     verdict = make_verdict(id=text, reason=text, definition={text: text})
     result = make_result(id=text, parameters={text: text}, criteria=(verdict,), reason=text, scenario=text)
-    content = make_content(result, name=text, subjects={text: Subject(text, (text,))})
+    content = make_content(result, name=text, subjects={text: CaseDescription(text, (text,))})
     for cell in _cells(_read(content)):
         if isinstance(cell.value, str):
             assert cell.data_type == "s"

@@ -14,11 +14,11 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest.rig.assembly import assemble
-from uictest.rig.native import compiled_stop
-from uictest.rig.records import BOGIE, CAR, WHEELSET
-from uictest.rig.run import Outcome, run
-from uictest.rig.start import start
-from uictest.rig.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.run_stop import SteppedStop, run
+from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.model.start import start
+from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario import Case, load
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class Rig:
             parameters[name] = value
         return parameters, rail
 
-    def _stop(self, *overrides: str, every: int = 0, **fields: float) -> Outcome:
+    def _stop(self, *overrides: str, every: int = 0, **fields: float) -> SteppedStop:
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
         return run(compiled_stop(), *self.parameters(*overrides, **fields), every)
 

@@ -9,7 +9,7 @@ import pytest
 from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE
 from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
 from uictest.rig.assembly import STANDARD_GRAVITY, friction_laws
-from uictest.rig.records import PARAMETERS
+from uictest.rig.model.records import PARAMETERS
 from uictest.scenario import ScenarioErrors
 
 

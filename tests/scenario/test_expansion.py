@@ -5,14 +5,13 @@ from math import prod
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from uictest.scenario import Case, ScenarioErrors, expansion
 from uictest.scenario.expansion import Variant, expand
 from uictest.scenario.identifiers import case_id, short_keys
-from uictest.scenario.parsing import parse
-from uictest.scenario.tree import Document, Map, as_written
+from uictest.scenario.yaml.parsing import parse
+from uictest.scenario.yaml.tree import Document, Map, as_written
 
 Loaded = Callable[..., list[Case]]
 

@@ -7,11 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from uictest.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
-from uictest.scenario.friction import FrictionProfile
+from uictest.scenario.parts.friction import FrictionProfile
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from uictest.field_data import load_map
 from uictest.identification.compensation_base import load_compensation
-from uictest.measured import load_map
-from uictest.rig.bench_loading import load_bench
+from uictest.rig.bench.loading import load_bench
 from uictest.scenario import Diagnostic, ScenarioErrors, load
 from uictest.sweep import load_sweep
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from uictest.scenario import Case, load
-from uictest.scenario.friction import FrictionProfile
+from uictest.scenario.parts.friction import FrictionProfile
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.studies import STUDIES, Conducted
+from uictest.studies import STUDIES, StudyResult
 from uictest.studies.comparison import band_text, found_text
 
 _SLOW = frozenset({"robustness"})
@@ -20,7 +20,7 @@ BOUNDED = [
 
 
 @pytest.mark.parametrize(("study", "key"), BOUNDED)
-def test_the_figure_lies_in_its_band(study: str, key: str, conducted: Callable[[str], Conducted]) -> None:
-    comparison = next(each for each in conducted(study).comparisons if each.quantity.key == key)
+def test_the_figure_lies_in_its_band(study: str, key: str, result: Callable[[str], StudyResult]) -> None:
+    comparison = next(each for each in result(study).comparisons if each.quantity.key == key)
     found, band = found_text(comparison), band_text(comparison.quantity)
     assert comparison.verdict == "holds", f"{comparison.quantity.title}: {found}, band {band}"

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from uictest.studies import STUDIES, Quantity
+from uictest.studies import STUDIES, StudyQuantity
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
@@ -27,7 +27,7 @@ BANDS = {
 """Of the tool's specification; where the source gives a figure, about that."""
 
 
-def _quantities(name: str) -> dict[str, Quantity]:
+def _quantities(name: str) -> dict[str, StudyQuantity]:
     return {quantity.key: quantity for quantity in STUDIES[name].quantities}
 
 

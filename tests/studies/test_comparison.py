@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import Conducted, Quantity, document, lines, study_table
+from uictest.studies import StudyQuantity, StudyResult, document, lines, study_table
 from uictest.studies.comparison import band_text, comparison_table, found_text, source_text
 
 
-def test_lines_say_source_and_here_and_band(made_up: Conducted) -> None:
+def test_lines_say_source_and_here_and_band(made_up: StudyResult) -> None:
     assert lines(made_up) == [
         "made-up: A made-up study",
         "  Figure and table data of the source are not public; its text says: 17.6 s.",
@@ -23,20 +23,20 @@ def test_lines_say_source_and_here_and_band(made_up: Conducted) -> None:
 @pytest.mark.parametrize(
     ("quantity", "text"),
     [
-        (Quantity("a", "a", "%", upper=8.0), "<= 8 %"),
-        (Quantity("a", "a", lower=9.0), ">= 9"),
-        (Quantity("a", "a", "m"), "-"),
+        (StudyQuantity("a", "a", "%", upper=8.0), "<= 8 %"),
+        (StudyQuantity("a", "a", lower=9.0), ">= 9"),
+        (StudyQuantity("a", "a", "m"), "-"),
     ],
 )
-def test_bands_in_words(quantity: Quantity, text: str) -> None:
+def test_bands_in_words(quantity: StudyQuantity, text: str) -> None:
     assert band_text(quantity) == text
 
 
-def test_a_study_of_ours_claims_nothing_of_the_source(made_up: Conducted) -> None:
+def test_a_study_of_ours_claims_nothing_of_the_source(made_up: StudyResult) -> None:
     assert "of ours" in source_text(replace(made_up.study, source=""))
 
 
-def test_the_document_holds_no_number_that_json_lacks(made_up: Conducted) -> None:
+def test_the_document_holds_no_number_that_json_lacks(made_up: StudyResult) -> None:
     (study,) = json.loads(document([made_up]))["studies"]
     assert study["verdict"] == "misses"
     assert [each["verdict"] for each in study["quantities"]] == ["holds", "misses", "shown"]
@@ -44,7 +44,7 @@ def test_the_document_holds_no_number_that_json_lacks(made_up: Conducted) -> Non
     assert study["quantities"][1]["upper_excluded"]
 
 
-def test_the_table_shows_texts_as_they_are(made_up: Conducted) -> None:
+def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
     from rich.console import Console
 
     console = Console(width=120)
@@ -55,6 +55,6 @@ def test_the_table_shows_texts_as_they_are(made_up: Conducted) -> None:
     assert found_text(made_up.comparisons[0]) in shown
 
 
-def test_every_comparison_is_a_row(made_up: Conducted) -> None:
+def test_every_comparison_is_a_row(made_up: StudyResult) -> None:
     table = comparison_table([made_up, made_up])
     assert {len(column) for column in table.values()} == {6}

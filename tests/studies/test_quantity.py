@@ -3,10 +3,9 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from uictest.studies.quantity import Quantity, Reading, spread
+from uictest.studies.quantity import FoundValue, StudyQuantity, spread
 
 
 @pytest.mark.parametrize(
@@ -14,17 +13,17 @@ from uictest.studies.quantity import Quantity, Reading, spread
     [(0.45, "holds"), (0.55, "holds"), (0.4499, "misses"), (0.5501, "misses"), (math.nan, "misses")],
 )
 def test_both_ends_of_a_band_belong_to_it(value: float, verdict: str) -> None:
-    assert Quantity("width", "width", lower=0.45, upper=0.55).verdict(value) == verdict
+    assert StudyQuantity("width", "width", lower=0.45, upper=0.55).verdict(value) == verdict
 
 
 def test_what_must_stay_below_a_bound_may_not_reach_it() -> None:
-    assert Quantity("error", "error", upper=2.0, below=True).verdict(2.0) == "misses"
-    assert Quantity("error", "error", upper=2.0).verdict(2.0) == "holds"
+    assert StudyQuantity("error", "error", upper=2.0, below=True).verdict(2.0) == "misses"
+    assert StudyQuantity("error", "error", upper=2.0).verdict(2.0) == "holds"
 
 
 @given(st.floats())
 def test_without_a_band_a_figure_is_only_shown(value: float) -> None:
-    assert Quantity("force", "force").verdict(value) == "shown"
+    assert StudyQuantity("force", "force").verdict(value) == "shown"
 
 
 @given(st.lists(st.floats(-1e9, 1e9), min_size=1))
@@ -41,4 +40,4 @@ def test_one_repeat_without_a_figure_leaves_no_median() -> None:
 
 
 def test_a_reading_may_have_no_range() -> None:
-    assert Reading(1.0).low is None
+    assert FoundValue(1.0).low is None

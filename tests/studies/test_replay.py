@@ -5,18 +5,18 @@ import pytest
 
 from uictest.recording import Recording
 from uictest.scenario import Case
-from uictest.studies import Laboratory
+from uictest.studies import StopRunner
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 
 
 @pytest.fixture(scope="module")
-def case(laboratory: Laboratory) -> Case:
-    return laboratory.cases("wet-80-friction", "rail.friction=0.10")[0]
+def case(stop_runner: StopRunner) -> Case:
+    return stop_runner.cases("wet-80-friction", "rail.friction=0.10")[0]
 
 
 @pytest.fixture(scope="module")
-def stop(laboratory: Laboratory, case: Case) -> Recording:
-    return laboratory.recordings([case], CYCLE)[0]
+def stop(stop_runner: StopRunner, case: Case) -> Recording:
+    return stop_runner.recordings([case], CYCLE)[0]
 
 
 def test_its_own_commands_give_module_1_its_own_pressure(case: Case, stop: Recording) -> None:

@@ -7,20 +7,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import MEASURES as STOP
-from uictest.measures import WHEELSET_MEASURES
-from uictest.rig import Stop
+from uictest.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
+from uictest.rig import SimulatedStop
 from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point
 from uictest.studies.rig_equivalence import RIGS, TRAIN, differences, overall
 from uictest.studies.robustness import actuations
 
 
-def stop(distance: float, *vents: int) -> Stop:
+def stop(distance: float, *vents: int) -> SimulatedStop:
     """A stop of which only the distance and the actuations of the four valves are known."""
     measures, wheelsets = np.zeros(1, STOP)[0], np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
     measures.braking_distance = distance
     wheelsets.valve_actuations = vents
-    return Stop(measures, wheelsets)
+    return SimulatedStop(measures, wheelsets)
 
 
 @pytest.fixture

@@ -6,15 +6,15 @@ from typing import Any
 import pytest
 
 from uictest.identification import HysteresisResult
-from uictest.identification.lines import Line
+from uictest.identification.lines import FittedLine
 from uictest.studies.slopes import Loop, slope_spread, slopes_table
 
 
 def loop(level: str, **slopes: float) -> Loop:
     """A loop of which nothing is known but the slopes of some phases, in kN/bar."""
-    lines = {phase: Line(slope * 1e-2, -1500.0) for phase, slope in slopes.items()}
+    lines = {phase: FittedLine(slope * 1e-2, -1500.0) for phase, slope in slopes.items()}
     nothing: Any = None
-    return Loop(level, nothing, HysteresisResult(lines, Line(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
+    return Loop(level, nothing, HysteresisResult(lines, FittedLine(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
 
 
 def test_the_phase_that_changes_most_decides() -> None:

@@ -4,20 +4,20 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import Conducted, Findings, Laboratory, Reading, conduct
+from uictest.studies import FoundValue, StopRunner, StudyFindings, StudyResult, run_study
 
 
-def test_one_figure_outside_its_band_decides(made_up: Conducted) -> None:
+def test_one_figure_outside_its_band_decides(made_up: StudyResult) -> None:
     assert [comparison.verdict for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
     assert made_up.verdict == "misses"
 
 
-def test_a_study_without_a_band_is_only_shown(made_up: Conducted) -> None:
+def test_a_study_without_a_band_is_only_shown(made_up: StudyResult) -> None:
     unbounded = replace(made_up.study, quantities=made_up.study.quantities[2:])
-    assert Conducted(unbounded, made_up.findings).verdict == "shown"
+    assert StudyResult(unbounded, made_up.findings).verdict == "shown"
 
 
-def test_a_study_must_find_all_its_quantities(made_up: Conducted) -> None:
-    study = replace(made_up.study, conduct=lambda laboratory: Findings({"time": Reading(18.0)}))
+def test_a_study_must_find_all_its_quantities(made_up: StudyResult) -> None:
+    study = replace(made_up.study, run=lambda stop_runner: StudyFindings({"time": FoundValue(18.0)}))
     with pytest.raises(KeyError, match="share, count"):
-        conduct(study, Laboratory())
+        run_study(study, StopRunner())

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.sweep import Plan, Worker, load_sweep
-from uictest.sweep.assembling import Assembler
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.sweep import ChunkRunner, Plan, load_sweep
+from uictest.sweep.running.assembling import Assembler
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -44,10 +44,10 @@ def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
 
 def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
-    measures = np.zeros(parameters.size, MEASURES)
+    measures = np.zeros(parameters.size, STOP_MEASURES)
     wheelsets = np.zeros((parameters.size, 4), WHEELSET_MEASURES)
     speed, friction = parameters["initial_speed"], rail[:, 1, 0]
-    for name in MEASURES.names or ():
+    for name in STOP_MEASURES.names or ():
         measures[name] = np.nan
     measures["initial_speed"], measures["stopped"] = speed, 1.0
     measures["braking_time"] = measures["end_time"] = speed / (9.81 * friction)
@@ -66,6 +66,6 @@ def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArra
 
 
 @pytest.fixture
-def made_up() -> Callable[[Plan], Worker]:
+def made_up() -> Callable[[Plan], ChunkRunner]:
     """A worker whose stops are the formula."""
-    return lambda plan: Worker(Assembler(plan), formula, plan)
+    return lambda plan: ChunkRunner(Assembler(plan), formula, plan)

@@ -5,12 +5,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from uictest.sweep.classes import Classes
 from uictest.sweep.map_text import fold, folded_label, map_lines
-from uictest.sweep.maps import MapOf
+from uictest.sweep.summaries.classes import Classes
+from uictest.sweep.summaries.maps import MapOf
 
 _RANGE = re.compile(r"(\S+) \.\. (\S+) \((\d+) values\)")
 

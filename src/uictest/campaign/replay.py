@@ -5,24 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.scenario import Case
+from uictest import recording, rig, scenario
 
 
-def shortest_cycle(cases: Iterable[Case]) -> float:
+def shortest_cycle(cases: Iterable[scenario.Case]) -> float:
     """Return the shortest controller cycle of cases, s: a recording that fine misses no valve command."""
     return min((float(case.scenario.controller.cycle_time) for case in cases), default=math.inf)
 
 
-def replay(cases: Sequence[Case], *, every: float, jobs: int) -> Iterator[tuple[Case, Recording]]:
+def replay(
+    cases: Sequence[scenario.Case], *, every: float, jobs: int
+) -> Iterator[tuple[scenario.Case, recording.Recording]]:
     """Yield each case with its recording, one sample every so many seconds, in the order of the cases."""
-    from uictest.rig import simulate
-
     with ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="rig") as pool:
-        stops = pool.map(lambda case: simulate(case, record_every=every), cases)
+        stops = pool.map(lambda case: rig.simulate(case, record_every=every), cases)
         for case, stop in zip(cases, stops, strict=True):
             if stop.recording is not None:
                 yield case, stop.recording

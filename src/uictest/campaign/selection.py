@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from uictest import scenario
 from uictest.campaign.expression import parse
 
-if TYPE_CHECKING:
-    from uictest.scenario import Case
 
-
-def by_expression(cases: Sequence[Case], expression: str) -> list[Case]:
+def by_expression(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
     """Return the cases an expression holds for: a word matches inside the id, the file name or a tag.
 
     Upper and lower case are alike. Raises ExpressionError.
@@ -20,7 +17,7 @@ def by_expression(cases: Sequence[Case], expression: str) -> list[Case]:
     return [case for case in cases if holds(lambda word, case=case: _mentions(case, word))]  # type: ignore[misc]
 
 
-def by_tag(cases: Sequence[Case], expression: str) -> list[Case]:
+def by_tag(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
     """Return the cases an expression over whole tags holds for, e.g. `slip` or `slip and not long`.
 
     Raises ExpressionError.
@@ -29,11 +26,11 @@ def by_tag(cases: Sequence[Case], expression: str) -> list[Case]:
     return [case for case in cases if holds(frozenset(case.scenario.tags).__contains__)]
 
 
-def by_id(cases: Sequence[Case], ids: frozenset[str]) -> list[Case]:
+def by_id(cases: Sequence[scenario.Case], ids: frozenset[str]) -> list[scenario.Case]:
     """Return the cases whose id is among `ids`, in their own order."""
     return [case for case in cases if case.id in ids]
 
 
-def _mentions(case: Case, word: str) -> bool:
+def _mentions(case: scenario.Case, word: str) -> bool:
     sought = word.casefold()
     return any(sought in name.casefold() for name in (case.id, case.path.stem, *case.scenario.tags))

@@ -7,24 +7,24 @@ from typing import Annotated
 import typer
 
 from uictest import __version__
-from uictest.cli.bench import bench
-from uictest.cli.check import check
-from uictest.cli.compare import compare
-from uictest.cli.evaluate import evaluate
+from uictest.cli.commands.bench import bench
+from uictest.cli.commands.check import check
+from uictest.cli.commands.compare import compare
+from uictest.cli.commands.evaluate import evaluate
+from uictest.cli.commands.export import export
+from uictest.cli.commands.fit import fit
+from uictest.cli.commands.identify import identify
+from uictest.cli.commands.init import init
+from uictest.cli.commands.library import library
+from uictest.cli.commands.list import list_cases
+from uictest.cli.commands.report import report
+from uictest.cli.commands.reproduce import reproduce
+from uictest.cli.commands.run import run
+from uictest.cli.commands.schema import schema
+from uictest.cli.commands.sweep import sweep
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.export import export
-from uictest.cli.fit import fit
-from uictest.cli.identify import identify
-from uictest.cli.init import init
-from uictest.cli.library import library
-from uictest.cli.list import list_cases
 from uictest.cli.registration import command
-from uictest.cli.report import report
-from uictest.cli.reproduce import reproduce
-from uictest.cli.run import run
-from uictest.cli.schema import schema
 from uictest.cli.streams import data
-from uictest.cli.sweep import sweep
 
 _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "

@@ -7,39 +7,33 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from uictest import campaign, report
-from uictest.campaign import Campaign, Examined, PartsOfCases, RecordingWish
+from uictest import campaign, comparison, report, rig, scenario
+from uictest.campaign import BatchResult, CaseRun, PartsOfCases, RecordingRequest
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import Display
 from uictest.cli.drawing import Drawing
 from uictest.cli.progress import progress
 from uictest.cli.streams import message
 
-if TYPE_CHECKING:
-    from uictest.comparison import Baseline
-    from uictest.report import Difference, ReportFormat, RunContent
-    from uictest.report.page import Trace
-    from uictest.scenario import Case
-
 
 @dataclass(frozen=True, slots=True)
 class Batch:
     """What is to be run, how, and where its reports go."""
 
-    cases: Sequence[Case]
+    cases: Sequence[scenario.Case]
     parts: PartsOfCases
     manifest: dict[str, Any]
-    recording: RecordingWish
+    recording: RecordingRequest
     jobs: int
     maxfail: int | None
     output: Path
     junit: Path | None
-    formats: Sequence[ReportFormat]
+    formats: Sequence[report.ReportFormat]
     quiet: bool
     verbose: bool
-    baseline: Baseline | None = None
+    baseline: comparison.Baseline | None = None
     """What to compare with; None where nothing is."""
 
 
@@ -48,11 +42,11 @@ class Published:
     """A run whose reports are written: their folder, what they show, and the text of results.json."""
 
     place: Path
-    content: RunContent
+    content: report.RunContent
     document: str
 
 
-def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Published | None]:
+def run_batch(batch: Batch, display: Display) -> tuple[BatchResult, Published | None]:
     """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
 
     Returns what came of it and its reports, None where there is nothing to report. Raises
@@ -79,8 +73,8 @@ def run_batch(batch: Batch, display: Display) -> tuple[Campaign, Published | Non
 
 
 def _write_reports(
-    batch: Batch, folder: report.RunFolder, done: Campaign, traces: Mapping[str, Trace]
-) -> tuple[RunContent, str]:
+    batch: Batch, folder: report.RunFolder, done: BatchResult, traces: Mapping[str, report.Trace]
+) -> tuple[report.RunContent, str]:
     """Write all reports; return what they show and the text of results.json."""
     complete = len(done.results) == len(batch.cases)
     subjects = campaign.subjects_of(batch.cases)
@@ -101,7 +95,7 @@ def _write_reports(
     return content, document
 
 
-def _append_step_summary(content: RunContent) -> None:
+def _append_step_summary(content: report.RunContent) -> None:
     # The run is published by now: a summary that cannot be written does not undo it.
     try:
         report.append_step_summary(content)
@@ -109,13 +103,11 @@ def _append_step_summary(content: RunContent) -> None:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
-def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> Campaign:
-    from uictest.rig import is_warm
-
-    announce_compilation(warm=is_warm(), quiet=batch.quiet)
+def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> BatchResult:
+    announce_compilation(warm=rig.is_warm(), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 
-        def take(examined: Examined) -> None:
+        def take(examined: CaseRun) -> None:
             drawing.take(examined)
             if examined.recording is not None and batch.recording.wants(examined.result):
                 report.write_recording(folder, examined.result.id, examined.recording)
@@ -124,7 +116,7 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
                 message(examined.traceback.rstrip())
             advance()
 
-        return campaign.run(
+        return campaign.run_cases(
             batch.cases,
             jobs=batch.jobs,
             recording=drawing.recording,
@@ -134,18 +126,18 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
         )
 
 
-def _differences(batch: Batch, examined: Examined) -> Sequence[Difference]:
+def _differences(batch: Batch, examined: CaseRun) -> Sequence[report.Difference]:
     return () if batch.baseline is None else batch.baseline.differences(examined.result)
 
 
-def _write_junit(path: Path | None, content: RunContent) -> None:
+def _write_junit(path: Path | None, content: report.RunContent) -> None:
     from uictest.recording import write_text_atomic
 
     if path is not None:
         write_text_atomic(path, report.junit_xml(content.results, content.baseline))
 
 
-def _sum_up(batch: Batch, content: RunContent, done: Campaign, seconds: float, place: Path) -> None:
+def _sum_up(batch: Batch, content: report.RunContent, done: BatchResult, seconds: float, place: Path) -> None:
     ended = "interrupted, " if done.interrupted else ""
     left = len(batch.cases) - len(done.results)
     not_run = f", {left} not run" if left else ""

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import typer
 
+from uictest import campaign, scenario
 from uictest.cli.problems import InvalidInputError
-from uictest.report import counted, printable
-from uictest.report.text_table import Column, aligned, columns_not_shown, fitted
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case
+from uictest.report import Column, aligned, columns_not_shown, counted, fitted, printable
+from uictest.scenario import yaml
 
 DEFAULT_FOLDER = Path("scenarios")
 
@@ -36,44 +34,42 @@ def load_cases(
     overrides: Sequence[str] | None,
     seed: int | None,
     trusted: Sequence[Path] | None = None,
-) -> list[Case]:
+) -> list[scenario.Case]:
     """Return all cases of the scenarios. Raises InvalidInputError with every diagnostic of every file."""
-    from uictest.scenario import ScenarioErrors, load
-
     try:
-        return load(scenario_paths(paths), tuple(overrides or ()), seed, trusted or ())
-    except ScenarioErrors as errors:
+        return scenario.load(scenario_paths(paths), tuple(overrides or ()), seed, trusted or ())
+    except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 
 
-def select_cases(cases: Sequence[Case], expression: str | None, tag: str | None) -> list[Case]:
+def select_cases(
+    cases: Sequence[scenario.Case], expression: str | None, tag: str | None
+) -> list[scenario.Case]:
     """Return the cases that `-k` and `-m` select. Raises typer.BadParameter for a malformed expression."""
-    from uictest.campaign import ExpressionError, by_expression, by_tag
-
     selected = list(cases)
-    for option, text, select in (("-k", expression, by_expression), ("-m", tag, by_tag)):
+    for option, text, select in (("-k", expression, campaign.by_expression), ("-m", tag, campaign.by_tag)):
         if text is None:
             continue
         try:
             selected = select(selected, text)
-        except ExpressionError as error:
+        except campaign.ExpressionError as error:
             raise typer.BadParameter(f"{error} in {text!r}", param_hint=option) from error
     return selected
 
 
-def nothing_selected(cases: Sequence[Case]) -> str:
+def nothing_selected(cases: Sequence[scenario.Case]) -> str:
     """Return the message that says among how many cases and which tags nothing was selected."""
     tags = sorted({tag for case in cases for tag in case.scenario.tags})
     known = ", ".join(tags) or "none"
     return f"uictest: nothing selected among {counted(len(cases), 'case')}; their tags: {known}"
 
 
-def case_lines(cases: Sequence[Case], *, described: bool = False) -> str:
+def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> str:
     """Return the ids, one per line; where described, title and tags behind a tab stop each."""
     return "\n".join(_described(case) if described else printable(case.id) for case in cases)
 
 
-def case_table(cases: Sequence[Case], width: int) -> Iterator[str]:
+def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
     """Yield ids, titles and tags as a table in lines of at most so many characters."""
     columns = [
         Column("case", [printable(case.id) for case in cases], wraps=True),
@@ -86,16 +82,16 @@ def case_table(cases: Sequence[Case], width: int) -> Iterator[str]:
         yield columns_not_shown(given_way, "--format json has them")
 
 
-def _described(case: Case) -> str:
+def _described(case: scenario.Case) -> str:
     return "\t".join(printable(text) for text in (case.id, case.scenario.title, " ".join(case.scenario.tags)))
 
 
-def cases_json(cases: Sequence[Case]) -> str:
+def cases_json(cases: Sequence[scenario.Case]) -> str:
     """Return what can be known of the cases before they run, as a JSON array."""
     return json.dumps([_description(case) for case in cases], indent=2)
 
 
-def _description(case: Case) -> dict[str, Any]:
+def _description(case: scenario.Case) -> dict[str, Any]:
     return {
         "id": case.id,
         "scenario": case.path.as_posix(),

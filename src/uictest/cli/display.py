@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Protocol, TextIO
+from typing import Protocol, TextIO
 
+from uictest import evaluation, report
 from uictest.cli.options import Colour, Format
 from uictest.cli.streams import coloured, data
 from uictest.report import (
@@ -21,10 +22,6 @@ from uictest.report import (
     part_lines,
 )
 
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
-    from uictest.report import Difference, RunContent
-
 _ANSI = {"met": "\x1b[32m", "MISSED": "\x1b[1;31m", "ERROR": "\x1b[1;35m", "DIFFERS": "\x1b[1;31m"}
 _ANSI_END = "\x1b[0m"
 
@@ -32,10 +29,10 @@ _ANSI_END = "\x1b[0m"
 class Display(Protocol):
     """Shows results while they come in, and what remains to be shown at the end."""
 
-    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+    def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
 
-    def end(self, content: RunContent, document: str) -> None:
+    def end(self, content: report.RunContent, document: str) -> None:
         """Show the rest; `document` is the text of results.json."""
 
 
@@ -47,7 +44,7 @@ class Lines:
         self._quiet = quiet
         self._verbose = verbose
 
-    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+    def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result."""
         if self._quiet and result.met and not differences:
             return
@@ -56,7 +53,7 @@ class Lines:
             for line in criterion_lines(result):
                 data(line)
 
-    def end(self, content: RunContent, document: str) -> None:
+    def end(self, content: report.RunContent, document: str) -> None:
         """Show the missing cases of the baseline; with -v what criteria mean and what cases were run with."""
         for line in missing_lines(content.baseline) if content.baseline else ():
             self._show(DIFFERS, line)
@@ -71,13 +68,13 @@ class Lines:
 class Annotations(Lines):
     """Lines, and a GitHub annotation below each case that does not pass."""
 
-    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+    def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result."""
         super().case(result, differences)
         for line in case_annotations(result, differences):
             data(line)
 
-    def end(self, content: RunContent, document: str) -> None:
+    def end(self, content: report.RunContent, document: str) -> None:
         """Show the rest, and an annotation for each missing case of the baseline."""
         super().end(content, document)
         for line in missing_annotations(content.baseline) if content.baseline else ():
@@ -87,10 +84,10 @@ class Annotations(Lines):
 class Document:
     """results.json and nothing else."""
 
-    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+    def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show nothing before the document is complete."""
 
-    def end(self, content: RunContent, document: str) -> None:
+    def end(self, content: report.RunContent, document: str) -> None:
         """Show the document."""
         data(document.rstrip("\n"))
 
@@ -103,27 +100,25 @@ class VerdictTable:
         self._quiet = quiet
         self._verbose = verbose
 
-    def case(self, result: CaseResult, differences: Sequence[Difference] = ()) -> None:
+    def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show nothing yet: columns are as wide as their widest cell."""
 
-    def end(self, content: RunContent, document: str) -> None:
+    def end(self, content: report.RunContent, document: str) -> None:
         """Show the table and the explanations."""
         from rich.console import Console
-
-        from uictest.report import explanation_text, verdict_table
 
         console = Console(
             color_system="auto" if self._colour else None, force_terminal=self._colour, highlight=False
         )
         shown = _shown(content, quiet=self._quiet)
         if shown:
-            table, not_shown = verdict_table(shown, content.word, console.width)
+            table, not_shown = report.verdict_table(shown, content.word, console.width)
             console.print(table)
             if not_shown:
                 console.print(not_shown, markup=False, style="dim")
         for result in shown:
             if self._verbose or not content.passes(result):
-                console.print(explanation_text(content, result, every_criterion=self._verbose))
+                console.print(report.explanation_text(content, result, every_criterion=self._verbose))
         for line in missing_lines(content.baseline) if content.baseline else ():
             console.print(line, markup=False)
         if self._verbose:
@@ -131,7 +126,7 @@ class VerdictTable:
                 console.print(line, markup=False)
 
 
-def _common_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield what cases have in common: the meaning of criteria, and parts."""
     yield from definition_lines(results)
     yield from part_lines(results)
@@ -149,7 +144,7 @@ def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool)
     return display(colour=coloured(colour, sys.stdout), quiet=quiet, verbose=verbose)
 
 
-def _shown(content: RunContent, *, quiet: bool) -> list[CaseResult]:
+def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
     return [result for result in content.results if not (quiet and content.passes(result))]
 
 

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
-from uictest import campaign
-from uictest.campaign import Campaign, Examined, RecordingWish
-
-if TYPE_CHECKING:
-    from uictest.report.page import Trace
-    from uictest.scenario import Case
+from uictest import campaign, report, scenario
+from uictest.campaign import BatchResult, CaseRun, RecordingRequest
+from uictest.report import page
 
 
 @dataclass(slots=True)
@@ -23,39 +19,33 @@ class Drawing:
     too coarse for the valves: a page shows every command.
     """
 
-    cases: Sequence[Case]
-    wish: RecordingWish
+    cases: Sequence[scenario.Case]
+    wish: RecordingRequest
     wanted: bool
-    traces: dict[str, Trace] = field(default_factory=dict)
+    traces: dict[str, report.Trace] = field(default_factory=dict)
 
     @property
-    def recording(self) -> RecordingWish:
+    def recording(self) -> RecordingRequest:
         """What to record while the batch runs."""
         return replace(self.wish, cases="all") if self._on_the_way else self.wish
 
-    def take(self, examined: Examined) -> None:
+    def take(self, examined: CaseRun) -> None:
         """Keep what is drawn of a case."""
-        from uictest.report.page import trace_of
-
         if self._on_the_way and examined.recording is not None:
-            self.traces[examined.result.id] = trace_of(examined.recording)
+            self.traces[examined.result.id] = report.trace_of(examined.recording)
 
-    def finish(self, done: Campaign, jobs: int) -> dict[str, Trace]:
+    def finish(self, done: BatchResult, jobs: int) -> dict[str, report.Trace]:
         """Return what there is to draw, the worst cases of a large batch simulated again."""
-        from uictest.report.page import DRAWN, trace_of, worst_first
-
         if self.wanted and not self._on_the_way and not done.interrupted:
-            worst = [result.id for result in worst_first(done.results) if result.outcome != "error"]
-            chosen = campaign.by_id(self.cases, frozenset(worst[:DRAWN]))
+            worst = [result.id for result in page.worst_first(done.results) if result.outcome != "error"]
+            chosen = campaign.by_id(self.cases, frozenset(worst[: page.DRAWN]))
             for case, recording in campaign.replay(chosen, every=self._interval, jobs=jobs):
-                self.traces[case.id] = trace_of(recording)
+                self.traces[case.id] = report.trace_of(recording)
         return self.traces
 
     @property
     def _on_the_way(self) -> bool:
-        from uictest.report.page import DRAWN
-
-        return self.wanted and len(self.cases) <= DRAWN and self.wish.every <= self._interval
+        return self.wanted and len(self.cases) <= page.DRAWN and self.wish.every <= self._interval
 
     @property
     def _interval(self) -> float:

@@ -6,7 +6,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from uictest.campaign import Campaign
+    from uictest.campaign import BatchResult
 
 
 class ExitCode(IntEnum):
@@ -20,7 +20,7 @@ class ExitCode(IntEnum):
     NOTHING_SELECTED = 5
 
 
-def of_campaign(campaign: Campaign) -> ExitCode:
+def of_campaign(campaign: BatchResult) -> ExitCode:
     """Return the exit code of a campaign: an interruption outweighs an error, an error a missed case."""
     if campaign.interrupted:
         return ExitCode.INTERRUPTED

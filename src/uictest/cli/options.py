@@ -5,15 +5,12 @@ from __future__ import annotations
 import os
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from uictest import comparison, report
 from uictest.cli.invocation import Invocation
-
-if TYPE_CHECKING:
-    from uictest.comparison import Tolerances
-    from uictest.report import ReportFormat
 
 
 class Format(StrEnum):
@@ -154,12 +151,10 @@ ToleranceTexts = Annotated[
 ]
 
 
-def tolerances_of(texts: list[str] | None) -> Tolerances:
+def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
     """Return the tolerances that `--tolerance` asks for. Raises typer.BadParameter."""
-    from uictest.comparison.tolerance import Tolerances
-
     try:
-        return Tolerances.read(texts or ())
+        return comparison.Tolerances.read(texts or ())
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--tolerance") from error
 
@@ -180,14 +175,12 @@ def junit_file(path: Path | None, made: Path) -> Path | None:
     return path
 
 
-def report_formats(text: str, option: str) -> list[ReportFormat]:
+def report_formats(text: str, option: str) -> list[report.ReportFormat]:
     """Return the formats in a comma list, each once. Raises typer.BadParameter for one there is not."""
-    from uictest.report import ReportFormat
-
-    accepted = [str(each) for each in ReportFormat]
+    accepted = [str(each) for each in report.ReportFormat]
     words = [word.strip() for word in text.split(",") if word.strip()]
     for word in words:
         if word not in accepted:
             message = f"no format {word!r}; accepted: {', '.join(accepted)}"
             raise typer.BadParameter(message, param_hint=option)
-    return [ReportFormat(word) for word in dict.fromkeys(words)]
+    return [report.ReportFormat(word) for word in dict.fromkeys(words)]

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from uictest import field_data
 from uictest.cli.problems import InvalidInputError
+from uictest.recording import formats
+from uictest.scenario import yaml
 
 if TYPE_CHECKING:
-    from uictest.measured import ChannelMap
     from uictest.scenario import Case
 
 Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
@@ -48,19 +50,16 @@ _LONGEST_NAME = 80
 
 def channel_map(
     reference: str, trusted: Sequence[Path] | None, **choices: str | None
-) -> tuple[ChannelMap, dict[str, str]]:
+) -> tuple[field_data.ChannelMap, dict[str, str]]:
     """Return a channel map, changed by options, and the files read for it. Raises InvalidInputError."""
-    from uictest.measured import load_map, presets
-    from uictest.scenario import ScenarioErrors
-
     try:
-        loaded, inputs = load_map(reference, trusted or ())
+        loaded, inputs = field_data.load_map(reference, trusted or ())
     except KeyError:
-        known = ", ".join(presets())
+        known = ", ".join(field_data.presets())
         raise InvalidInputError(
             f"uictest: no channel map {reference!r}: name a preset ({known}) or a .yaml file"
         ) from None
-    except ScenarioErrors as errors:
+    except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
     return loaded.model_copy(update={"preparation": _changed(loaded.preparation, choices)}), inputs
 
@@ -100,17 +99,14 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
 
     Raises InvalidInputError with every file's error, BrokenOffError where the machine does not let it read.
     """
-    from uictest.measured import MapError
-    from uictest.recording.formats import BrokenOffError, MissingExtraError, UnreadableError
-
     results: list[Result] = []
     errors: list[str] = []
     for path in paths:
         try:
             results.append(use(path))
-        except (UnreadableError, MissingExtraError, MapError) as error:
+        except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
             errors.append(f"uictest: {path}: {error}")
-        except BrokenOffError:
+        except formats.BrokenOffError:
             raise  # no fault of the file
         except OSError as error:
             errors.append(f"uictest: {path}: {error.strerror or error}")

@@ -4,28 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING
 
-from uictest.report.sweep.wording import circumstances_words, flip_words, not_judged_words
-
-if TYPE_CHECKING:
-    from uictest.sweep.findings import Findings
-    from uictest.sweep.frontier import Stretch
-    from uictest.sweep.sensitivity import Sensitivity
-    from uictest.sweep.tally import Count, Tally
+from uictest import sweep
+from uictest.report import circumstances_words, flip_words, not_judged_words
 
 _MOST_ROWS = 30
 
 
-def finding_lines(findings: Findings, width: int | None = None) -> Iterator[str]:
+def finding_lines(findings: sweep.SweepFindings, width: int | None = None) -> Iterator[str]:
     """Yield maps, met cases per parameter, sensitivities and the frontier, a blank line between them.
 
     Maps keep to `width` characters, None for any width.
     """
-    from uictest.sweep.map_text import map_lines
-
     for found in findings.maps:
-        yield from map_lines(found, width)
+        yield from sweep.map_lines(found, width)
         yield ""
     yield from _rates(findings.tally)
     yield from _sensitivities(findings)
@@ -35,7 +27,7 @@ def finding_lines(findings: Findings, width: int | None = None) -> Iterator[str]
         yield f"note: {note}"
 
 
-def missed_lines(findings: Findings) -> Iterator[str]:
+def missed_lines(findings: sweep.SweepFindings) -> Iterator[str]:
     """Yield the first cases that are not met, and how many there are beyond them."""
     tally, total = findings.tally, findings.tally.total()
     for name, outcome, reason in tally.missed:
@@ -49,7 +41,7 @@ def reason_missed(reason: str) -> str:
     return reason or "another outcome was expected"
 
 
-def _rates(tally: Tally) -> Iterator[str]:
+def _rates(tally: sweep.Tally) -> Iterator[str]:
     for key in tally.classes:
         counts = tally.by_class(key)
         if len(counts) > _MOST_ROWS:
@@ -61,14 +53,14 @@ def _rates(tally: Tally) -> Iterator[str]:
     yield ""
 
 
-def _share(count: Count) -> str:
+def _share(count: sweep.Count) -> str:
     if not count.cases:
         return "-"
     words = not_judged_words(count.outcomes)
     return f"{count.met} of {count.cases}  {100.0 * count.share_met:.1f} %{words}"
 
 
-def _sensitivities(findings: Findings) -> Iterator[str]:
+def _sensitivities(findings: sweep.SweepFindings) -> Iterator[str]:
     measure = ""
     width = max((len(_parameter(each)) for each in findings.sensitivities), default=0)
     for each in findings.sensitivities:
@@ -83,19 +75,19 @@ def _sensitivities(findings: Findings) -> Iterator[str]:
         yield ""
 
 
-def _parameter(each: Sensitivity) -> str:
+def _parameter(each: sweep.Sensitivity) -> str:
     where = ", ".join(f"{key} = {text}" for key, text in each.circumstances.items())
     return f"{each.key} at {where}" if where else each.key
 
 
-def _shown(frontier: Sequence[Stretch]) -> Sequence[Stretch]:
+def _shown(frontier: Sequence[sweep.FrontierScan]) -> Sequence[sweep.FrontierScan]:
     """Return as many as fit, in their order; where that is not all, those that flip come first."""
     if len(frontier) <= _MOST_ROWS:
         return frontier
     return sorted(frontier, key=lambda each: not each.flips)[:_MOST_ROWS]
 
 
-def _frontier(findings: Findings) -> Iterator[str]:
+def _frontier(findings: sweep.SweepFindings) -> Iterator[str]:
     if not findings.frontier_key:
         return
     yield f"frontier along {findings.frontier_key}"

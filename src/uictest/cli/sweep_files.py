@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from uictest import scenario
+
 
 def is_sweep(path: Path) -> bool:
     """Return whether a path names a sweep file."""
-    from uictest.scenario.discovery import SWEEP_SUFFIXES
-
-    return path.name.endswith(SWEEP_SUFFIXES)
+    return path.name.endswith(scenario.SWEEP_SUFFIXES)
 
 
 def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:

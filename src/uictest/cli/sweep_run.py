@@ -8,6 +8,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from uictest import recording, report, sweep
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
@@ -15,12 +16,10 @@ from uictest.cli.streams import message
 from uictest.cli.sweep_display import reason_missed
 from uictest.cli.sweep_progress import sweep_progress
 from uictest.report import counted
-from uictest.sweep import ChangedInputsError, Search, Selection, Shard, Store, Worker, run_parts
+from uictest.sweep import ChangedInputsError, ChunkRunner, FrontierSearch, Selection, Shard, Store, run_parts
 
 if TYPE_CHECKING:
-    from uictest.campaign import Examined
-    from uictest.report import ReportFormat, SweepContent
-    from uictest.sweep.findings import Findings
+    from uictest.campaign import CaseRun
 
 
 @dataclass(frozen=True)
@@ -39,9 +38,9 @@ class SweepRun:
     maxfail: int | None = None
     pair: tuple[str, str] | None = None
     measures: Sequence[str] = ()
-    search: Search | None = None
+    search: FrontierSearch | None = None
     junit: Path | None = None
-    formats: Sequence[ReportFormat] = ()
+    formats: Sequence[report.ReportFormat] = ()
     quiet: bool = False
 
 
@@ -116,43 +115,35 @@ def _work(run: SweepRun, missing: Sequence[int], keep: Callable[[int, bytes], No
 def _work_on_cluster(
     run: SweepRun, address: str, missing: Sequence[int], keep: Callable[[int, bytes], None]
 ) -> None:
-    from uictest.sweep.cluster import ClusterError, run_on_cluster
-
     def wait() -> None:
         message(f"uictest: waiting for workers at {address}")
 
     try:
-        run_on_cluster(run.selection, missing, address, keep, wait)
+        sweep.run_on_cluster(run.selection, missing, address, keep, wait)
     except ImportError as error:
         raise InvalidInputError("uictest: --dask needs the extra: pip install 'uictest[dask]'") from error
-    except ClusterError as error:
+    except sweep.ClusterError as error:
         raise OSError(str(error)) from error
 
 
-def prepared_worker(run: SweepRun) -> Worker:
+def prepared_worker(run: SweepRun) -> ChunkRunner:
     """Return a worker whose rig is compiled, having said so where that takes time.
 
     Raises InvalidInputError where there is no GPU and one is asked for.
     """
-    from uictest.sweep import worker
-    from uictest.sweep.simulating import is_warm
-
     if run.selection.device == "cuda":
         return _worker_on_gpu(run)
-    announce_compilation(warm=is_warm(), quiet=run.quiet)
-    made = worker(run.selection.plan)
+    announce_compilation(warm=sweep.is_warm(), quiet=run.quiet)
+    made = sweep.chunk_runner(run.selection.plan)
     made.prepare()
     return made
 
 
-def _worker_on_gpu(run: SweepRun) -> Worker:
-    from uictest.sweep import worker
-    from uictest.sweep.simulating import NoDeviceError
-
+def _worker_on_gpu(run: SweepRun) -> ChunkRunner:
     try:
-        made = worker(run.selection.plan, "cuda")
+        made = sweep.chunk_runner(run.selection.plan, "cuda")
         made.prepare()
-    except NoDeviceError as error:
+    except sweep.NoDeviceError as error:
         raise InvalidInputError(
             f"uictest: no CUDA device found ({error}); leave --device out to use the processor"
         ) from error
@@ -197,61 +188,57 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
     return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
 
 
-def publish(run: SweepRun, store: Store) -> tuple[Findings, str, SweepContent]:
+def publish(run: SweepRun, store: Store) -> tuple[sweep.SweepFindings, str, report.SweepContent]:
     """Write what the finished sweep says; return it, the text of the result document and what reports show.
 
     Raises OSError, and MissingPartsError where a share is missing.
     """
-    from uictest.recording import write_text_atomic
-    from uictest.sweep.findings import gather, write_findings
-    from uictest.sweep.junit import junit_xml
-
-    findings = gather(run.selection, store, run.pair, run.measures)
+    findings = sweep.gather(run.selection, store, run.pair, run.measures)
     if run.search is not None:
         _add_frontier(run, findings, run.search)
     _examine_worst(run, findings, store.folder)
-    document = write_findings(store.folder, findings)
+    document = sweep.write_findings(store.folder, findings)
     content = _write_reports(run, store.folder)
     if run.junit is not None:
-        write_text_atomic(run.junit, junit_xml(findings.tally))
+        recording.write_text_atomic(run.junit, sweep.junit_xml(findings.tally))
     store.tidy()
     return findings, document, content
 
 
-def _write_reports(run: SweepRun, folder: Path) -> SweepContent:
-    from uictest.report import ReportFormat, append_sweep_step_summary, read_sweep, write_sweep_formats
-
-    content = read_sweep(folder, traces=ReportFormat.HTML in run.formats)
-    write_sweep_formats(folder, content, run.formats)
+def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
+    content = report.read_sweep(folder, traces=report.ReportFormat.HTML in run.formats)
+    report.write_sweep_formats(folder, content, run.formats)
     # The findings are written by now: a summary that cannot be written does not undo them.
     try:
-        append_sweep_step_summary(content)
+        report.append_sweep_step_summary(content)
     except OSError as error:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
     return content
 
 
-def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
+def _examine_worst(run: SweepRun, findings: sweep.SweepFindings, folder: Path) -> None:
     """Run the cases most worth looking at once more, in full, and keep their recordings beside the tables.
 
     Raises OSError, and KeyboardInterrupt where it was interrupted.
     """
     import shutil
 
-    from uictest.campaign import RecordingWish, parts_of_cases, shortest_cycle, subjects_of
-    from uictest.campaign import run as examine
-    from uictest.report import write_recording
-    from uictest.report.run_report import RECORDINGS
-    from uictest.sweep.worst import cases_of
+    from uictest.campaign import (
+        RecordingRequest,
+        parts_of_cases,
+        run_cases as examine,
+        shortest_cycle,
+        subjects_of,
+    )
 
-    cases = cases_of(run.selection.plan, findings.worst_indices)
-    shutil.rmtree(folder / RECORDINGS, ignore_errors=True)
+    cases = sweep.cases_of(run.selection.plan, findings.worst_indices)
+    shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
 
-    def keep(examined: Examined) -> None:
+    def keep(examined: CaseRun) -> None:
         if examined.recording is not None:
-            write_recording(folder, examined.result.id, examined.recording)
+            report.write_recording(folder, examined.result.id, examined.recording)
 
-    wish = RecordingWish("all")
+    wish = RecordingRequest("all")
     wish = replace(wish, every=min(wish.every, shortest_cycle(cases)))
     campaign = examine(cases, jobs=run.jobs, recording=wish, parts=parts_of_cases(cases), on_result=keep)
     if campaign.interrupted:
@@ -259,19 +246,17 @@ def _examine_worst(run: SweepRun, findings: Findings, folder: Path) -> None:
     findings.worst, findings.subjects = campaign.results, subjects_of(cases)
 
 
-def _add_frontier(run: SweepRun, findings: Findings, search: Search) -> None:
-    from uictest.sweep.verdicts import verdicts_of
-
+def _add_frontier(run: SweepRun, findings: sweep.SweepFindings, search: FrontierSearch) -> None:
     if not run.quiet:
         message(f"uictest: looking for the frontier along {search.key}")
     simulate = prepared_worker(run).simulate
     findings.frontier_key = search.key
     findings.frontier = search.run(
-        findings.verdicts, lambda plan, indices: verdicts_of(plan, indices, simulate, run.jobs)
+        findings.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
     )
 
 
-def exit_code(findings: Findings) -> ExitCode:
+def exit_code(findings: sweep.SweepFindings) -> ExitCode:
     """Return the exit code of a complete sweep: an error outweighs a missed case."""
     total = findings.tally.total()
     if total.outcomes["error"]:
@@ -279,11 +264,9 @@ def exit_code(findings: Findings) -> ExitCode:
     return ExitCode.MET if total.met == total.cases else ExitCode.MISSED
 
 
-def sum_up(run: SweepRun, findings: Findings, started: float) -> None:
+def sum_up(run: SweepRun, findings: sweep.SweepFindings, started: float) -> None:
     """Say on stderr what the sweep came to and where its files are."""
-    from uictest.report.sweep.wording import sweep_tally
-
     total = findings.tally.total()
-    shown = sweep_tally({"cases": total.cases, "met": total.met, "outcomes": total.outcomes})
+    shown = report.sweep_tally({"cases": total.cases, "met": total.met, "outcomes": total.outcomes})
     seconds = perf_counter() - started
     message(f"uictest: {shown} in {seconds:.1f} s; results in {run.folder}")

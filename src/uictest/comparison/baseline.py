@@ -8,18 +8,13 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from uictest import evaluation, report
 from uictest.comparison.parameters import parameter_changes, parameter_lines
 from uictest.comparison.runs import case_differences, run_notes, unknown_parameters
 from uictest.comparison.tolerance import Tolerances
-from uictest.report.baseline import BaselineComparison
-from uictest.report.difference import Difference
-from uictest.report.manifest import without_machine
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
-    from uictest.report import RunContent
+from uictest.report import BaselineComparison, Difference, without_machine
 
 _TABLES = ("subjects", "parts")
 """What a results document holds by name beside its cases."""
@@ -52,13 +47,13 @@ class Baseline:
 
     folder: str
     sha256: str
-    run: RunContent
-    results: Mapping[str, CaseResult] = field(repr=False)
+    run: report.RunContent
+    results: Mapping[str, evaluation.CaseResult] = field(repr=False)
     document: Mapping[str, Any] = field(repr=False)
     scope: Scope
     tolerances: Tolerances
 
-    def compare(self, run: RunContent) -> BaselineComparison:
+    def compare(self, run: report.RunContent) -> BaselineComparison:
         """Compare every result of a run, and say which cases of the baseline were not compared."""
         quantities = {result.id: list(self._quantities(result)) for result in run.results}
         apart = {
@@ -81,11 +76,11 @@ class Baseline:
             notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
         )
 
-    def differences(self, result: CaseResult) -> list[Difference]:
+    def differences(self, result: evaluation.CaseResult) -> list[Difference]:
         """Return the quantities of a case that are out of tolerance."""
         return _beyond([each for each in self._quantities(result) if each])
 
-    def _quantities(self, result: CaseResult) -> Iterator[Difference | None]:
+    def _quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
         """Yield one item per quantity compared: None where both sides are the same."""
         accepted = self.results.get(result.id)
         if accepted is None:
@@ -94,13 +89,13 @@ class Baseline:
         else:
             yield from case_differences(accepted, result, self.tolerances)
 
-    def _parameters_changed(self, run: RunContent) -> Iterator[str]:
+    def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
         """Yield the parameters that the cases were run with differently when they were accepted."""
         both = [(self.results[each.id], each) for each in run.results if each.id in self.results]
         yield from parameter_lines(parameter_changes(both))
         yield from unknown_parameters(both, ("baseline", "run"))
 
-    def _inputs_limited(self, run: RunContent) -> RunContent:
+    def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
         """Return the accepted run as if it had read nothing that this one did not select."""
         inputs = run.manifest.get("inputs", {})
         known = {name: each for name, each in self.run.manifest.get("inputs", {}).items() if name in inputs}
@@ -109,14 +104,11 @@ class Baseline:
 
 def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baseline:
     """Return the baseline in a folder. Raises OSError or ValueError where there is none."""
-    from uictest.report.run_contents import run_content
-    from uictest.report.run_report import RESULTS
-
-    path = folder / RESULTS
+    path = folder / report.RESULTS
     content = path.read_bytes()
     try:
         document = json.loads(content)
-        run = run_content(document, folder.name)
+        run = report.run_content(document, folder.name)
     except ValueError as error:
         raise ValueError(f"{path}: not the results of a run: {error}") from error
     results = {result.id: result for result in run.results}
@@ -155,6 +147,6 @@ def _beyond(differences: Sequence[Difference]) -> list[Difference]:
     return [each for each in differences if not each.within]
 
 
-def _missing(accepted: CaseResult) -> Difference:
+def _missing(accepted: evaluation.CaseResult) -> Difference:
     remark = f"{accepted.scenario} no longer has this case; --accept drops it"
     return Difference(accepted.id, "case", accepted.outcome, "missing", within=False, remark=remark)

@@ -7,8 +7,9 @@ from fnmatch import fnmatchcase
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
-from uictest.report.page.quantities import QUANTITIES
-from uictest.scenario.wording import nearest
+from uictest import evaluation
+from uictest.report import PLOT_QUANTITIES
+from uictest.scenario.yaml import nearest
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -19,12 +20,11 @@ _SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
 
 def in_shown_units(recording: Recording) -> Recording:
     """Return the recording in the units of the page: km/h, bar, kN, slides in %."""
-    from uictest.evaluation.units import UNITS
     from uictest.recording import Recording
 
     units = {name: _shown_unit(name, unit) for name, unit in recording.units.items()}
     channels = {
-        name: samples if units[name] == recording.units[name] else samples / UNITS[units[name]]
+        name: samples if units[name] == recording.units[name] else samples / evaluation.UNITS[units[name]]
         for name, samples in recording.channels.items()
     }
     return Recording(channels, units, recording.metadata)
@@ -32,7 +32,7 @@ def in_shown_units(recording: Recording) -> Recording:
 
 def _shown_unit(channel: str, unit: str) -> str:
     name, _, wheelset = channel.rpartition("_")
-    quantity = QUANTITIES.get(name if wheelset.isdigit() else channel)
+    quantity = PLOT_QUANTITIES.get(name if wheelset.isdigit() else channel)
     if unit == "1" and quantity is not None and quantity.unit == "%":
         return "%"
     return _SHOWN.get(unit, unit)

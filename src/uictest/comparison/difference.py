@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from uictest.report.difference import Difference
+from uictest.report import Difference
 
 if TYPE_CHECKING:
     from uictest.comparison.overlay import Overlay

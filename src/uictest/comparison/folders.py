@@ -5,29 +5,24 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from uictest import recording, report
 from uictest.comparison.channels import common_channels, in_shown_units, select_channels
 from uictest.comparison.difference import Comparison
 from uictest.comparison.overlay import FIRST_DRAWN, Overlay, default_channels, overlay_of
 from uictest.comparison.runs import compare_runs
 from uictest.comparison.tolerance import Tolerances
-from uictest.report.wording import counted
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
+from uictest.report import counted
 
 DRAWN = 12
 """Stops drawn at most, those that differ first."""
 
-Pair = tuple["Recording", "Recording"]
+Pair = tuple["recording.Recording", "recording.Recording"]
 
 
 def compare_run_folders(first: Path, second: Path, tolerances: Tolerances) -> Comparison:
     """Compare the results of two finished runs. Raises OSError or ValueError where one cannot be read."""
-    from uictest.report import read_run
-
-    return compare_runs(read_run(first), read_run(second), tolerances)
+    return compare_runs(report.read_run(first), report.read_run(second), tolerances)
 
 
 def with_overlays(compared: Comparison, first: Path, second: Path, channels: Sequence[str]) -> Comparison:
@@ -53,18 +48,14 @@ def with_overlays(compared: Comparison, first: Path, second: Path, channels: Seq
 
 
 def _recordings(case_id: str, first: Path, second: Path) -> Pair | None:
-    from uictest.recording import read_parquet
-
     paths = [_place(folder, case_id) for folder in (first, second)]
     if not all(path.is_file() for path in paths):
         return None
-    return in_shown_units(read_parquet(paths[0])), in_shown_units(read_parquet(paths[1]))
+    return in_shown_units(recording.read_parquet(paths[0])), in_shown_units(recording.read_parquet(paths[1]))
 
 
 def _place(folder: Path, case_id: str) -> Path:
-    from uictest.report.run_report import RECORDINGS
-
-    return folder / RECORDINGS / f"{case_id}.parquet"
+    return folder / report.RECORDINGS / f"{case_id}.parquet"
 
 
 def _common(pair: Pair) -> list[str]:

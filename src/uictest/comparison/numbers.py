@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from uictest.comparison.tolerance import Tolerances
-from uictest.report.difference import Difference
+from uictest.report import Difference
 
 
 def compare_numbers(

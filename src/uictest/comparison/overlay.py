@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from uictest import recording
 from uictest.comparison.channels import common_channels, only_in
-from uictest.report.escaping import printable
-from uictest.report.page.quantities import Line, Panel
-from uictest.report.page.trace import Curve, Trace, curve_of, interval_of
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
+from uictest.report import Curve, Panel, PlotLine, Trace, curve_of, interval_of, printable
 
 DRAWN = 12
 """Channels drawn where none are chosen."""
@@ -30,7 +25,7 @@ class Overlay:
 
     title: str
     trace: Trace
-    panels: Sequence[tuple[Panel, Sequence[Line]]]
+    panels: Sequence[tuple[Panel, Sequence[PlotLine]]]
     not_drawn: Sequence[str] = ()
     only_first: Sequence[str] = ()
     only_second: Sequence[str] = ()
@@ -43,7 +38,11 @@ def default_channels(remarkable: Sequence[str], common: Sequence[str]) -> list[s
 
 
 def overlay_of(
-    title: str, first: Recording, second: Recording, names: tuple[str, str], channels: Sequence[str]
+    title: str,
+    first: recording.Recording,
+    second: recording.Recording,
+    names: tuple[str, str],
+    channels: Sequence[str],
 ) -> Overlay:
     """Return channels that both recordings have, drawn over each other, each to its own end."""
     curves = {}
@@ -52,8 +51,8 @@ def overlay_of(
         curves[f"first {name}"] = curve_of(first["time"], first[name])
         curves[f"second {name}"] = curve_of(second["time"], second[name])
         lines = (
-            Line(f"first {name}", names[0], "train"),
-            Line(f"second {name}", names[1], "wheelset-3", dotted=True),
+            PlotLine(f"first {name}", names[0], "train"),
+            PlotLine(f"second {name}", names[1], "wheelset-3", dotted=True),
         )
         shown = printable(name)
         panels.append((Panel(shown, shown, printable(first.units[name]), (name,), include=()), lines))
@@ -68,7 +67,7 @@ def overlay_of(
     )
 
 
-def _trace(first: Recording, second: Recording, curves: Mapping[str, Curve]) -> Trace:
+def _trace(first: recording.Recording, second: recording.Recording, curves: Mapping[str, Curve]) -> Trace:
     times = first["time"], second["time"]
     intervals = {interval_of(time) for time in times}
     start, end = (float(pick(time[place] for time in times)) for pick, place in ((min, 0), (max, -1)))

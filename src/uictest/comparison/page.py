@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from uictest.comparison.wording import verdict_line
-from uictest.report.difference import value_text
-from uictest.report.page.overlay_view import overlay_view
-from uictest.report.page.rendering import render
-from uictest.report.wording import listed, number
+from uictest.report import listed, number, value_text
+from uictest.report.page import overlay_view, render
 
 if TYPE_CHECKING:
     from uictest.comparison.difference import Comparison

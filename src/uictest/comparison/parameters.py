@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from uictest.report.escaping import printable
-from uictest.report.wording import listed
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, EffectivePart, Parameter
+from uictest import evaluation
+from uictest.report import listed, printable
 
 _ABSENT = "none"
 
@@ -29,7 +25,9 @@ class ParameterChange:
         return f"{self.key}: {self.first} -> {self.second}"
 
 
-def parameter_changes(pairs: Iterable[tuple[CaseResult, CaseResult]]) -> list[ParameterChange]:
+def parameter_changes(
+    pairs: Iterable[tuple[evaluation.CaseResult, evaluation.CaseResult]],
+) -> list[ParameterChange]:
     """Return what differs in the parameters of pairs of cases, once for all cases alike.
 
     Cases whose results hold no parameters, as those of earlier versions, are skipped.
@@ -49,7 +47,7 @@ def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
 
 
 def _changes(
-    first: Mapping[str, EffectivePart], second: Mapping[str, EffectivePart]
+    first: Mapping[str, evaluation.EffectivePart], second: Mapping[str, evaluation.EffectivePart]
 ) -> Iterator[tuple[str, str, str]]:
     for role in dict.fromkeys([*first, *second]):
         ours, theirs = first.get(role), second.get(role)
@@ -58,7 +56,7 @@ def _changes(
 
 
 def _of_part(
-    role: str, first: EffectivePart | None, second: EffectivePart | None
+    role: str, first: evaluation.EffectivePart | None, second: evaluation.EffectivePart | None
 ) -> Iterator[tuple[str, str, str]]:
     names = [_ABSENT if part is None else part.name for part in (first, second)]
     if names[0] != names[1]:
@@ -72,5 +70,5 @@ def _of_part(
             yield key, _written(one), _written(other)
 
 
-def _written(parameter: Parameter | None) -> str:
+def _written(parameter: evaluation.Parameter | None) -> str:
     return _ABSENT if parameter is None else parameter.written

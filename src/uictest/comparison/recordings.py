@@ -13,8 +13,7 @@ from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.overlay import default_channels, overlay_of
 from uictest.comparison.tolerance import Tolerances
-from uictest.report.difference import Difference
-from uictest.report.wording import number
+from uictest.report import Difference, number
 
 if TYPE_CHECKING:
     from uictest.recording import Recording

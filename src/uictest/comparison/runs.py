@@ -5,21 +5,18 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from uictest import evaluation, report
 from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.parameters import parameter_changes
 from uictest.comparison.tolerance import Tolerances
-from uictest.evaluation.result import unit_of
-from uictest.report.difference import Difference
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
-    from uictest.report import RunContent
+from uictest.evaluation import unit_of
+from uictest.report import Difference
 
 
-def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) -> Comparison:
+def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
     """Compare two runs; cases belong together by their ids, and a case on one side only is a difference."""
     ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
     differences: list[Difference] = []
@@ -40,7 +37,10 @@ def compare_runs(first: RunContent, second: RunContent, tolerances: Tolerances) 
 
 
 def _case(
-    case_id: str, first: CaseResult | None, second: CaseResult | None, tolerances: Tolerances
+    case_id: str,
+    first: evaluation.CaseResult | None,
+    second: evaluation.CaseResult | None,
+    tolerances: Tolerances,
 ) -> Iterator[Difference | None]:
     """Yield one item per quantity compared: None where both sides are the same."""
     if first is None or second is None:
@@ -51,7 +51,7 @@ def _case(
 
 
 def case_differences(
-    first: CaseResult, second: CaseResult, tolerances: Tolerances
+    first: evaluation.CaseResult, second: evaluation.CaseResult, tolerances: Tolerances
 ) -> Iterator[Difference | None]:
     """Yield one item per quantity of a case compared: None where both results are the same."""
     case_id = first.id
@@ -69,18 +69,18 @@ def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference |
     return None if first == second else Difference(case_id, quantity, first, second, within=False)
 
 
-def _verdicts(result: CaseResult) -> dict[str, str]:
+def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
     return {verdict.id: verdict.verdict.replace("_", " ") for verdict in result.criteria}
 
 
-def _figures(result: CaseResult) -> dict[str, float]:
+def _figures(result: evaluation.CaseResult) -> dict[str, float]:
     figures = dataclasses.asdict(result.measures) if result.measures is not None else {}
     for position, wheelset in enumerate(result.wheelsets, start=1):
         figures |= {f"{name}_{position}": value for name, value in dataclasses.asdict(wheelset).items()}
     return figures
 
 
-def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
+def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:
     """Yield what went into the runs differently: it explains differences and is none by itself."""
     for what in ("seed", "versions", "inputs"):
         yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
@@ -93,7 +93,7 @@ def run_notes(first: RunContent, second: RunContent) -> Iterator[str]:
 
 
 def unknown_parameters(
-    both: Sequence[tuple[CaseResult, CaseResult]], names: tuple[str, str]
+    both: Sequence[tuple[evaluation.CaseResult, evaluation.CaseResult]], names: tuple[str, str]
 ) -> Iterator[str]:
     """Yield which of two runs, by its name, has no parameters to compare where the other one has."""
     for place, name in enumerate(names):

@@ -7,22 +7,24 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from uictest import report
 from uictest.comparison.parameters import parameter_lines
-from uictest.report.difference import value_text, worst_of_wheelsets
-from uictest.report.escaping import printable
-from uictest.report.text_table import (
+from uictest.report import (
     Column,
     aligned,
     columns_not_shown,
+    counted,
     fitted,
+    number,
+    printable,
     table_width,
+    value_text,
+    worst_of_wheelsets,
     wrapped_name,
 )
-from uictest.report.wording import counted, number
 
 if TYPE_CHECKING:
     from uictest.comparison.difference import Comparison
-    from uictest.report.difference import Difference
 
 _MOST_PARAMETERS = 20
 """Changed parameters that are listed without `-v`; two vehicles differ in some 25."""
@@ -53,7 +55,7 @@ def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
         yield f"parameters: {len(changes) - len(shown)} more differ; -v lists them"
 
 
-def _table(differences: Sequence[Difference], width: int | None) -> Iterator[str]:
+def _table(differences: Sequence[report.Difference], width: int | None) -> Iterator[str]:
     """Yield the differences as one table; where that is too wide, as one below the id of each case."""
     columns = _columns(differences)
     if width is None or table_width(columns) <= width:
@@ -85,7 +87,7 @@ def verdict_line(comparison: Comparison) -> str:
     return f"{count} compared: {len(comparison.beyond)} out of tolerance, {within} different within tolerance"
 
 
-def _columns(differences: Sequence[Difference]) -> list[Column]:
+def _columns(differences: Sequence[report.Difference]) -> list[Column]:
     """Return the table of differences; without a case for recordings."""
     words = ["within" if difference.within else "DIFFERS" for difference in differences]
     # A word that all rows share is the first to give way.

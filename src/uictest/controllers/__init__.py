@@ -17,13 +17,6 @@ It is scalar code without allocation, may branch, and counts time in its own cyc
 module here, a model there and a line in :mod:`uictest.controllers.selection`.
 """
 
-from uictest.controllers.selection import (
-    ALGORITHMS,
-    CAR_MEMORY,
-    WHEELSET_MEMORY,
-    begin,
-    decide,
-    reference_speed,
-)
+import lazy_loader
 
-__all__ = ["ALGORITHMS", "CAR_MEMORY", "WHEELSET_MEMORY", "begin", "decide", "reference_speed"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

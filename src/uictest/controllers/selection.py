@@ -2,10 +2,8 @@
 
 from uictest.controllers import slip_band, threshold
 from uictest.controllers.contract import Car, Parameters, Wheelsets
-from uictest.controllers.slip_band import begin as begin_slip_band
-from uictest.controllers.slip_band import decide as decide_by_slip_band
-from uictest.controllers.threshold import begin as begin_threshold
-from uictest.controllers.threshold import decide as decide_by_threshold
+from uictest.controllers.slip_band import begin as begin_slip_band, decide as decide_by_slip_band
+from uictest.controllers.threshold import begin as begin_threshold, decide as decide_by_threshold
 
 ALGORITHMS = ("threshold", "slip-band")
 """Names of the controllers; a controller's place here is its number in the records."""

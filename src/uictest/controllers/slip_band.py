@@ -6,8 +6,7 @@ together its reference sinks with them.
 """
 
 from uictest.controllers.contract import Car, Parameters, Wheelsets
-from uictest.physics.arithmetic import maximum
-from uictest.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.physics import FILL, HOLD, VENT, maximum
 
 CAR_MEMORY = (("band_reference_speed", "f8"),)
 WHEELSET_MEMORY: tuple[tuple[str, str], ...] = ()

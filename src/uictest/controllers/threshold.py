@@ -8,8 +8,7 @@ and shows that speed. No WSP maker publishes thresholds: all of them are paramet
 """
 
 from uictest.controllers.contract import Car, Parameters, Wheelset, Wheelsets
-from uictest.physics.arithmetic import maximum, minimum
-from uictest.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.physics import FILL, HOLD, VENT, maximum, minimum
 
 CAR_MEMORY = (
     ("reference_speed", "f8"),  # estimate of the train's speed, m/s

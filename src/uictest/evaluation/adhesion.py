@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from uictest.evaluation.reading import Reading, unsupported, value
+from uictest.evaluation.measure_value import MeasureValue, unsupported, value
 from uictest.evaluation.records import SECONDS_AFTER_SLIDING, StopMeasures
 
 DEFAULT_FIRST_PHASE = 3.0
 """s; chosen. Used for the figure of a case none of whose criteria defines its own first phase."""
 
 
-def initial_adhesion(measures: StopMeasures, first_phase_duration: float) -> Reading:
+def initial_adhesion(measures: StopMeasures, first_phase_duration: float) -> MeasureValue:
     """Return (v(0) - v(T)) / T in m/s2, T = `first_phase_duration` (s) counted from the first sliding.
 
     v is known at whole seconds after the first sliding and taken as linear between them. There is no value

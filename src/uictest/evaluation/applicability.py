@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from uictest.evaluation.circumstances import Circumstances
+from uictest import scenario
+from uictest.evaluation.conditions import TestConditions
 from uictest.evaluation.units import in_unit, text
 
-if TYPE_CHECKING:
-    from uictest.scenario.parts.applicability import Applicability, Nominal
 
-
-def why_not_applicable(applies: Applicability, stop: Circumstances, initial_speed: float | None) -> str:
+def why_not_applicable(
+    applies: scenario.Applicability, stop: TestConditions, initial_speed: float | None
+) -> str:
     """Return why a criterion does not apply to a stop from `initial_speed` (m/s); empty where it does.
 
     An initial speed that is not known (None) is no reason.
@@ -37,13 +36,13 @@ def _other_than(what: str, found: str, wanted: Sequence[str] | None) -> str:
     return f"{what} is {found}, the criterion is for {' or '.join(wanted)}"
 
 
-def _outside(what: str, found: float, wanted: Nominal | None, unit: str) -> str:
+def _outside(what: str, found: float, wanted: scenario.Nominal | None, unit: str) -> str:
     if wanted is None or _within(found, wanted):
         return ""
     is_, nominal, tolerance = (in_unit(number, unit) for number in (found, wanted.value, wanted.tolerance))
     return f"{what} is {text(is_, unit)}, the criterion is for {nominal:.4g} +- {text(tolerance, unit)}"
 
 
-def _within(found: float, wanted: Nominal) -> bool:
+def _within(found: float, wanted: scenario.Nominal) -> bool:
     # Written so that NaN is not within; the last digits belong to unit conversion, not to the stop.
     return abs(found - wanted.value) <= wanted.tolerance * (1.0 + 1e-9)

@@ -5,17 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from uictest import scenario
 from uictest.evaluation.bounds import Bounds, deciding
 from uictest.evaluation.coverage import MissingData, ObservedStop
-from uictest.evaluation.measured import read
+from uictest.evaluation.measure_readers import read
 from uictest.evaluation.units import in_unit, text, tidy, with_unit
-from uictest.evaluation.verdict import Judgement
-
-if TYPE_CHECKING:
-    from uictest.scenario.parts.criteria import Criterion
-    from uictest.scenario.parts.measure_catalogue import Course
+from uictest.evaluation.verdict import Status
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,14 +21,14 @@ class Decision:
     `side` is -1, 0 or 1: below, between or above the bounds.
     """
 
-    verdict: Judgement
+    verdict: Status
     value: float | None
     reason: str
     side: int = 0
 
 
 def decide(
-    criterion: Criterion, bounds: Bounds, definition: Mapping[str, float], stop: ObservedStop
+    criterion: scenario.Criterion, bounds: Bounds, definition: Mapping[str, float], stop: ObservedStop
 ) -> Decision:
     """Decide a criterion that applies and has these `bounds`, with its definitions set to `definition` (SI).
 
@@ -58,7 +54,7 @@ def decide(
     )
 
 
-def bounds_of(criterion: Criterion) -> Bounds:
+def bounds_of(criterion: scenario.Criterion) -> Bounds:
     """Return the bounds of a criterion in the unit of its measure."""
     lower, upper = (
         None if bound is None else tidy(in_unit(bound, criterion.unit))
@@ -67,7 +63,7 @@ def bounds_of(criterion: Criterion) -> Bounds:
     return Bounds(lower, upper, criterion.strict)
 
 
-def _decided(verdict: Judgement, value: float, bounds: Bounds, reason: str) -> Decision:
+def _decided(verdict: Status, value: float, bounds: Bounds, reason: str) -> Decision:
     if math.isnan(value):
         return Decision(verdict, None, reason)
     return Decision(verdict, value, reason, bounds.side(value))
@@ -84,7 +80,7 @@ def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
 def _of_intervals(
     values: Sequence[float],
     missing: Sequence[MissingData | None],
-    course: Course,
+    course: scenario.Course,
     bounds: Bounds,
     needed: int,
     unit: str,
@@ -94,7 +90,7 @@ def _of_intervals(
     breaking = [value for value, held in zip(values, holds, strict=True) if held is False]
     possible = len(values) - len(breaking)
     wheelsets, demand = f"of {len(values)} wheelsets", with_unit(str(bounds), unit)
-    verdict: Judgement = "inconclusive"
+    verdict: Status = "inconclusive"
     value, count = math.nan, f"{needed} {wheelsets} must keep {demand}"
     if len(keeping) >= needed:
         verdict, value = "pass", deciding(keeping, bounds, needed)
@@ -116,7 +112,7 @@ def _known(value: float, gap: MissingData | None) -> bool:
     return gap is None or (gap.bounded and not math.isnan(value))
 
 
-def _holds(value: float, gap: MissingData | None, course: Course, bounds: Bounds) -> bool | None:
+def _holds(value: float, gap: MissingData | None, course: scenario.Course, bounds: Bounds) -> bool | None:
     """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
     if gap is None:
         return bounds.hold(value)

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from uictest.evaluation.parameters import EffectivePart, Parameter
-from uictest.scenario import Quantity, Scenario
-from uictest.scenario.parts.model import Key, Model, Part
-from uictest.scenario.values import DESCRIPTIVE, Value, mark_of, values_in
+from uictest.scenario import DESCRIPTIVE, Scenario, Value, mark_of, values_in
+from uictest.scenario.yaml import Key, Model, Part, Quantity
 
 _PARTS: Final = {
     "vehicle": "vehicle",

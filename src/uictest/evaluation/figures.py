@@ -9,16 +9,16 @@ from typing import Any
 
 from uictest.evaluation.adhesion import initial_adhesion
 from uictest.evaluation.coverage import Coverage
-from uictest.evaluation.reading import Reading
+from uictest.evaluation.measure_value import MeasureValue
 from uictest.evaluation.records import StopMeasures, WheelsetMeasures
-from uictest.evaluation.result import Figures, WheelsetFigures, whole
+from uictest.evaluation.result import CaseMeasures, CaseWheelsetMeasures, whole
 from uictest.evaluation.stopping import mean_deceleration
 from uictest.evaluation.units import in_unit, normal_volume
 
 
-def figures_of(measures: StopMeasures, first_phase_duration: float) -> Figures:
+def figures_of(measures: StopMeasures, first_phase_duration: float) -> CaseMeasures:
     """Return the figures of a stop; initial adhesion over `first_phase_duration` (s)."""
-    return Figures(
+    return CaseMeasures(
         braking_distance_m=float(measures.braking_distance),
         braking_time_s=float(measures.braking_time),
         mean_deceleration_mps2=_value(mean_deceleration(measures)) if measures.stopped else math.nan,
@@ -32,9 +32,9 @@ def figures_of(measures: StopMeasures, first_phase_duration: float) -> Figures:
     )
 
 
-def wheelset_figures_of(wheelset: WheelsetMeasures) -> WheelsetFigures:
+def wheelset_figures_of(wheelset: WheelsetMeasures) -> CaseWheelsetMeasures:
     """Return the figures of one wheelset."""
-    return WheelsetFigures(
+    return CaseWheelsetMeasures(
         maximum_slide=float(wheelset.maximum_slide),
         locked_time_s=float(wheelset.locked_time),
         valve_actuations=whole(float(wheelset.valve_actuations)),
@@ -63,12 +63,12 @@ _WHEELSET_FIGURE_OF = {
 }
 
 
-def known_figures(figures: Figures, coverage: Coverage) -> Figures:
+def known_figures(figures: CaseMeasures, coverage: Coverage) -> CaseMeasures:
     """Return the figures of a recorded stop, NaN where the record lacks data of one."""
     return replace(figures, **_unknown(_FIGURE_OF, coverage))
 
 
-def known_wheelset_figures(figures: WheelsetFigures, coverage: Coverage) -> WheelsetFigures:
+def known_wheelset_figures(figures: CaseWheelsetMeasures, coverage: Coverage) -> CaseWheelsetMeasures:
     """Return the figures of a wheelset, NaN where the record lacks data of one of any wheelset."""
     return replace(figures, **_unknown(_WHEELSET_FIGURE_OF, coverage))
 
@@ -77,5 +77,5 @@ def _unknown(figure_of: Mapping[str, str], coverage: Coverage) -> dict[str, Any]
     return {figure: math.nan for measure, figure in figure_of.items() if measure in coverage.missing}
 
 
-def _value(reading: Reading) -> float:
+def _value(reading: MeasureValue) -> float:
     return reading.values[0] if reading.values else math.nan

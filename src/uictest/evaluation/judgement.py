@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from uictest.evaluation.applicability import why_not_applicable
 from uictest.evaluation.bounds import Bounds
-from uictest.evaluation.circumstances import Circumstances, circumstances_of
+from uictest.evaluation.conditions import TestConditions, test_conditions_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, bounds_of, decide
 from uictest.evaluation.meaning import applied_definitions, meaning_of
@@ -18,9 +18,7 @@ from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
 
 if TYPE_CHECKING:
-    from uictest.scenario import Scenario
-    from uictest.scenario.parts.criteria import Criteria, Criterion
-    from uictest.scenario.parts.measures import MeasureDefinitions
+    from uictest.scenario import Criteria, Criterion, MeasureDefinitions, Scenario
 
 
 def judge(
@@ -46,7 +44,7 @@ def judge(
         `inconclusive` where data to judge it are missing, both with the reason. NaN never passes.
 
     """
-    circumstances = circumstances_of(scenario)
+    circumstances = test_conditions_of(scenario)
     cut_off = why_cut_off(scenario, measures, coverage)
     stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
     verdicts = []
@@ -59,7 +57,7 @@ def judge(
 
 def _judge(
     criterion: Criterion,
-    circumstances: Circumstances,
+    circumstances: TestConditions,
     stop: ObservedStop,
     observation: MeasureDefinitions,
     *,
@@ -88,7 +86,7 @@ def _defined(
 
 
 def _before_judging(
-    criterion: Criterion, circumstances: Circumstances, stop: ObservedStop
+    criterion: Criterion, circumstances: TestConditions, stop: ObservedStop
 ) -> Decision | None:
     """Return the decision on a criterion that does not apply, or of which that is not known; else None."""
     unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
+from uictest import scenario
 from uictest.evaluation.decision import bounds_of
 from uictest.evaluation.units import in_unit, text, with_unit
 from uictest.evaluation.verdict import AppliedDefinition
-
-if TYPE_CHECKING:
-    from uictest.scenario import Quantity
-    from uictest.scenario.parts.criteria import Criteria, Criterion
-    from uictest.scenario.parts.definition import Parameter
-    from uictest.scenario.parts.measures import MeasureDefinitions
-    from uictest.scenario.parts.model import Source
+from uictest.scenario import yaml
 
 
-def meaning_of(criterion: Criterion, profile: Criteria, observation: MeasureDefinitions) -> dict[str, str]:
+def meaning_of(
+    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
+) -> dict[str, str]:
     """Return clause, measure, bound, aggregation and every definition that a criterion's verdict rests on.
 
     Definitions of the criterion come with their range. Those of `observation`, by which samples became
@@ -36,7 +32,7 @@ def meaning_of(criterion: Criterion, profile: Criteria, observation: MeasureDefi
 
 
 def applied_definitions(
-    criterion: Criterion, profile: Criteria, observation: MeasureDefinitions
+    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
 ) -> tuple[AppliedDefinition, ...]:
     """Return every definition that a criterion's verdict rests on, as :func:`meaning_of` names them."""
     own = (
@@ -57,7 +53,7 @@ def applied_definitions(
     return (*own, *observed)
 
 
-def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:
+def _parameter(parameter: scenario.Parameter, sources: Mapping[str, yaml.Source]) -> str:
     value, lower, upper = (
         text(in_unit(number, parameter.unit), parameter.unit)
         for number in (parameter.value, *parameter.range)
@@ -65,8 +61,7 @@ def _parameter(parameter: Parameter, sources: Mapping[str, Source]) -> str:
     return f"{value} ({_mark(parameter.value, sources)}; range {lower} .. {upper})"
 
 
-def _mark(quantity: Quantity, sources: Mapping[str, Source]) -> str:
+def _mark(quantity: yaml.Quantity, sources: Mapping[str, yaml.Source]) -> str:
     # Only who judges has scenarios loaded: results are read without them.
-    from uictest.scenario.values import mark_of
 
-    return mark_of(quantity, sources)
+    return scenario.mark_of(quantity, sources)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from uictest.evaluation.result import Outcome
-from uictest.evaluation.verdict import Judgement, Layer, Verdict
+from uictest.evaluation.verdict import Layer, Status, Verdict
 
 
 def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
@@ -29,7 +29,7 @@ def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
     return "pass", ""
 
 
-def _reasons(verdicts: list[Verdict], judgements: Sequence[Judgement], layer: Layer | None = None) -> str:
+def _reasons(verdicts: list[Verdict], judgements: Sequence[Status], layer: Layer | None = None) -> str:
     return "; ".join(
         f"{verdict.id}: {verdict.reason}"
         for verdict in verdicts

@@ -27,7 +27,7 @@ def unit_of(figure: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Figures:
+class CaseMeasures:
     """The figures of one stop, units in the names (nl: litres at 20 degC and 1 bar). NaN: not reached."""
 
     braking_distance_m: float
@@ -47,13 +47,13 @@ class Figures:
         return form
 
     @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> Figures:
+    def from_dict(cls, content: Mapping[str, Any]) -> CaseMeasures:
         """Return the figures whose `to_dict` is `content`."""
         return cls(**{name: or_nan(value) for name, value in content.items()})
 
 
 @dataclass(frozen=True, slots=True)
-class WheelsetFigures:
+class CaseWheelsetMeasures:
     """The figures of one wheelset in one stop; `maximum_slide` is a share (1 = locked).
 
     `valve_actuations` is a whole number, NaN where a record does not hold the valve's commands.
@@ -71,7 +71,7 @@ class WheelsetFigures:
         return form
 
     @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> WheelsetFigures:
+    def from_dict(cls, content: Mapping[str, Any]) -> CaseWheelsetMeasures:
         """Return the figures whose `to_dict` is `content`."""
         numbers: dict[str, Any] = {name: or_nan(value) for name, value in content.items()}
         return cls(**{**numbers, "valve_actuations": whole(numbers["valve_actuations"])})
@@ -98,8 +98,8 @@ class CaseResult:
     expect: Expectation
     outcome: Outcome
     criteria: tuple[Verdict, ...] = ()
-    measures: Figures | None = None
-    wheelsets: tuple[WheelsetFigures, ...] = ()
+    measures: CaseMeasures | None = None
+    wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
     reason: str = ""
     parts: Mapping[str, EffectivePart] = field(default_factory=dict)
     duration: float = field(default=0.0, compare=False)
@@ -136,8 +136,8 @@ class CaseResult:
         measures = content["measures"]
         own = {
             "criteria": tuple(map(Verdict.from_dict, content["criteria"])),
-            "measures": Figures.from_dict(measures) if measures else None,
-            "wheelsets": tuple(map(WheelsetFigures.from_dict, content["wheelsets"])),
+            "measures": CaseMeasures.from_dict(measures) if measures else None,
+            "wheelsets": tuple(map(CaseWheelsetMeasures.from_dict, content["wheelsets"])),
             "parts": {role: parts[part_id] for role, part_id in content.get("parts", {}).items()},
         }
         return cls(**{**content, **own})

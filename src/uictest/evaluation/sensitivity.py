@@ -8,7 +8,7 @@ from itertools import groupby, pairwise
 
 from uictest.evaluation.decision import Decision
 from uictest.evaluation.units import in_unit
-from uictest.evaluation.verdict import Judgement, Sensitivity, Stretch
+from uictest.evaluation.verdict import Sensitivity, Status, VerdictInterval
 
 RESOLUTION = 1e-7
 """In the unit of the definition: how closely a flip is located."""
@@ -65,6 +65,6 @@ def _same(one: Decision, other: Decision) -> bool:
     return (one.verdict, one.side) == (other.verdict, other.side)
 
 
-def _stretches(decided: list[tuple[float, Judgement]]) -> list[Stretch]:
+def _stretches(decided: list[tuple[float, Status]]) -> list[VerdictInterval]:
     runs = (list(run) for _, run in groupby(decided, key=lambda point: point[1]))
-    return [Stretch(round(run[0][0], 6), round(run[-1][0], 6), run[0][1]) for run in runs]
+    return [VerdictInterval(round(run[0][0], 6), round(run[-1][0], 6), run[0][1]) for run in runs]

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from uictest import scenario
 from uictest.evaluation.case import error_result, evaluate
 from uictest.evaluation.records import StopMeasures, Wheelsets
 from uictest.evaluation.result import CaseResult
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case
 
 _OF_THE_STOP = (
     "end_time",
@@ -35,7 +32,7 @@ _OF_WHEELSETS = (
 
 
 def evaluate_simulated(
-    case: Case,
+    case: scenario.Case,
     measures: StopMeasures,
     wheelset_measures: Wheelsets,
     duration: float = 0.0,

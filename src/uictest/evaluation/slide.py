@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from uictest.evaluation.reading import Reading, unsupported
+from uictest.evaluation.measure_value import MeasureValue, unsupported
 from uictest.evaluation.records import SLIDE_CLASS, StopMeasures, Wheelsets
 
 
 def maximum_slide_above_cutoff(
     measures: StopMeasures, wheelsets: Wheelsets, low_speed_cutoff: float
-) -> Reading:
+) -> MeasureValue:
     """Return the largest slide (share; 1 = locked) of each wheelset above the cut-off.
 
     Slides count while the train runs faster than `low_speed_cutoff` (m/s), a multiple of 10 km/h, as the
@@ -20,4 +20,4 @@ def maximum_slide_above_cutoff(
     slides = tuple(float(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
     if not measures.initial_speed > low_speed_cutoff or all(map(math.isnan, slides)):
         return unsupported(f"the train never ran faster than the cut-off of {10 * k} km/h")
-    return Reading(slides)
+    return MeasureValue(slides)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from uictest.evaluation.json_form import json_form
 
-Judgement = Literal["pass", "fail", "not_applicable", "inconclusive"]
+Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.
 
 not_applicable: the criterion says nothing about such a stop. inconclusive: data to judge it are missing.
@@ -19,12 +19,12 @@ Layer = Literal["validity", "requirement"]
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class VerdictInterval:
     """A part of a definition's range over which the verdict stays the same; both ends belong to it."""
 
     first: float
     last: float
-    verdict: Judgement
+    verdict: Status
 
     def __str__(self) -> str:
         """Return the stretch for a reader, as in "pass 2 .. 3.41"."""
@@ -44,7 +44,7 @@ class Sensitivity:
     unit: str
     lower: float
     upper: float
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[VerdictInterval, ...]
 
     @property
     def flips(self) -> bool:
@@ -60,7 +60,9 @@ class Sensitivity:
     def from_dict(cls, content: Mapping[str, Any]) -> Sensitivity:
         """Return the sensitivity whose `to_dict` is `content`."""
         own = {key: value for key, value in content.items() if key != "flips"}
-        return cls(**{**own, "stretches": tuple(Stretch(**stretch) for stretch in content["stretches"])})
+        return cls(
+            **{**own, "stretches": tuple(VerdictInterval(**stretch) for stretch in content["stretches"])}
+        )
 
     def __str__(self) -> str:
         """Return a line for a reader: "low_speed_cutoff 10 .. 60 km/h: pass 10 .. 40, fail 50 .. 60"."""
@@ -103,7 +105,7 @@ class Verdict:
     lower: float | None
     upper: float | None
     margin: float | None
-    verdict: Judgement
+    verdict: Status
     reason: str
     definition: dict[str, str] = field(default_factory=dict)
     sensitivity: tuple[Sensitivity, ...] = ()

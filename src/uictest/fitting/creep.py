@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics.arithmetic import fma, maximum, select
-from uictest.physics.polach import contact_stiffness, creep_force
-from uictest.rig.compiled import translate
-
-if TYPE_CHECKING:
-    from uictest.scenario.parts.rail import RailCondition
+from uictest import scenario
+from uictest.physics import contact_stiffness, creep_force, fma, maximum, select
+from uictest.rig import translate
 
 Array = NDArray[np.float64]
 # numpy has no fused multiply-add, and a fit does not need its last bit.
 _FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maximum, select: np.where}
 
 
-def wheelset_creep(slip: Array, speed: Array, load: Array, friction: Array, rail: RailCondition) -> Array:
+def wheelset_creep(
+    slip: Array, speed: Array, load: Array, friction: Array, rail: scenario.RailCondition
+) -> Array:
     """Return the force of the rail on a wheelset of two wheels, N.
 
     Args:

@@ -9,10 +9,8 @@ from typing import Any, Final
 
 from uictest import library
 from uictest.fitting.estimate import Fit
-from uictest.scenario import Case, Scenario
-from uictest.scenario.expansion import SECTIONS
-from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.validation import dotted
+from uictest.scenario import EXPANSION_KEYS, PART_KEYS, Case, Scenario
+from uictest.scenario.yaml import dotted
 
 _DIGITS: Final = 5
 _LONGEST_NAME: Final = 90
@@ -40,7 +38,7 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], found: Fit, scenario:
         "description": "\n".join(_account(found)),
         "extends": Path(os.path.relpath(scenario, folder)).as_posix(),
         "expect": case.scenario.expect,
-        **dict.fromkeys(SECTIONS),
+        **dict.fromkeys(EXPANSION_KEYS),
     }
     for key, value in {**case.parameters, **statements}.items():
         _assign(content, key, yaml.safe_load(value))

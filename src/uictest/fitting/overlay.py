@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.measured import MeasuredStop
-from uictest.measured.channels import of_wheelsets
+from uictest.field_data import RecordedStop, of_wheelsets
 from uictest.recording import TIME, Recording
-from uictest.rig import Stop
+from uictest.rig import SimulatedStop
 
 _COMPARED = ("speed", *of_wheelsets("wheel_speed"))
 
@@ -33,7 +32,7 @@ class Agreement:
         )
 
 
-def overlay(measured: MeasuredStop, simulated: Stop) -> Recording:
+def overlay(measured: RecordedStop, simulated: SimulatedStop) -> Recording:
     """Return train and wheel speeds of both stops on the raster of the record, m/s."""
     assert simulated.recording is not None
     time = np.asarray(measured.recording[TIME])
@@ -46,7 +45,7 @@ def overlay(measured: MeasuredStop, simulated: Stop) -> Recording:
     return Recording(channels, units)
 
 
-def agreement(measured: MeasuredStop, simulated: Stop, both: Recording) -> Agreement:
+def agreement(measured: RecordedStop, simulated: SimulatedStop, both: Recording) -> Agreement:
     """Return how far the two stops agree."""
     difference = both["speed_recorded"] - both["speed_simulated"]
     time, distance = measured.standstill or (float("nan"), float("nan"))

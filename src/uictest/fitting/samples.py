@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import field_data
+from uictest.field_data import WHEELSETS
 from uictest.fitting.wheel_loads import wheel_loads
-from uictest.measured.channels import WHEELSETS
 from uictest.recording import TIME
 
 if TYPE_CHECKING:
-    from uictest.measured import MeasuredStop
     from uictest.recording import Recording
-    from uictest.scenario import Scenario
-    from uictest.scenario.parts.brake import BrakeSystem
+    from uictest.scenario import BrakeSystem, Scenario
 
 Array = NDArray[np.float64]
 _SMOOTHING = 0.1
@@ -55,7 +54,7 @@ class Samples:
     standing: NDArray[np.bool_]
 
 
-def samples_of(stop: MeasuredStop, scenario: Scenario) -> Samples:
+def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> Samples:
     """Return what a fit needs. Raises FitError where the record lacks it, or holds defects in it."""
     recording = stop.recording
     names = ("speed", *(f"wheel_speed_{n}" for n in WHEELSETS))
@@ -84,7 +83,7 @@ def samples_of(stop: MeasuredStop, scenario: Scenario) -> Samples:
     )
 
 
-def _refuse_defects(stop: MeasuredStop, names: tuple[str, ...]) -> None:
+def _refuse_defects(stop: field_data.RecordedStop, names: tuple[str, ...]) -> None:
     missing = [name for name in names if name not in stop.recording.channels]
     if missing:
         raise FitError(

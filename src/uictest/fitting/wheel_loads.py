@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from uictest.scenario.parts.vehicle import Vehicle
+from uictest import scenario
 
 STANDARD_GRAVITY = 9.80665
 """m/s2 (ISO 80000-3)."""
@@ -16,7 +13,7 @@ _WHEELS = 8
 Array = NDArray[np.float64]
 
 
-def wheel_loads(vehicle: Vehicle, deceleration: Array) -> Array:
+def wheel_loads(vehicle: scenario.Vehicle, deceleration: Array) -> Array:
     """Return the load of one wheel of each wheelset, N, shape (4, n), at decelerations in m/s2.
 
     The body leans on the leading bogie, each bogie on its leading wheelset: moments about the rail, springs
@@ -38,7 +35,7 @@ def wheel_loads(vehicle: Vehicle, deceleration: Array) -> Array:
     return loads
 
 
-def _coupling_height(vehicle: Vehicle) -> float:
+def _coupling_height(vehicle: scenario.Vehicle) -> float:
     sides = 2.0
     spring = sides * vehicle.secondary.longitudinal_stiffness
     link = vehicle.traction_link.stiffness

@@ -1,14 +1,5 @@
 """Hysteresis and cylinder dynamics from records, whoever made them: this room knows no rig."""
 
-from uictest.identification.cylinder import CylinderResult, identify_cylinder, require_fit
-from uictest.identification.hysteresis import HysteresisResult, identify_hysteresis
-from uictest.identification.suitability import UnsuitableRecordError
+import lazy_loader
 
-__all__ = [
-    "CylinderResult",
-    "HysteresisResult",
-    "UnsuitableRecordError",
-    "identify_cylinder",
-    "identify_hysteresis",
-    "require_fit",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -6,17 +6,14 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import recording
 from uictest.identification.suitability import UnsuitableRecordError, require_finite
-from uictest.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.recording import ORIGIN
-
-if TYPE_CHECKING:
-    from uictest.recording.contents import Group
+from uictest.physics import FILL, HOLD, VENT
+from uictest.recording import ORIGIN, formats
 
 Samples = NDArray[np.float64]
 TIME = "time"
@@ -49,16 +46,14 @@ def read_record(path: Path, wanted: Mapping[str, str]) -> Record:
             samples are no numbers, or none that a train shows; times do not rise.
         OSError: the file cannot be opened.
     """
-    from uictest.recording.formats import MissingExtraError, UnreadableError, read_contents
-
     try:
-        contents = read_contents(path)
+        contents = formats.read_contents(path)
         return Record(_channels(contents.groups, {TIME: TIME, **wanted}), _origin(contents.metadata))
-    except (UnreadableError, MissingExtraError, UnsuitableRecordError) as error:
+    except (formats.UnreadableError, formats.MissingExtraError, UnsuitableRecordError) as error:
         raise UnsuitableRecordError(f"{path}: {error}") from error
 
 
-def _channels(groups: Sequence[Group], named: Mapping[str, str]) -> dict[str, Samples]:
+def _channels(groups: Sequence[recording.Group], named: Mapping[str, str]) -> dict[str, Samples]:
     for group in groups:
         if all(name in group.channels for name in named.values()):
             return {
@@ -94,7 +89,7 @@ def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Sam
 
 
 def _sizes(name: str, unit: str, kind: str) -> dict[str, float]:
-    from uictest.scenario.units import KINDS
+    from uictest.units import KINDS
 
     known = {symbol: float(each.factor) for symbol, each in KINDS[kind].units.items()}
     if unit not in known:
@@ -107,12 +102,10 @@ def _sizes(name: str, unit: str, kind: str) -> dict[str, float]:
 def _require_plausible(
     name: str, converted: Samples, kind: str, unit: str, sizes: Mapping[str, float]
 ) -> None:
-    from uictest.recording.plausibility import implausible_time, implausible_unit
-
     if kind == "time":
-        implausible = implausible_time(converted, unit, sizes)
+        implausible = recording.implausible_time(converted, unit, sizes)
     else:
-        implausible = implausible_unit(converted, _SI[kind], unit, sizes, faulty=0.0)
+        implausible = recording.implausible_unit(converted, _SI[kind], unit, sizes, faulty=0.0)
     if implausible is not None:
         likely = implausible.likely_unit
         question = f"; is it in {likely}, not in {unit}?" if likely else ""

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest.scenario.parts.compensation import Compensation
-from uictest.scenario.reading import nowhere
-from uictest.scenario.references import Files, Parts
-from uictest.scenario.roots import Roots
-from uictest.scenario.tree import Scalar
+from uictest.scenario import Compensation, Files, Parts, Roots
+from uictest.scenario.yaml import Scalar, whole_file
 
 
 def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensation:
@@ -22,7 +19,7 @@ def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensat
         files = Files(Roots.of([Path(reference)], trusted))
         part: Compensation = Parts(files).resolve(files.at(Path(reference)), Compensation, ()).part
         return part
-    place = nowhere(Path("--base"))
+    place = whole_file(Path("--base"))
     named: Compensation = (
         Parts(Files()).resolve(Scalar(reference, reference, place), Compensation, ("base",)).part
     )

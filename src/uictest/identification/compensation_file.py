@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from uictest import scenario
 from uictest.identification.hysteresis import PHASES
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Quantity
 
 if TYPE_CHECKING:
     from uictest.identification.cylinder import CylinderResult
     from uictest.identification.hysteresis import HysteresisResult
-    from uictest.identification.lines import Line
-    from uictest.scenario.parts.compensation import Compensation
+    from uictest.identification.lines import FittedLine
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
@@ -43,7 +43,7 @@ class Provenance:
 
 
 def with_hysteresis(
-    base: Compensation,
+    base: scenario.Compensation,
     name: str,
     result: HysteresisResult,
     provenance: Provenance,
@@ -74,7 +74,9 @@ def with_hysteresis(
     return _text(base, name, numbers, sources, _facts("hysteresis", base, provenance, fit))
 
 
-def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
+def with_cylinder(
+    base: scenario.Compensation, name: str, result: CylinderResult, provenance: Provenance
+) -> str:
     """The text of ``base`` with the transfer function of ``result``; equal sampling times keep the source."""
     source = "identified-cylinder"
     model = result.transfer_function
@@ -94,14 +96,14 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
     return _text(base, name, numbers, sources, _facts("cylinder", base, provenance, fit))
 
 
-def _line(line: Line, source: str) -> Numbers:
+def _line(line: FittedLine, source: str) -> Numbers:
     return {
         "slope": (f"{line.slope * 100.0:.6g} kN/bar", source),
         "intercept": (f"{line.intercept:.6g} N", source),
     }
 
 
-def _numbers(base: Compensation) -> Numbers:
+def _numbers(base: scenario.Compensation) -> Numbers:
     return {
         "sampling_time": _pair(base.sampling_time),
         "linear": _pairs(base.linear),
@@ -130,7 +132,7 @@ def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str
     return {"mark": "identified", "text": text}
 
 
-def _facts(topic: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
+def _facts(topic: str, base: scenario.Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
     """The facts of ``base``, those of the topic replaced."""
     kept = {key: fact for key, fact in base.provenance.items() if not key.startswith(f"{topic} ")}
     facts = {
@@ -147,7 +149,11 @@ def _facts(topic: str, base: Compensation, provenance: Provenance, fit: str) -> 
 
 
 def _text(
-    base: Compensation, name: str, numbers: Numbers, sources: Mapping[str, Any], facts: Mapping[str, str]
+    base: scenario.Compensation,
+    name: str,
+    numbers: Numbers,
+    sources: Mapping[str, Any],
+    facts: Mapping[str, str],
 ) -> str:
     """The file as YAML."""
     import yaml

@@ -9,7 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.identification.applications import applications
-from uictest.identification.output_error import Stretch, least_largest_weights, least_squares_weights, refined
+from uictest.identification.output_error import (
+    FitSegment,
+    least_largest_weights,
+    least_squares_weights,
+    refined,
+)
 from uictest.identification.suitability import (
     UnsuitableRecordError,
     held_out,
@@ -111,8 +116,8 @@ def require_fit(result: CylinderResult) -> None:
         )
 
 
-def _stretch(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> Stretch:
-    return Stretch(tank - tank[0], cylinder - tank[0], fitted)
+def _stretch(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> FitSegment:
+    return FitSegment(tank - tank[0], cylinder - tank[0], fitted)
 
 
 def _assessed(model: TransferFunction, tank: Samples, cylinder: Samples, computed: Samples) -> CylinderResult:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.identification.lines import Line, robust_line
+from uictest.identification.lines import FittedLine, robust_line
 from uictest.identification.phases import on_lines
 from uictest.identification.play import computed_force
 from uictest.identification.suitability import (
@@ -45,8 +45,8 @@ class HysteresisResult:
         largest_force: largest measured force, N.
     """
 
-    lines: dict[str, Line]
-    linear: Line
+    lines: dict[str, FittedLine]
+    linear: FittedLine
     loop_widths: dict[str, float]
     high_force: float
     largest_error: float
@@ -102,10 +102,10 @@ def identify_hysteresis(
 
 def _lines(
     pressure: Samples, force: Samples, acting: NDArray[np.bool_], fitted: NDArray[np.bool_], step: float
-) -> dict[str, Line]:
+) -> dict[str, FittedLine]:
     squeezing, releasing = on_lines(pressure, force, step)
     every = max(round(_INDEPENDENT / step), 1)
-    lines: dict[str, Line] = {}
+    lines: dict[str, FittedLine] = {}
     for phase in PHASES:
         mask = fitted & (acting if phase.startswith("wsp") else ~acting)
         mask &= squeezing if phase.endswith("squeezing") else releasing
@@ -123,15 +123,17 @@ def _lines(
     return lines
 
 
-def _all_four(lines: dict[str, Line]) -> dict[str, Line]:
+def _all_four(lines: dict[str, FittedLine]) -> dict[str, FittedLine]:
     return {phase: lines.get(phase, lines[phase.replace("wsp", "bc")]) for phase in PHASES}
 
 
-def _midway(squeezing: Line, releasing: Line) -> Line:
-    return Line(0.5 * (squeezing.slope + releasing.slope), 0.5 * (squeezing.intercept + releasing.intercept))
+def _midway(squeezing: FittedLine, releasing: FittedLine) -> FittedLine:
+    return FittedLine(
+        0.5 * (squeezing.slope + releasing.slope), 0.5 * (squeezing.intercept + releasing.intercept)
+    )
 
 
-def _widths(lines: dict[str, Line], force: float) -> dict[str, float]:
+def _widths(lines: dict[str, FittedLine], force: float) -> dict[str, float]:
     return {
         kind: lines[f"{kind}_squeezing"].pressure(force) - lines[f"{kind}_releasing"].pressure(force)
         for kind in ("bc", "wsp")

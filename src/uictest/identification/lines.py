@@ -15,7 +15,7 @@ _SMALLEST_SCALE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class FittedLine:
     """Clamping force over gauge pressure: slope in N/Pa, intercept in N, with 95 % confidence half-widths."""
 
     slope: float
@@ -33,7 +33,7 @@ class Line:
         return (force - self.intercept) / self.slope
 
 
-def robust_line(pressure: Samples, force: Samples) -> Line:
+def robust_line(pressure: Samples, force: Samples) -> FittedLine:
     """Fit force = slope x pressure + intercept with the loss soft_l1.
 
     Points that a phase detector let through by mistake lie to one side of the line, inside the loop. Least
@@ -62,7 +62,7 @@ def robust_line(pressure: Samples, force: Samples) -> Line:
     at_zero = -centre / width
     intercept = force.mean() + height * (found.x[1] + found.x[0] * at_zero)
     intercept_spread = np.hypot(spread[1], spread[0] * at_zero)
-    return Line(
+    return FittedLine(
         float(slope),
         float(intercept),
         float(spread[0] * height / width),

@@ -55,20 +55,20 @@ def least_largest_weights(columns: Samples, wanted: Samples) -> tuple[float, Sam
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class FitSegment:
     """Input and output that begin at rest at zero, and where the output is fitted."""
 
     given: Samples
     wanted: Samples
     fitted: NDArray[np.bool_]
 
-    def thinned(self, every: int) -> Stretch:
+    def thinned(self, every: int) -> FitSegment:
         """Every so many samples."""
-        return Stretch(self.given[::every], self.wanted[::every], self.fitted[::every])
+        return FitSegment(self.given[::every], self.wanted[::every], self.fitted[::every])
 
 
 def refined(
-    stretches: Sequence[Stretch], step: float, weigh: Weigh, first: Poles | None = None
+    stretches: Sequence[FitSegment], step: float, weigh: Weigh, first: Poles | None = None
 ) -> tuple[Poles, Samples]:
     """Poles and weights with the least error of the simulated output where it is fitted.
 
@@ -90,7 +90,7 @@ def refined(
     return poles, exactly(poles)[1]
 
 
-def _judge(stretches: Sequence[Stretch], step: float, weigh: Weigh, points: int) -> Judge:
+def _judge(stretches: Sequence[FitSegment], step: float, weigh: Weigh, points: int) -> Judge:
     """Error and weights as a function of the poles, at a sampling time."""
     total = sum(np.count_nonzero(each.fitted) for each in stretches)
     every = max(total // points, 1)
@@ -133,7 +133,7 @@ def bounded(poles: Poles, step: float) -> Poles:
     return within
 
 
-def _starts(longest: Stretch, step: float) -> Iterator[Poles]:
+def _starts(longest: FitSegment, step: float) -> Iterator[Poles]:
     yield from (_from_time_constants(constants) for constants in _DEFAULT_STARTS)
     linear = _linear_start(longest.given, longest.wanted, step)
     if linear is not None:

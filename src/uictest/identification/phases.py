@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics.wsp_valve import FILL
+from uictest.physics import FILL
 
 Samples = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.identification.lines import Line
+from uictest.identification.lines import FittedLine
 
 Samples = NDArray[np.float64]
 
@@ -13,7 +13,7 @@ Samples = NDArray[np.float64]
 def computed_force(
     pressure: Samples,
     wsp_acting: NDArray[np.bool_],
-    lines: dict[str, Line],
+    lines: dict[str, FittedLine],
     transition_time: float,
     step: float,
     start: float,
@@ -39,7 +39,7 @@ def computed_force(
     return force
 
 
-def _mixed(pressure: Samples, bc: Line, wsp: Line, share: Samples) -> Samples:
+def _mixed(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -> Samples:
     slope = bc.slope + share * (wsp.slope - bc.slope)
     intercept = bc.intercept + share * (wsp.intercept - bc.intercept)
     return np.asarray(np.maximum(slope * pressure + intercept, 0.0))

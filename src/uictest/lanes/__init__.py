@@ -11,44 +11,6 @@ compiled code calls is imported when it is first used, since blocks are filled w
 by name, for numba knows nothing of functions that appear while it compiles.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+import lazy_loader
 
-from uictest.lanes.block import block
-from uictest.lanes.host import fuses, register_width
-
-if TYPE_CHECKING:
-    from uictest.lanes.functions import floor, fma, maximum, minimum, select, sqrt
-    from uictest.lanes.records import lane, put, take, vectors
-    from uictest.lanes.stack import align_stack
-
-__all__ = [
-    "align_stack",
-    "block",
-    "floor",
-    "fma",
-    "fuses",
-    "lane",
-    "maximum",
-    "minimum",
-    "put",
-    "register_width",
-    "select",
-    "sqrt",
-    "take",
-    "vectors",
-]
-
-_MODULES = {
-    "functions": ("floor", "fma", "maximum", "minimum", "select", "sqrt"),
-    "records": ("lane", "put", "take", "vectors"),
-    "stack": ("align_stack",),
-}
-
-
-def __getattr__(name: str) -> Any:
-    for module, names in _MODULES.items():
-        if name in names:
-            import_module("uictest.lanes.integers")  # gives whole numbers their operators
-            return getattr(import_module(f"uictest.lanes.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

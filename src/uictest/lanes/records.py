@@ -8,6 +8,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr
 
+import uictest.lanes.integers  # noqa: F401 - gives whole numbers their operators
 from uictest.lanes.compiler import (
     code_of,
     code_of_reading,

@@ -8,23 +8,6 @@ What is one number is taken in without branches, so that many stops can be obser
 a table - speeds after the first sliding, slides above each speed - is kept from that afterwards.
 """
 
-from uictest.measures.records import DEFINITION, MEASURES, SPEED_CLASSES, WHEELSET_MEASURES, WINDOW_SECONDS
-from uictest.measures.train import begin, begin_window, finish, keep_window, observe_train
-from uictest.measures.wheelset import begin_slides, begin_wheelset, keep_slide, observe_wheelset
+import lazy_loader
 
-__all__ = [
-    "DEFINITION",
-    "MEASURES",
-    "SPEED_CLASSES",
-    "WHEELSET_MEASURES",
-    "WINDOW_SECONDS",
-    "begin",
-    "begin_slides",
-    "begin_wheelset",
-    "begin_window",
-    "finish",
-    "keep_slide",
-    "keep_window",
-    "observe_train",
-    "observe_wheelset",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,7 +10,7 @@ SPEED_CLASSES = 21
 WINDOW_SECONDS = 10
 """Whole seconds after the first sliding at which the train's speed is kept."""
 
-MEASURES = np.dtype(
+STOP_MEASURES = np.dtype(
     (
         np.record,
         [

@@ -3,7 +3,7 @@
 from typing import Any
 
 from uictest.measures.records import WINDOW_SECONDS
-from uictest.physics.arithmetic import maximum, minimum, select
+from uictest.physics import maximum, minimum, select
 
 Record = Any
 NAN = float("nan")

@@ -8,7 +8,7 @@ from itertools import chain
 import numpy as np
 
 from uictest.recording.contents import Contents, Group
-from uictest.recording.formats.problems import UnreadableError
+from uictest.recording.formats import UnreadableError
 from uictest.recording.recording import TIME, Recording
 
 

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from uictest import evaluation
 from uictest.report.difference import Difference, difference_sentence, worst_of_wheelsets
 from uictest.report.escaping import printable
 from uictest.report.wording import DIFFERS, counted, explanation, listed, tally, verdict_word
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,12 +74,12 @@ class BaselineComparison:
         return cls(**{**fields, "differences": by_case})
 
 
-def case_word(result: CaseResult, differences: Sequence[Difference]) -> str:
+def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) -> str:
     """Return how a case stands: `DIFFERS` where only its baseline says otherwise, else the verdict's word."""
     return DIFFERS if differences and result.met else verdict_word(result)
 
 
-def case_explanation(result: CaseResult, differences: Sequence[Difference]) -> list[str]:
+def case_explanation(result: evaluation.CaseResult, differences: Sequence[Difference]) -> list[str]:
     """Return why a case came out as it did, and which quantities left their tolerance."""
     outcome, *reasons = explanation(result)
     if differences:
@@ -94,7 +92,7 @@ def difference_sentences(differences: Sequence[Difference]) -> list[str]:
     return [f"baseline: {difference_sentence(each)}" for each in worst_of_wheelsets(differences)]
 
 
-def run_tally(results: Iterable[CaseResult], baseline: BaselineComparison | None) -> str:
+def run_tally(results: Iterable[evaluation.CaseResult], baseline: BaselineComparison | None) -> str:
     """Return the counts of a run, e.g. `3 cases: 2 met, 1 different from the baseline; 1 case missing`."""
     counts = tally(results, baseline.differences if baseline else ())
     missing = len(baseline.missing) if baseline else 0

@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
+from uictest.report.case_description import CaseDescription
 from uictest.report.difference import Difference
-from uictest.report.subject import Subject
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
-    from uictest.report.page import Trace
+    from uictest.report.traces.trace import Trace
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,30 +31,30 @@ class RunContent:
     """
 
     name: str
-    results: Sequence[CaseResult]
+    results: Sequence[evaluation.CaseResult]
     manifest: Mapping[str, Any]
     complete: bool = True
-    subjects: Mapping[str, Subject] = field(default_factory=dict)
+    subjects: Mapping[str, CaseDescription] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
     baseline: BaselineComparison | None = None
 
-    def subject(self, case_id: str) -> Subject:
+    def subject(self, case_id: str) -> CaseDescription:
         """Return what a case is about; an empty subject where that is not known."""
-        return self.subjects.get(case_id, Subject())
+        return self.subjects.get(case_id, CaseDescription())
 
     def differences(self, case_id: str) -> Sequence[Difference]:
         """Return the quantities of a case that are out of the tolerance of the baseline."""
         return self.baseline.differences.get(case_id, ()) if self.baseline else ()
 
-    def passes(self, result: CaseResult) -> bool:
+    def passes(self, result: evaluation.CaseResult) -> bool:
         """Return whether a case meets its expectation and nothing of it differs from the baseline."""
         return result.met and not self.differences(result.id)
 
-    def word(self, result: CaseResult) -> str:
+    def word(self, result: evaluation.CaseResult) -> str:
         """Return `met`, `MISSED`, `ERROR` or `DIFFERS`: how a case stands to expectation and baseline."""
         return case_word(result, self.differences(result.id))
 
-    def explanation(self, result: CaseResult) -> list[str]:
+    def explanation(self, result: evaluation.CaseResult) -> list[str]:
         """Return why a case came out as it did, and what of it differs from the baseline."""
         return case_explanation(result, self.differences(result.id))
 

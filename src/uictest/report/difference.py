@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.wording import number, quantity
 
@@ -35,9 +36,7 @@ class Difference:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON form, NaN as None."""
-        from uictest.evaluation.json_form import json_form
-
-        form: dict[str, Any] = json_form(dataclasses.asdict(self))
+        form: dict[str, Any] = evaluation.json_form(dataclasses.asdict(self))
         return form
 
     @classmethod
@@ -70,9 +69,7 @@ def difference_sentence(difference: Difference) -> str:
 
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
     """Return the differences; of a figure that the wheelsets of a stop have, the worst stands for all."""
-    from uictest.evaluation import WheelsetFigures
-
-    of_wheelsets = frozenset(field.name for field in dataclasses.fields(WheelsetFigures))
+    of_wheelsets = frozenset(field.name for field in dataclasses.fields(evaluation.CaseWheelsetMeasures))
     by_figure: dict[tuple[str, str], list[Difference]] = {}
     for difference in differences:
         figure = _figure(difference.quantity, of_wheelsets)

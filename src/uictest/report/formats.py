@@ -7,6 +7,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from uictest import recording
+
 if TYPE_CHECKING:
     from uictest.report.content import RunContent
 
@@ -26,11 +28,9 @@ def write_formats(folder: Path, content: RunContent, formats: Iterable[ReportFor
 
 
 def _write(folder: Path, content: RunContent, wanted: ReportFormat) -> list[Path]:
-    from uictest.recording import write_bytes_atomic
-
     files = {folder / name: data for name, data in _files(content, wanted).items()}
     for path, data in files.items():
-        write_bytes_atomic(path, data)
+        recording.write_bytes_atomic(path, data)
     return list(files)
 
 

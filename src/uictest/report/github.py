@@ -6,20 +6,20 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal
 
+from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.parameters import changes_line
 from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.report.baseline import BaselineComparison
     from uictest.report.difference import Difference
 
 _COMMAND = re.compile(r"^(\s*):(?=:)")
 
 
-def case_annotations(result: CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
+def case_annotations(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
     """Yield an `::error` command for a case that misses its expectation or differs from the baseline."""
     if differences or not result.met:
         title = f"{case_word(result, differences)} {result.id}"

@@ -7,18 +7,18 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import xml_text
 from uictest.report.parameters import changes_line
 from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.report.baseline import BaselineComparison
     from uictest.report.difference import Difference
 
 
-def junit_xml(results: Sequence[CaseResult], baseline: BaselineComparison | None = None) -> str:
+def junit_xml(results: Sequence[evaluation.CaseResult], baseline: BaselineComparison | None = None) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
 
     A case that differs from the baseline is a failure, as is a case of the baseline that is missing.
@@ -40,7 +40,7 @@ def junit_xml(results: Sequence[CaseResult], baseline: BaselineComparison | None
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
-def _testcase(result: CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
+def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
     element = _empty_testcase(result.id, result.scenario, result.duration)
     tag = _child_tag(result, differs=bool(differences))
     changes = changes_line(result)
@@ -76,7 +76,7 @@ def _add_child(element: ElementTree.Element, tag: str, texts: Sequence[str], kin
     child.text = "\n".join(lines)
 
 
-def _child_tag(result: CaseResult, *, differs: bool) -> str | None:
+def _child_tag(result: evaluation.CaseResult, *, differs: bool) -> str | None:
     if result.outcome == "error":
         return "error"
     if not result.met or differs:

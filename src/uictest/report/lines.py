@@ -5,26 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.parameters import part_sentences
-from uictest.report.wording import (
-    DIFFERS,
-    criterion_sentences,
-    definition_sentence,
-    listed,
-    number,
-)
+from uictest.report.wording import DIFFERS, criterion_sentences, definition_sentence, listed, number
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.report.baseline import BaselineComparison
     from uictest.report.difference import Difference
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
 
 
-def case_line(result: CaseResult, differences: Sequence[Difference] = ()) -> str:
+def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case; the explanation of one that is not met, or differs, stands at its end."""
     words = [case_word(result, differences), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}", *_figures(result)]
@@ -41,13 +35,13 @@ def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
         yield f"{DIFFERS} {printable(case_id)} reason={reason}"
 
 
-def criterion_lines(result: CaseResult) -> Iterator[str]:
+def criterion_lines(result: evaluation.CaseResult) -> Iterator[str]:
     """Yield one line per criterion of a case, each beginning with the case id."""
     for sentence in criterion_sentences(result):
         yield f"criterion {printable(result.id)} {sentence}"
 
 
-def definition_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield what each criterion was taken to mean, once for all cases that it meant the same in."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
@@ -60,7 +54,7 @@ def definition_lines(results: Sequence[CaseResult]) -> Iterator[str]:
             yield f"definition {printable(criterion)}{where}: {sentence}"
 
 
-def part_lines(results: Sequence[CaseResult]) -> Iterator[str]:
+def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the parts that cases were run with and what was changed in them, once for all cases alike."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
@@ -71,7 +65,7 @@ def part_lines(results: Sequence[CaseResult]) -> Iterator[str]:
         yield f"part {role}{where}: {sentence}"
 
 
-def _figures(result: CaseResult) -> Iterator[str]:
+def _figures(result: evaluation.CaseResult) -> Iterator[str]:
     for name in SHOWN_MEASURES:
         if result.measures is not None:
             yield f"{name}={number(getattr(result.measures, name))}"

@@ -7,12 +7,10 @@ import json
 import platform
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from uictest import evaluation
 from uictest.report.parameters import part_sentence
-
-if TYPE_CHECKING:
-    from uictest.evaluation import EffectivePart
 
 SCHEMA = "uictest/manifest/1"
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
@@ -23,7 +21,7 @@ def manifest(
     seed: int | None,
     inputs: Mapping[str, str],
     cases: int,
-    parts: Iterable[Mapping[str, EffectivePart]] = (),
+    parts: Iterable[Mapping[str, evaluation.EffectivePart]] = (),
 ) -> dict[str, Any]:
     """Return the manifest of a run.
 
@@ -45,11 +43,9 @@ def manifest(
     }
 
 
-def named_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, str]:
+def named_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict[str, str]:
     """Return every distinct part of some cases in words, by id; the sections of a scenario are no parts."""
-    from uictest.evaluation import parts_table
-
-    table = sorted(parts_table(cases).items())
+    table = sorted(evaluation.parts_table(cases).items())
     return {part_id: part_sentence(part) for part_id, part in table if part.name}
 
 

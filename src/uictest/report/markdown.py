@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.difference import value_text, worst_of_wheelsets
 from uictest.report.markdown_table import MarkdownTable, row
@@ -13,7 +14,6 @@ from uictest.report.parameters import changed_parameters
 from uictest.report.step_summary import LIMIT, append_to_step_summary
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.report.baseline import BaselineComparison
     from uictest.report.content import RunContent
     from uictest.report.difference import Difference
@@ -71,7 +71,7 @@ def _difference_row(difference: Difference) -> str:
     return row([code(difference.case), code(difference.quantity), *sides, *sizes, unit, remark])
 
 
-def _row(content: RunContent, result: CaseResult) -> str:
+def _row(content: RunContent, result: evaluation.CaseResult) -> str:
     word, passes = content.word(result), content.passes(result)
     slide = max((wheelset.maximum_slide for wheelset in result.wheelsets), default=None)
     figures = [figure(getattr(result.measures, name, None), form) for name, form in _FIGURES.items()]

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.escaping import printable
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, EffectivePart
 
 _PATHS = (".yaml", ".yml")
 
 
-def part_sentence(part: EffectivePart, setting: str = "") -> str:
+def part_sentence(part: evaluation.EffectivePart, setting: str = "") -> str:
     """Return name, setting and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`.
 
     A part whose root is no library part says so: its name may be that of one. A section of a scenario has no
@@ -24,14 +21,16 @@ def part_sentence(part: EffectivePart, setting: str = "") -> str:
     return printable(", ".join(text for text in texts if text))
 
 
-def part_sentences(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
+def part_sentences(parts: Mapping[str, evaluation.EffectivePart]) -> dict[str, str]:
     """Return the sentence of each part of a case by role; that of the compensation names its setting, too."""
     settings = {"compensation": _setting(parts)} if "compensation" in parts else {}
     sentences = {role: part_sentence(part, settings.get(role, "")) for role, part in parts.items()}
     return {role: sentence for role, sentence in sentences.items() if sentence}
 
 
-def changed_parameters(parts: Mapping[str, EffectivePart], varied: Collection[str] = ()) -> list[str]:
+def changed_parameters(
+    parts: Mapping[str, evaluation.EffectivePart], varied: Collection[str] = ()
+) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
     What the scenario says itself is held against its defaults. The keys of `varied` are left out.
@@ -39,34 +38,34 @@ def changed_parameters(parts: Mapping[str, EffectivePart], varied: Collection[st
     return [printable(change) for part in parts.values() for change in _differences(part, varied)]
 
 
-def changes_line(result: CaseResult) -> list[str]:
+def changes_line(result: evaluation.CaseResult) -> list[str]:
     """Return one line with the changed parameters of a case, none where nothing differs."""
     changed = changed_parameters(result.parts)
     return [f"changed parameters: {'; '.join(changed)}"] if changed else []
 
 
-def base_word(part: EffectivePart) -> str:
+def base_word(part: evaluation.EffectivePart) -> str:
     """Return what the values are called that a part is held against."""
     if part.based_on is None:
         return "default"
     return part.based_on if part.based_on.endswith(_PATHS) else "library"
 
 
-def _own_root(part: EffectivePart) -> str:
+def _own_root(part: evaluation.EffectivePart) -> str:
     """Return that a part does not go back to the library, and to which file of its user; else nothing."""
     if not part.name or base_word(part) == "library":
         return ""
     return f"own part based on {part.based_on}" if part.based_on else "own part"
 
 
-def _differences(part: EffectivePart, varied: Collection[str]) -> Iterator[str]:
+def _differences(part: evaluation.EffectivePart, varied: Collection[str]) -> Iterator[str]:
     # The limits of a profile, which has no key, stand beside every verdict.
     if part.key and part.key not in varied and (own := _own_root(part)):
         yield f"{part.key} {part.name} ({own})"
     yield from _changes(part, "", varied)
 
 
-def _changes(part: EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
+def _changes(part: evaluation.EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
     for parameter in (each for each in part.changed if each.key not in varied):
         key = parameter.key.removeprefix(f"{above}.")
         yield f"{key} {parameter.written} ({base_word(part)}: {parameter.library_written or 'none'})"
@@ -74,7 +73,7 @@ def _changes(part: EffectivePart, above: str, varied: Collection[str] = ()) -> I
         yield f"{key.removeprefix(f'{above}.')} removed"
 
 
-def _setting(parts: Mapping[str, EffectivePart]) -> str:
+def _setting(parts: Mapping[str, evaluation.EffectivePart]) -> str:
     settings = {each.key: each.written for each in parts["scenario.rig"].parameters}
     if settings["rig.topology"] == "four-caliper":
         return "not in use with four calipers"

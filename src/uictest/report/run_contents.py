@@ -8,13 +8,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from uictest import evaluation, recording
 from uictest.report.baseline import BaselineComparison
+from uictest.report.case_description import CaseDescription
 from uictest.report.content import RunContent
 from uictest.report.run_report import RECORDINGS, RESULTS
-from uictest.report.subject import Subject
 
 if TYPE_CHECKING:
-    from uictest.report.page import Trace
+    from uictest.report.traces.trace import Trace
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:
@@ -36,11 +37,11 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
 
 def run_content(document: Mapping[str, Any], name: str) -> RunContent:
     """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
-    from uictest.evaluation import results_of
-
     try:
-        results = results_of(document)
-        subjects = {name: Subject.from_dict(each) for name, each in document.get("subjects", {}).items()}
+        results = evaluation.results_of(document)
+        subjects = {
+            name: CaseDescription.from_dict(each) for name, each in document.get("subjects", {}).items()
+        }
         manifest: Any = dict(document.get("manifest", {}))
         baseline = BaselineComparison.from_dict(each) if (each := document.get("baseline")) else None
     except (ValueError, KeyError, AttributeError, TypeError) as error:
@@ -54,8 +55,9 @@ def read_traces(folder: Path, case_ids: Sequence[str]) -> dict[str, Trace]:
 
     Raises OSError, and ValueError where a recording is none.
     """
-    from uictest.recording import read_parquet
-    from uictest.report.page import trace_of
+    from uictest.report.traces.trace import trace_of
 
     paths = {case_id: folder / RECORDINGS / f"{case_id}.parquet" for case_id in case_ids}
-    return {case_id: trace_of(read_parquet(path)) for case_id, path in paths.items() if path.is_file()}
+    return {
+        case_id: trace_of(recording.read_parquet(path)) for case_id, path in paths.items() if path.is_file()
+    }

@@ -7,15 +7,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from uictest import evaluation
 from uictest.report.junit import junit_xml
 from uictest.report.manifest import digest
 from uictest.report.tables import criteria_csv, summary_csv, wheelsets_csv
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.recording import Recording
     from uictest.report.baseline import BaselineComparison
-    from uictest.report.subject import Subject
+    from uictest.report.case_description import CaseDescription
 
 RESULTS = "results.json"
 RECORDINGS = "recordings"
@@ -28,11 +28,11 @@ def run_name(started: datetime, manifest: Mapping[str, Any]) -> str:
 
 def write_reports(
     folder: Path,
-    results: Sequence[CaseResult],
+    results: Sequence[evaluation.CaseResult],
     manifest: Mapping[str, Any],
     *,
     complete: bool,
-    subjects: Mapping[str, Subject] | None = None,
+    subjects: Mapping[str, CaseDescription] | None = None,
     baseline: BaselineComparison | None = None,
 ) -> str:
     """Write manifest, tables, results and JUnit into the folder, and return the text of results.json.
@@ -40,16 +40,15 @@ def write_reports(
     `complete` is False where selected cases are missing from the results; `subjects` says what cases are
     about, by id; `baseline` how the run compares with its baseline. Raises OSError.
     """
-    from uictest.evaluation import result_document, to_json
     from uictest.recording import write_text_atomic
 
     about = {case_id: subject.to_dict() for case_id, subject in (subjects or {}).items()}
     header = {"manifest": dict(manifest), "complete": complete, "subjects": about}
     if baseline is not None:
         header["baseline"] = baseline.to_dict()
-    document = _encodable(to_json(result_document(results, **header)))
+    document = _encodable(evaluation.to_json(evaluation.result_document(results, **header)))
     texts = {
-        "manifest.json": _encodable(to_json(dict(manifest))),
+        "manifest.json": _encodable(evaluation.to_json(dict(manifest))),
         **csv_files(results),
         RESULTS: document,
         "junit.xml": junit_xml(results, baseline),
@@ -59,7 +58,7 @@ def write_reports(
     return document
 
 
-def csv_files(results: Sequence[CaseResult]) -> dict[str, str]:
+def csv_files(results: Sequence[evaluation.CaseResult]) -> dict[str, str]:
     """Return the three tables under the names of their files."""
     return {
         "summary.csv": summary_csv(results),

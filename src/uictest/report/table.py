@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.text_table import Column, columns_not_shown, fitted
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-    from uictest.evaluation import CaseResult
     from uictest.report.content import RunContent
 
 _STYLES = {"met": "green", "MISSED": "bold red", "ERROR": "bold magenta", DIFFERS: "bold red"}
@@ -32,7 +32,7 @@ ALL_COLUMNS = "summary.csv and wheelsets.csv have all figures"
 
 
 def verdict_table(
-    results: Sequence[CaseResult], word: Callable[[CaseResult], str], width: int
+    results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str], width: int
 ) -> tuple[Table, str]:
     """Return the table of all cases in so many characters, and a line that says which columns gave way.
 
@@ -55,7 +55,9 @@ def verdict_table(
     return table, columns_not_shown(given_way, ALL_COLUMNS)
 
 
-def _columns(results: Sequence[CaseResult], word: Callable[[CaseResult], str]) -> list[Column]:
+def _columns(
+    results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str]
+) -> list[Column]:
     columns = [
         Column("case", [printable(result.id) for result in results], wraps=True),
         Column("verdict", list(map(word, results))),
@@ -71,11 +73,13 @@ def _columns(results: Sequence[CaseResult], word: Callable[[CaseResult], str]) -
     return columns
 
 
-def _largest(result: CaseResult, figure: str) -> float | None:
+def _largest(result: evaluation.CaseResult, figure: str) -> float | None:
     return max((getattr(wheelset, figure) for wheelset in result.wheelsets), default=None)
 
 
-def explanation_text(content: RunContent, result: CaseResult, *, every_criterion: bool = False) -> Text:
+def explanation_text(
+    content: RunContent, result: evaluation.CaseResult, *, every_criterion: bool = False
+) -> Text:
     """Return why a case came out as it did, or what every criterion found, as lines below its id."""
     from rich.text import Text
 

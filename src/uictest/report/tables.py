@@ -4,54 +4,58 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from uictest import evaluation
 from uictest.report.csv_table import Cell, csv_text
 from uictest.report.parameters import changed_parameters
 from uictest.report.wording import definition_sentence
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
 
 CHANGED = "changed_parameters"
 CRITERION_FIELDS = ("layer", "verdict", "value", "unit", "lower", "upper", "margin", "reason")
 
 
-def summary_csv(results: Sequence[CaseResult]) -> str:
+def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
     """Return one row per case: swept parameters (as written), outcome, changed parameters, measures."""
-    from uictest.evaluation import Figures
-
     keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
-    columns = ["id", "scenario", *keys, "expect", "outcome", "met", "reason", CHANGED, *_names(Figures)]
+    columns = [
+        "id",
+        "scenario",
+        *keys,
+        "expect",
+        "outcome",
+        "met",
+        "reason",
+        CHANGED,
+        *_names(evaluation.CaseMeasures),
+    ]
     return csv_text(columns, map(_summary_row, results))
 
 
-def wheelsets_csv(results: Sequence[CaseResult]) -> str:
+def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
     """Return one row per case and wheelset; wheelset 1 leads."""
-    from uictest.evaluation import WheelsetFigures
-
-    return csv_text(["id", "wheelset", *_names(WheelsetFigures)], _wheelset_rows(results))
+    return csv_text(["id", "wheelset", *_names(evaluation.CaseWheelsetMeasures)], _wheelset_rows(results))
 
 
-def criteria_csv(results: Sequence[CaseResult]) -> str:
+def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
     """Return one row per case and criterion, with the definitions its verdict rests on."""
     return csv_text(["id", "criterion", *CRITERION_FIELDS, "definition"], _criterion_rows(results))
 
 
-def _summary_row(result: CaseResult) -> dict[str, Cell]:
+def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
     own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
     measures = dataclasses.asdict(result.measures) if result.measures is not None else {}
     return {**parameters, **own, CHANGED: "; ".join(changed_parameters(result.parts)), **measures}
 
 
-def _wheelset_rows(results: Sequence[CaseResult]) -> Iterator[dict[str, Cell]]:
+def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
             yield {"id": result.id, "wheelset": position, **dataclasses.asdict(wheelset)}
 
 
-def _criterion_rows(results: Sequence[CaseResult]) -> Iterator[dict[str, Cell]]:
+def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for verdict in result.criteria:
             fields = {name: getattr(verdict, name) for name in CRITERION_FIELDS}

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.escaping import printable
-
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, Verdict
 
 DIFFERS = "DIFFERS"
 """The word for a case that meets its expectation and differs from the baseline."""
@@ -27,7 +24,7 @@ def quantity(value: float | None, unit: str) -> str:
     return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
 
 
-def limits(verdict: Verdict) -> str:
+def limits(verdict: evaluation.Verdict) -> str:
     """Return the limits of a criterion, e.g. `limits 440 .. 490 m`, `lower limit 35 %`, `no limit`."""
     if verdict.lower is not None and verdict.upper is not None:
         return f"limits {number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
@@ -38,7 +35,7 @@ def limits(verdict: Verdict) -> str:
     return "no limit"
 
 
-def value_and_limits(verdict: Verdict) -> str:
+def value_and_limits(verdict: evaluation.Verdict) -> str:
     """Return what a criterion found beside its limits, e.g. `0.3 %, upper limit 0.1 %`."""
     return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict)}"
 
@@ -46,24 +43,24 @@ def value_and_limits(verdict: Verdict) -> str:
 _MOST_URGENT = ("fail", "inconclusive", "pass", "not_applicable")
 
 
-def failing_first(verdicts: Iterable[Verdict]) -> list[Verdict]:
+def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
     """Return verdicts with the failing ones first, then the inconclusive ones, then those that passed."""
     return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.verdict))
 
 
-def verdict_sentence(verdict: Verdict) -> str:
+def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return one line that says what a criterion found: verdict and reason, or value, limits and margin."""
     value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
     found = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
     return printable(f"{verdict.id} ({verdict.layer}) {verdict.verdict.replace('_', ' ')}: {found}")
 
 
-def definition_sentence(verdict: Verdict) -> str:
+def definition_sentence(verdict: evaluation.Verdict) -> str:
     """Return the definitions a verdict rests on, e.g. `first_phase_duration = 3 s`, or an empty text."""
     return printable(", ".join(f"{name} = {text}" for name, text in verdict.definition.items()))
 
 
-def explanation(result: CaseResult) -> list[str]:
+def explanation(result: evaluation.CaseResult) -> list[str]:
     """Return why a case came out as it did: expectation, reason, and each criterion that decided it."""
     deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
     # With criteria the reason of a result repeats theirs; without any it is all there is.
@@ -71,7 +68,7 @@ def explanation(result: CaseResult) -> list[str]:
     return [f"expected {result.expect}, came out {result.outcome}", *reason, *deciding]
 
 
-def criterion_sentences(result: CaseResult) -> Iterator[str]:
+def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
     """Yield what each criterion found, failing ones first, and how firmly it stands on its definitions."""
     for verdict in failing_first(result.criteria):
         yield verdict_sentence(verdict)
@@ -79,21 +76,21 @@ def criterion_sentences(result: CaseResult) -> Iterator[str]:
             yield printable(f"{verdict.id}: {sensitivity}")
 
 
-def _deciding(result: CaseResult) -> Iterator[Verdict]:
+def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     for verdict in result.criteria:
         undecided = verdict.verdict == "inconclusive" and result.outcome == "inconclusive"
         if verdict.verdict == "fail" or undecided or result.outcome == "skipped":
             yield verdict
 
 
-def verdict_word(result: CaseResult) -> str:
+def verdict_word(result: evaluation.CaseResult) -> str:
     """Return `met`, `MISSED` or `ERROR`: how a case stands to its expectation."""
     if result.outcome == "error":
         return "ERROR"
     return "met" if result.met else "MISSED"
 
 
-def tally(results: Iterable[CaseResult], differing: Container[str] = ()) -> str:
+def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = ()) -> str:
     """Return the counts of a run, e.g. `12 cases: 9 met, 3 missed (1 inconclusive)`.
 
     A case that is met counts as different where its id is among those `differing` from the baseline.

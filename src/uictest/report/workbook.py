@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from uictest import evaluation
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.parameters import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
@@ -15,7 +16,6 @@ from uictest.report.tables import CHANGED, CRITERION_FIELDS
 from uictest.report.wording import definition_sentence
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, EffectivePart
     from uictest.report.content import RunContent
     from uictest.report.difference import Difference
 
@@ -48,13 +48,13 @@ def _cases(content: RunContent) -> Iterator[Row]:
         yield {"case": result.id, **about, **result_row(result), **_against_baseline(content, result)}
 
 
-def _against_baseline(content: RunContent, result: CaseResult) -> Row:
+def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row:
     if content.baseline is None:
         return {}
     return {"baseline": "differs" if content.differences(result.id) else "agrees"}
 
 
-def result_row(result: CaseResult) -> Row:
+def result_row(result: evaluation.CaseResult) -> Row:
     """Return how a case came out, its figures, its parameters and the reason."""
     row: Row = {"met": "met" if result.met else "missed"}
     row |= {"outcome": result.outcome, "expect": result.expect}
@@ -108,15 +108,13 @@ def _parts(content: RunContent) -> dict[str, list[Row]]:
     }
 
 
-def _part_ids(result: CaseResult) -> Row:
+def _part_ids(result: evaluation.CaseResult) -> Row:
     return {role: part.id for role, part in result.parts.items()}
 
 
-def parameter_rows(cases: Iterable[Mapping[str, EffectivePart]]) -> Iterator[Row]:
+def parameter_rows(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> Iterator[Row]:
     """Yield every parameter of every distinct part of some cases."""
-    from uictest.evaluation import parts_table
-
-    for part_id, part in parts_table(cases).items():
+    for part_id, part in evaluation.parts_table(cases).items():
         own: Row = {"part": part_id, "name": part.name, "based on": part.based_on}
         for each in part.parameters:
             row = own | {"parameter": each.key, "value": each.value, "unit": each.unit}

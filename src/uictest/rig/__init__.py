@@ -1,6 +1,5 @@
 """The rig: parts coupled, stepped from the brake command to standstill."""
 
-from uictest.rig.native import is_warm
-from uictest.rig.simulate import Stop, simulate
+import lazy_loader
 
-__all__ = ["Stop", "is_warm", "simulate"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import ALGORITHMS
-from uictest.physics.caliper import stiffnesses
-from uictest.physics.flow import orifice_law
+from uictest.physics import orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled
-from uictest.rig.records import PARAMETERS
+from uictest.rig.model.records import PARAMETERS
 from uictest.scenario import Case, Scenario
 
 STANDARD_GRAVITY = 9.80665
@@ -27,7 +26,7 @@ def assemble(case: Case) -> tuple[Any, NDArray[np.float64]]:
     """Return the parameter record of a case and the friction laws of its rail.
 
     Returns:
-        A record of :data:`~uictest.rig.records.PARAMETERS` and an array of shape (4, n): places in m,
+        A record of :data:`~uictest.rig.model.records.PARAMETERS` and an array of shape (4, n): places in m,
         friction coefficients there, times in s, factors then.
     """
     scenario = case.scenario

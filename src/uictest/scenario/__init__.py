@@ -1,23 +1,5 @@
 """What a user writes: scenario files, read with positions, checked, and expanded into cases."""
 
-from uictest.scenario.case import Case
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors
-from uictest.scenario.json_schema import json_schema
-from uictest.scenario.library_parts import Number, load_part, load_part_file, numbers
-from uictest.scenario.loading import load
-from uictest.scenario.model import Scenario
-from uictest.scenario.quantities import Quantity
+import lazy_loader
 
-__all__ = [
-    "Case",
-    "Diagnostic",
-    "Number",
-    "Quantity",
-    "Scenario",
-    "ScenarioErrors",
-    "json_schema",
-    "load",
-    "load_part",
-    "load_part_file",
-    "numbers",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -5,10 +5,16 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
-from uictest.scenario.reading import nowhere, refuse_unreadable
 from uictest.scenario.references import KIND_OF_FOLDER, Files, trust_hint
-from uictest.scenario.tree import Map, Scalar
+from uictest.scenario.yaml import (
+    Diagnostic,
+    Map,
+    Scalar,
+    ScenarioErrors,
+    diagnose,
+    unreadable_error,
+    whole_file,
+)
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
 _OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map")
@@ -46,7 +52,7 @@ def scenario_trees(
 
 def link_outside(path: Path) -> Diagnostic:
     """What to say of a file in a given folder that is a link to somewhere else: it is not read."""
-    return diagnose(nowhere(path), "a link that leads out of the folders given", hint=trust_hint(path))
+    return diagnose(whole_file(path), "a link that leads out of the folders given", hint=trust_hint(path))
 
 
 def _candidates(paths: Sequence[Path], found: list[Diagnostic]) -> Iterator[tuple[Path, bool]]:
@@ -60,7 +66,7 @@ def _candidates(paths: Sequence[Path], found: list[Diagnostic]) -> Iterator[tupl
 
 def _below(folder: Path, found: list[Diagnostic]) -> list[Path]:
     def report(error: OSError) -> None:
-        found.extend(refuse_unreadable(nowhere(Path(error.filename or folder)), error).diagnostics)
+        found.extend(unreadable_error(whole_file(Path(error.filename or folder)), error).diagnostics)
 
     inside: list[Path] = []
     for parent, folders, names in os.walk(folder, onerror=report):

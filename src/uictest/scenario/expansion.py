@@ -6,12 +6,23 @@ from itertools import chain, product
 from math import prod
 from typing import Final
 
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
-from uictest.scenario.tree import Entry, Map, Node, Scalar, Sequence, as_written, describe
-from uictest.scenario.wording import quoted, suggestion
+from uictest.scenario.yaml import (
+    Diagnostic,
+    Entry,
+    Map,
+    Node,
+    Scalar,
+    ScenarioErrors,
+    Sequence,
+    as_written,
+    describe,
+    diagnose,
+    quoted,
+    suggestion,
+)
 
 MOST_CASES: Final = 10_000
-SECTIONS: Final = ("matrix", "zip", "include", "exclude")
+EXPANSION_KEYS: Final = ("matrix", "zip", "include", "exclude")
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,5 +241,5 @@ def _comparable(node: Node) -> object:
 
 
 def _none_left(tree: Map) -> Diagnostic:
-    entry = next(tree.entries[section] for section in reversed(SECTIONS) if section in tree.entries)
+    entry = next(tree.entries[section] for section in reversed(EXPANSION_KEYS) if section in tree.entries)
     return diagnose(entry.key, "no case is left")

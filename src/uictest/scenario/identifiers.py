@@ -6,7 +6,7 @@ from typing import Final
 
 from uictest.scenario.expansion import Setting, Variant
 from uictest.scenario.references import is_path
-from uictest.scenario.tree import Map, Scalar
+from uictest.scenario.yaml import Map, Scalar
 
 LONGEST: Final = 200
 """Longest id: with an extension it must still be a file name everywhere."""

@@ -5,9 +5,8 @@ from typing import Any, Final
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.scenario.model import Scenario
-from uictest.scenario.physical import QUANTITY_KEYWORD, Physical, written
-from uictest.scenario.quantities import Quantity
-from uictest.scenario.units import KINDS
+from uictest.scenario.yaml import QUANTITY_KEYWORD, Physical, Quantity, written
+from uictest.units import KINDS
 
 SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"
 _DEFINITIONS: Final = "#/definitions/"

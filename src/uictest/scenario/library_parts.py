@@ -4,14 +4,21 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from uictest.scenario.diagnostics import refusal
 from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.parts.model import Key, Part, Source, quantities_in
-from uictest.scenario.quantities import Quantity
 from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, folder_of
 from uictest.scenario.roots import Roots
-from uictest.scenario.tree import Document, Place, Scalar
-from uictest.scenario.wording import quoted
+from uictest.scenario.yaml import (
+    Document,
+    Key,
+    Part,
+    Place,
+    Quantity,
+    Scalar,
+    Source,
+    quantities_in,
+    quoted,
+    single_error,
+)
 
 
 class Number(NamedTuple):
@@ -35,7 +42,9 @@ def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
     if not isinstance(schema, Scalar) or schema.text not in models:
         found = quoted(schema.text) if isinstance(schema, Scalar) else "none"
         place = tree.place if schema is None else schema.place
-        raise refusal(place, f"not a part: its schema is {found}", "schema", f"accepted: {', '.join(models)}")
+        raise single_error(
+            place, f"not a part: its schema is {found}", "schema", f"accepted: {', '.join(models)}"
+        )
     name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
     part: Part = Parts(files).resolve(name, models[schema.text], ()).part
     return part

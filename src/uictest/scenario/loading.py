@@ -5,24 +5,36 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from uictest.scenario.assignment import with_value
 from uictest.scenario.case import Case
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, in_reading_order, refusal
 from uictest.scenario.discovery import scenario_trees
-from uictest.scenario.expansion import SECTIONS, Variant, distinct, expand_sound
+from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_sound
 from uictest.scenario.identifiers import LONGEST, case_id, short_keys
-from uictest.scenario.inheritance import inherit
 from uictest.scenario.model import SCENARIO_SCHEMA
-from uictest.scenario.overrides import Override, apply_overrides, parse_overrides
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.rail_friction import changed_alone, overridden_alone
-from uictest.scenario.reading import display_name
 from uictest.scenario.references import Files, Parts
 from uictest.scenario.resolution import resolve
 from uictest.scenario.roots import Roots
-from uictest.scenario.tree import Document, Map, Node, Scalar, as_written, describe
-from uictest.scenario.validation import dotted
-from uictest.scenario.wording import quoted
+from uictest.scenario.yaml import (
+    Diagnostic,
+    Document,
+    Map,
+    Node,
+    Override,
+    Scalar,
+    ScenarioErrors,
+    apply_overrides,
+    as_written,
+    describe,
+    display_name,
+    dotted,
+    in_reading_order,
+    inherit,
+    parse_overrides,
+    quoted,
+    single_error,
+    with_value,
+)
 
 _DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
@@ -97,7 +109,7 @@ class _Loader:
         merged = with_default_parts(merged)
         self.found.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
         merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
-        base = merged.without(*SECTIONS)
+        base = merged.without(*EXPANSION_KEYS)
         # Errors of the sweep do not hide those of its values: what is sound is checked all the same.
         variants = expand_sound(merged, self.found)
         if self.overrides:
@@ -139,13 +151,13 @@ class _Loader:
         name = stem.tree.entries["name"].node.place
         place = variant[-1].value.node.place if variant else name
         if len(identifier) > LONGEST:
-            raise refusal(
+            raise single_error(
                 place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
             )
         other = self.taken.setdefault(identifier, stem)
         if other is not stem:
             message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
-            raise refusal(name, message, "name", "give every scenario a name of its own")
+            raise single_error(name, message, "name", "give every scenario a name of its own")
         if identifier in stem.ids:
             raise _refuse_second(identifier, variant, stem.ids[identifier])
         stem.ids[identifier] = variant
@@ -162,7 +174,7 @@ def _refuse_second(identifier: str, variant: Variant, first: Variant) -> Scenari
     if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
         message, key = _twice(setting.value.node, twin.value.node), setting.key
     hint = f"take one out; the first stands in line {twin.value.node.place.line}"
-    return refusal(setting.value.node.place, message, key, hint)
+    return single_error(setting.value.node.place, message, key, hint)
 
 
 def _twice(node: Node, twin: Node) -> str:
@@ -180,11 +192,11 @@ _COMMANDS = {
 def _refuse_other_schema(tree: Map) -> None:
     schema = tree.get("schema")
     if schema is None:
-        raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
+        raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
     if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
         found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
         hint = _COMMANDS.get(schema.text, "") if isinstance(schema, Scalar) else ""
-        raise refusal(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema", hint)
+        raise single_error(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema", hint)
 
 
 def _inputs(documents: Iterable[Document]) -> dict[str, str]:

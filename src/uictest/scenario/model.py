@@ -6,29 +6,35 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.physics import LONGEST_DELAY_CYCLES
 from uictest.scenario.braking import (
     STANDARD_GRAVITY,
     braking_force,
     largest_clamping_force,
     stopping_time_at_least,
 )
-from uictest.scenario.friction import FactorProfile, FrictionProfile
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.controller import Controller
 from uictest.scenario.parts.criteria import Criteria
+from uictest.scenario.parts.friction import FactorProfile, FrictionProfile
 from uictest.scenario.parts.measures import MeasureDefinitions
-from uictest.scenario.parts.model import Contradiction, Model
 from uictest.scenario.parts.rail import Friction, RailCondition
 from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.parts.vehicle import Vehicle
-from uictest.scenario.physical import default, kind
-from uictest.scenario.quantities import DEFAULT_SOURCE, Quantity
-from uictest.scenario.reference_schema import PartReference
 from uictest.scenario.stability import longest_step
-from uictest.scenario.wording import quoted, suggestion
+from uictest.scenario.yaml import (
+    DEFAULT_SOURCE,
+    Inconsistency,
+    Model,
+    PartReference,
+    Quantity,
+    default,
+    kind,
+    quoted,
+    suggestion,
+)
 
 SCENARIO_SCHEMA = "uictest/scenario/1"
 SMALLEST_SUM_AT_REST = 1e-12
@@ -54,10 +60,10 @@ class Brake(Model):
         default="R", description="Brake position; one of the positions of the brake system."
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a position that the system does not have."""
         if self.position not in self.system.positions:
-            yield Contradiction(
+            yield Inconsistency(
                 ("position",),
                 f"unknown brake position {quoted(self.position)}",
                 suggestion(self.position, self.system.positions),
@@ -199,11 +205,11 @@ class Scenario(Model):
         default=None, description="Cases to leave out: those with exactly these values."
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield steps that do not fit the controller and stops that cannot end in time."""
         steps = self.controller.cycle_time / self.simulation.time_step
         if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
-            yield Contradiction(
+            yield Inconsistency(
                 ("simulation", "time_step"),
                 f"{self.simulation.time_step.text} does not divide the controller cycle of"
                 f" {self.controller.cycle_time.text}",
@@ -212,7 +218,7 @@ class Scenario(Model):
         yield from self._unresolved_cylinder()
         yield from self._criteria_of_the_same_name()
         if not self.tank_volume_with_caliper > 0.0:
-            yield Contradiction(
+            yield Inconsistency(
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
         yield from self._delay_too_long()
@@ -224,30 +230,30 @@ class Scenario(Model):
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)
 
-    def _delay_too_long(self) -> Iterator[Contradiction]:
+    def _delay_too_long(self) -> Iterator[Inconsistency]:
         """Yield a switching delay of the valve that is longer than the rig remembers commands."""
         delay, cycle = self.brake.system.wsp_valve.switching_delay, self.controller.cycle_time
         step = self.simulation.time_step
         if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
-            yield Contradiction(
+            yield Inconsistency(
                 ("brake", "system", "wsp_valve", "switching_delay"),
                 f"{delay.text} is too long for controller cycles of {cycle.text}",
                 f"less than {LONGEST_DELAY_CYCLES + 1} cycles are accepted",
             )
 
-    def _step_too_long(self) -> Iterator[Contradiction]:
+    def _step_too_long(self) -> Iterator[Inconsistency]:
         """Yield a step that cannot follow the car on its springs and dampers."""
         longest, motion = longest_step(self.vehicle)
         if self.simulation.time_step > longest:
             step = self.simulation.time_step
-            yield Contradiction(
+            yield Inconsistency(
                 ("vehicle",) if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
                 f"a step of {step.text} is too long for {motion}: the simulation would be unstable",
                 f"check masses, stiffness and damping; with these simulation.time_step must be at most"
                 f" {longest * 1000.0:.3g} ms",
             )
 
-    def _brake_too_strong(self) -> Iterator[Contradiction]:
+    def _brake_too_strong(self) -> Iterator[Inconsistency]:
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
         position = self.brake.system.positions.get(self.brake.position)
         if position is None:
@@ -256,20 +262,20 @@ class Scenario(Model):
         force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
         deceleration = braking_force(self.brake.system.disc, self.vehicle, force) / self.vehicle.total_mass
         if deceleration > STANDARD_GRAVITY:
-            yield Contradiction(
+            yield Inconsistency(
                 ("brake",),
                 f"the brake would slow this car of {self.vehicle.total_mass / 1000.0:.4g} t by"
                 f" {deceleration:.3g} m/s2; no rail carries more than {STANDARD_GRAVITY:.3g} m/s2",
                 "compare disc, caliper, compensation_model and maximum_pressure with the mass of the vehicle",
             )
 
-    def _criteria_of_the_same_name(self) -> Iterator[Contradiction]:
+    def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
         """Yield criteria whose verdicts could not be told apart since another profile has one of that id."""
         profile_of: dict[str, str] = {}
         for number, profile in enumerate(self.criteria):
             for index, criterion in enumerate(profile.criteria):
                 if criterion.id in profile_of:
-                    yield Contradiction(
+                    yield Inconsistency(
                         ("criteria", number, "criteria", index, "id"),
                         f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
                         f" {quoted(profile_of[criterion.id])}, too",
@@ -277,20 +283,20 @@ class Scenario(Model):
                     )
             profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
 
-    def _stop_without_end(self, shortest: float) -> Contradiction:
+    def _stop_without_end(self, shortest: float) -> Inconsistency:
         limit = self.simulation.maximum_duration
         least = (
             "this car never stops"
             if shortest == math.inf
             else f"no brake stops this car within {shortest:.0f} s"
         )
-        return Contradiction(
+        return Inconsistency(
             ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
             f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
             f"{least} with friction {self.rail.highest_friction:g} and this gradient",
         )
 
-    def _unresolved_cylinder(self) -> Iterator[Contradiction]:
+    def _unresolved_cylinder(self) -> Iterator[Inconsistency]:
         """Yield a step at which double precision cannot hold the gain at rest of the cylinder dynamics.
 
         The gain is a quotient of sums that shrink with the third power of the step.
@@ -299,7 +305,7 @@ class Scenario(Model):
         shrink = (self.simulation.time_step / model.sampling_time) ** 3
         sum_at_rest = shrink * (1.0 + math.fsum(model.cylinder.denominator))
         if self.rig.compensation in ("cylinder", "full") and sum_at_rest < SMALLEST_SUM_AT_REST:
-            yield Contradiction(
+            yield Inconsistency(
                 ("simulation", "time_step"),
                 f"{self.simulation.time_step.text} is too short for the cylinder dynamics identified at"
                 f" {model.sampling_time.text}: double precision cannot hold their gain at rest",

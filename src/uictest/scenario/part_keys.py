@@ -4,10 +4,7 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from uictest.scenario.model import Scenario
-from uictest.scenario.model_keys import models_in
-from uictest.scenario.parts.model import Key
-from uictest.scenario.reference_schema import PartReference
-from uictest.scenario.tree import Entry, Map, Node, Scalar
+from uictest.scenario.yaml import Entry, Key, Map, Node, PartReference, Scalar, models_in
 
 
 def _references(model: Any, above: Key = ()) -> Iterator[tuple[Key, PartReference]]:

@@ -3,14 +3,24 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from uictest.scenario.assignment import with_value
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, diagnose
-from uictest.scenario.expansion import SECTIONS
-from uictest.scenario.overrides import Override
+from uictest.scenario.expansion import EXPANSION_KEYS
 from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.tree import COMMAND_LINE, Entry, Map, Node, Scalar, as_written
-from uictest.scenario.tree import Sequence as List
-from uictest.scenario.wording import quoted, visible
+from uictest.scenario.yaml import (
+    COMMAND_LINE,
+    Diagnostic,
+    Entry,
+    Map,
+    Node,
+    Override,
+    Scalar,
+    ScenarioErrors,
+    Sequence as List,
+    as_written,
+    diagnose,
+    quoted,
+    visible,
+    with_value,
+)
 
 FRICTION: Final = "rail.friction"
 CONDITION: Final = "rail.condition"
@@ -81,7 +91,7 @@ def _text(node: Node | None) -> str:
 
 
 def _swept_friction(tree: Map) -> Iterator[Node]:
-    for section in SECTIONS[:-1]:
+    for section in EXPANSION_KEYS[:-1]:
         yield from _frictions(tree.get(section))
 
 

@@ -7,15 +7,30 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, Final
 
 from uictest import library
-from uictest.scenario.diagnostics import ScenarioErrors, refusal
-from uictest.scenario.inheritance import inherit
-from uictest.scenario.model_keys import models_in
-from uictest.scenario.parts.model import Key
-from uictest.scenario.reading import LIBRARY, is_file, read_file, read_library
 from uictest.scenario.roots import Roots, real
-from uictest.scenario.tree import COMMAND_LINE, Document, Map, Node, Scalar, describe, plain
-from uictest.scenario.validation import validated
-from uictest.scenario.wording import nearest, quoted, suggestion, visible
+from uictest.scenario.yaml import (
+    COMMAND_LINE,
+    LIBRARY,
+    Document,
+    Key,
+    Map,
+    Node,
+    Scalar,
+    ScenarioErrors,
+    describe,
+    inherit,
+    is_file,
+    models_in,
+    nearest,
+    plain,
+    quoted,
+    read_file,
+    read_library,
+    single_error,
+    suggestion,
+    validated,
+    visible,
+)
 
 KIND_OF_FOLDER: Final = {
     "brakes": "brake",
@@ -57,7 +72,7 @@ class Files:
         """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
         path = self.path_of(reference, key)
         if not is_file(path):
-            raise refusal(
+            raise single_error(
                 reference.place, f"no such file: {quoted(reference.text)}", key, _nearest_file(path)
             )
         return self.at(path)
@@ -71,14 +86,14 @@ class Files:
         name = reference.text
         if Path(name).is_absolute() or PureWindowsPath(name).is_absolute():
             hint = "write it relative to the file that names it, so that it holds on every machine"
-            raise refusal(reference.place, f"{quoted(name)} is an absolute path", key, hint)
+            raise single_error(reference.place, f"{quoted(name)} is an absolute path", key, hint)
         folder = reference.place.document.folder
         path = folder / name
         if reference.place.document.display == COMMAND_LINE:
             self.roots = self.roots.with_folder(path.parent)
         elif not self.roots.contain(path):
             message = f"{quoted(name)} leads out of {visible(str(self.roots.around(folder)))}"
-            raise refusal(reference.place, message, key, trust_hint(path))
+            raise single_error(reference.place, message, key, trust_hint(path))
         return path
 
     def _once(self, name: str, read: Callable[[], Map]) -> Map:
@@ -120,7 +135,7 @@ class Parts:
             return self._resolve_inline(node, model, key)
         if not isinstance(node, Scalar) or not isinstance(node.value, str):
             message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
-            raise refusal(node.place, message, dotted)
+            raise single_error(node.place, message, dotted)
         if is_path(node.text):
             return self._made(self._fetch(node, model, dotted), model, (), dotted)
         name = (folder_of(model), node.text)
@@ -191,7 +206,7 @@ def _refuse_unknown_name(reference: Scalar, folder: str, dotted: str) -> None:
     hint = suggestion(reference.text, library.names(folder))
     if "/" in reference.text or "\\" in reference.text:
         hint = "a path ends in .yaml; " + hint
-    raise refusal(
+    raise single_error(
         reference.place, f"no {KIND_OF_FOLDER[folder]} {quoted(reference.text)} in the library", dotted, hint
     )
 
@@ -199,7 +214,7 @@ def _refuse_unknown_name(reference: Scalar, folder: str, dotted: str) -> None:
 def _refuse_other_schema(tree: Map, expected: str) -> None:
     schema = tree.get("schema")
     if schema is None:
-        raise refusal(tree.place, "missing key 'schema'", "schema", f"write `schema: {expected}`")
+        raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {expected}`")
     if not isinstance(schema, Scalar) or schema.value != expected:
         found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        raise refusal(schema.place, f"expected {expected}, found {found}", "schema")
+        raise single_error(schema.place, f"expected {expected}, found {found}", "schema")

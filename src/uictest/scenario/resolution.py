@@ -3,14 +3,22 @@
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.scenario.diagnostics import Diagnostic, ScenarioErrors, refusal
 from uictest.scenario.model import Scenario
 from uictest.scenario.part_keys import PART_KEYS, part_nodes
-from uictest.scenario.parts.model import Key
 from uictest.scenario.references import Parts, Resolved
-from uictest.scenario.tree import Document, Map, Node, plain
-from uictest.scenario.tree import Sequence as List
-from uictest.scenario.validation import dotted, validated
+from uictest.scenario.yaml import (
+    Diagnostic,
+    Document,
+    Key,
+    Map,
+    Node,
+    ScenarioErrors,
+    Sequence as List,
+    dotted,
+    plain,
+    single_error,
+    validated,
+)
 
 
 def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
@@ -43,7 +51,7 @@ def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
     reference = PART_KEYS[key]
     nodes = node.items if reference.several and isinstance(node, List) else (node,)
     if not nodes:
-        raise refusal(node.place, "an empty list", dotted(key), "name at least one")
+        raise single_error(node.place, "an empty list", dotted(key), "name at least one")
     listed = nodes[0] is not node
     resolved = _each(parts, reference.model, key, nodes, listed=listed)
     documents.extend(document for each in resolved for document in each.documents)

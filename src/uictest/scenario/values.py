@@ -5,8 +5,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
-from uictest.scenario.parts.model import Key, Part, Source
-from uictest.scenario.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
+from uictest.scenario.yaml import DEFAULT_SOURCE, SCENARIO_SOURCE, Key, Part, Quantity, Source
 
 Value = Quantity | str | int | float
 

@@ -5,18 +5,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from uictest import evaluation, scenario
 from uictest.studies.figures.appendix_b import draw
-from uictest.studies.laboratory import seeded
-from uictest.studies.quantity import NOT_ASKED, Quantity, Reading, spread
+from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.stop_runner import seeded
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import KILOMETRE_PER_HOUR, shown
 
 if TYPE_CHECKING:
-    from uictest.evaluation import Verdict
     from uictest.recording import Recording
-    from uictest.scenario import Case
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(5)
 
@@ -24,7 +23,7 @@ DISTANCES = (440.0, 490.0)
 SLIDE = 35.0
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "braking_distance",
         "braking distance, position R, dry",
         "m",
@@ -32,7 +31,7 @@ QUANTITIES = (
         *DISTANCES,
         reason="source",
     ),
-    Quantity(
+    StudyQuantity(
         "off_the_middle",
         "its distance from the middle of the band",
         "m",
@@ -40,7 +39,7 @@ QUANTITIES = (
         upper=15.0,
         reason="ours: near the middle",
     ),
-    Quantity(
+    StudyQuantity(
         "initial_adhesion",
         "deceleration in the first phase of the slip-brake test",
         "g",
@@ -50,7 +49,7 @@ QUANTITIES = (
         digits=4,
         reason="source",
     ),
-    Quantity(
+    StudyQuantity(
         "minimum_slide",
         "slide that half of the wheelsets exceed",
         "%",
@@ -61,18 +60,18 @@ QUANTITIES = (
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Judge both stops by the shipped profile of Appendix B."""
-    (dry,) = laboratory.cases("dry-120")
-    (slip,) = laboratory.cases("slip-120")
-    distance = _values(laboratory, dry, "braking-distance", [0])[0]
-    dry_stop, slip_stop = laboratory.recordings([dry, slip], CYCLE)
-    return Findings(
+    (dry,) = stop_runner.cases("dry-120")
+    (slip,) = stop_runner.cases("slip-120")
+    distance = _values(stop_runner, dry, "braking-distance", [0])[0]
+    dry_stop, slip_stop = stop_runner.recordings([dry, slip], CYCLE)
+    return StudyFindings(
         {
-            "braking_distance": Reading(distance),
-            "off_the_middle": Reading(abs(distance - sum(DISTANCES) / 2.0)),
-            "initial_adhesion": spread(_values(laboratory, slip, "initial-adhesion", SEEDS)),
-            "minimum_slide": spread(_values(laboratory, slip, "minimum-slide", SEEDS)),
+            "braking_distance": FoundValue(distance),
+            "off_the_middle": FoundValue(abs(distance - sum(DISTANCES) / 2.0)),
+            "initial_adhesion": spread(_values(stop_runner, slip, "initial-adhesion", SEEDS)),
+            "minimum_slide": spread(_values(stop_runner, slip, "minimum-slide", SEEDS)),
         },
         tables={"dry-stop": _table(dry_stop), "slip-brake-test": _table(slip_stop)},
         drawings={"appendix-b": partial(draw, dry_stop, slip_stop, DISTANCES, SLIDE)},
@@ -86,19 +85,19 @@ def conduct(laboratory: Laboratory) -> Findings:
     )
 
 
-def _values(laboratory: Laboratory, case: Case, criterion: str, seeds: range | list[int]) -> list[float]:
+def _values(
+    stop_runner: StopRunner, case: scenario.Case, criterion: str, seeds: range | list[int]
+) -> list[float]:
     """Return what a criterion found under every seed, in its own unit; NaN where it does not apply."""
-    from uictest.evaluation import judge
-
-    (repeats,) = laboratory.repeated([case], seeds)
+    (repeats,) = stop_runner.repeated([case], seeds)
     found = []
     for seed, stop in zip(seeds, repeats.stops, strict=True):
-        verdicts = judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
+        verdicts = evaluation.judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
         found.append(_value(verdicts, criterion))
     return found
 
 
-def _value(verdicts: list[Verdict], criterion: str) -> float:
+def _value(verdicts: list[evaluation.Verdict], criterion: str) -> float:
     value = next(verdict.value for verdict in verdicts if verdict.id == criterion)
     return float("nan") if value is None else value
 
@@ -120,5 +119,5 @@ STUDY = Study(
     "UIC 541-05 Appendix B: dry stop and slip-brake test from 120 km/h",
     "below 0.08 g in the first phase, slide above 35 % on at least half of the wheelsets, 440-490 m",
     QUANTITIES,
-    conduct,
+    run,
 )

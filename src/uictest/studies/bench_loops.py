@@ -5,15 +5,16 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import lines_of
-from uictest.studies.quantity import Quantity, Reading
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import BAR, KILONEWTON, shown
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 TESTS = ("stepwise", "triangular", "random")
 """Bench recipes of the library: the kinds of pressure are the source's, levels, rates and times are ours."""
@@ -21,7 +22,7 @@ _EVERY = 20
 """Steps between two samples in the table."""
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "loop_width",
         "width of the loop at high force, triangular pressure",
         "bar",
@@ -31,26 +32,24 @@ QUANTITIES = (
         digits=3,
         reason="source, within 0.05 bar",
     ),
-    Quantity("loop_width_stepwise", "the same, stepwise pressure", "bar", digits=3),
-    Quantity("loop_width_random", "the same, random pressure", "bar", digits=3),
-    Quantity("largest_force", "largest clamping force", "kN", digits=2),
+    StudyQuantity("loop_width_stepwise", "the same, stepwise pressure", "bar", digits=3),
+    StudyQuantity("loop_width_random", "the same, random pressure", "bar", digits=3),
+    StudyQuantity("largest_force", "largest clamping force", "kN", digits=2),
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Apply the three pressures to the caliper and find its loop in each."""
-    from uictest.rig.bench_loading import load_bench, recipe_path, run_test
-
-    recipes = [load_bench(recipe_path(name)) for name in TESTS]
-    tests = dict(zip(TESTS, laboratory.each(run_test, recipes), strict=True))
+    recipes = [bench.load_bench(bench.recipe_path(name)) for name in TESTS]
+    tests = dict(zip(TESTS, stop_runner.each(bench.run_test, recipes), strict=True))
     found = {name: lines_of(recording) for name, recording in tests.items()}
     widths = {name: lines.loop_widths["bc"] / BAR for name, lines in found.items()}
-    return Findings(
+    return StudyFindings(
         {
-            "loop_width": Reading(widths["triangular"]),
-            "loop_width_stepwise": Reading(widths["stepwise"]),
-            "loop_width_random": Reading(widths["random"]),
-            "largest_force": Reading(found["triangular"].largest_force / KILONEWTON),
+            "loop_width": FoundValue(widths["triangular"]),
+            "loop_width_stepwise": FoundValue(widths["stepwise"]),
+            "loop_width_random": FoundValue(widths["random"]),
+            "largest_force": FoundValue(found["triangular"].largest_force / KILONEWTON),
         },
         tables={name: _table(recording) for name, recording in tests.items()},
         drawings={"bench-loops": partial(draw, tests, found["triangular"])},
@@ -73,5 +72,5 @@ STUDY = Study(
     "Clamping force against pressure on the bench, three kinds of pressure",
     "WSP bypassed, no vehicle: force against pressure shows hysteresis, about 0.5 bar wide at high force",
     QUANTITIES,
-    conduct,
+    run,
 )

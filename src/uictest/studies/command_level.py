@@ -6,16 +6,16 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from uictest.studies.figures.levels import draw
-from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.slopes import loops, slope_spread, slopes_table
-from uictest.studies.study import Findings, Study
+from uictest.studies.study import Study, StudyFindings
 from uictest.studies.units import KILONEWTON, PERCENT
 
 if TYPE_CHECKING:
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "slope_spread",
         "largest change of a slope among the command levels",
         "%",
@@ -23,19 +23,19 @@ QUANTITIES = (
         upper=5.0,
         reason="ours",
     ),
-    Quantity("force_at_80", "largest clamping force at 80 % command", "kN", digits=2),
-    Quantity("force_at_90", "largest clamping force at 90 % command", "kN", digits=2),
-    Quantity("force_at_100", "largest clamping force at 100 % command", "kN", digits=2),
+    StudyQuantity("force_at_80", "largest clamping force at 80 % command", "kN", digits=2),
+    StudyQuantity("force_at_90", "largest clamping force at 90 % command", "kN", digits=2),
+    StudyQuantity("force_at_100", "largest clamping force at 100 % command", "kN", digits=2),
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Find the slopes at every command level."""
-    found = loops(laboratory, laboratory.cases("wet-80-command"))
-    forces = [Reading(loop.lines.largest_force / KILONEWTON) for loop in found]
-    return Findings(
+    found = loops(stop_runner, stop_runner.cases("wet-80-command"))
+    forces = [FoundValue(loop.lines.largest_force / KILONEWTON) for loop in found]
+    return StudyFindings(
         {
-            "slope_spread": Reading(slope_spread(found) / PERCENT),
+            "slope_spread": FoundValue(slope_spread(found) / PERCENT),
             **dict(zip(("force_at_80", "force_at_90", "force_at_100"), forces, strict=True)),
         },
         tables={"lines": slopes_table(found, "command")},
@@ -48,5 +48,5 @@ STUDY = Study(
     "Force against pressure at 80, 90 and 100 % of the full command",
     "the command level does not change the slopes of force against pressure",
     QUANTITIES,
-    conduct,
+    run,
 )

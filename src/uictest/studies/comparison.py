@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from uictest.studies.quantity import Comparison, Quantity
-    from uictest.studies.study import Conducted, Study, Table
+    from uictest.studies.quantity import PaperComparison, StudyQuantity
+    from uictest.studies.study import Study, StudyResult, Table
 
 
-def found_text(comparison: Comparison) -> str:
+def found_text(comparison: PaperComparison) -> str:
     """Return the figure as found with its range and unit, e.g. `18.1 (17.9 .. 18.3) s`."""
     quantity, found = comparison.quantity, comparison.found
     text = _number(found.value, quantity)
@@ -19,7 +19,7 @@ def found_text(comparison: Comparison) -> str:
     return _with_unit(text, quantity)
 
 
-def band_text(quantity: Quantity) -> str:
+def band_text(quantity: StudyQuantity) -> str:
     """Return the band, e.g. `16.5 .. 19 s`, `< 2 %`, `-` where there is none."""
     if quantity.lower is not None and quantity.upper is not None:
         return _with_unit(f"{quantity.lower:g} .. {quantity.upper:g}", quantity)
@@ -37,22 +37,22 @@ def source_text(study: Study) -> str:
     return f"Figure and table data of the source are not public; its text says: {study.source}."
 
 
-def lines(conducted: Conducted) -> list[str]:
+def lines(result: StudyResult) -> list[str]:
     """Return a study as lines of text: its name and title, a line for every quantity, the notes."""
-    study = conducted.study
+    study = result.study
     shown = [f"{study.name}: {study.title}", f"  {source_text(study)}"]
-    for comparison in conducted.comparisons:
+    for comparison in result.comparisons:
         quantity = comparison.quantity
         parts = [f"{quantity.title}: source {quantity.source}", f"here {found_text(comparison)}"]
         if band_text(quantity) != "-":
             parts.append(f"band {band_text(quantity)} ({quantity.reason})")
         shown.append(f"  {comparison.verdict:6}  " + "; ".join(parts))
-    return shown + [f"  {note}" for note in conducted.findings.notes]
+    return shown + [f"  {note}" for note in result.findings.notes]
 
 
-def comparison_table(conducted: Sequence[Conducted]) -> Table:
+def comparison_table(result: Sequence[StudyResult]) -> Table:
     """Return every comparison of every study as columns."""
-    rows = [(each.study, comparison) for each in conducted for comparison in each.comparisons]
+    rows = [(each.study, comparison) for each in result for comparison in each.comparisons]
     quantities = [comparison.quantity for _, comparison in rows]
     return {
         "study": [study.name for study, _ in rows],
@@ -70,9 +70,9 @@ def comparison_table(conducted: Sequence[Conducted]) -> Table:
     }
 
 
-def _number(value: float, quantity: Quantity) -> str:
+def _number(value: float, quantity: StudyQuantity) -> str:
     return "-" if value != value else f"{value:.{quantity.digits}f}"
 
 
-def _with_unit(text: str, quantity: Quantity) -> str:
+def _with_unit(text: str, quantity: StudyQuantity) -> str:
     return f"{text} {quantity.unit}" if quantity.unit else text

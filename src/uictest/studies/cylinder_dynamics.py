@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.studies.figures.cylinder_dynamics import draw
-from uictest.studies.laboratory import seeded
-from uictest.studies.quantity import Quantity, repeats_note, spread
+from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.stop_runner import seeded
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import BAR, PERCENT, shown
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 
 SEEDS = range(5)
@@ -26,7 +26,7 @@ AFTER = 2.0
 """The source's bound on the error behind the cylinder dynamics, % of maximum pressure."""
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "before",
         "largest difference of tank 2 from cylinder 1",
         "% of maximum pressure",
@@ -36,7 +36,7 @@ QUANTITIES = (
         digits=2,
         reason="ours, about the source's figure",
     ),
-    Quantity(
+    StudyQuantity(
         "after",
         "largest difference behind the cylinder dynamics",
         "% of maximum pressure",
@@ -46,7 +46,7 @@ QUANTITIES = (
         digits=2,
         reason="source",
     ),
-    Quantity(
+    StudyQuantity(
         "ratio",
         "after over before",
         "",
@@ -58,17 +58,17 @@ QUANTITIES = (
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test to both modules."""
-    case = laboratory.cases("slide-80")[0]
+    case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
-    stops = laboratory.recordings(cases, CYCLE)
-    replays = laboratory.each(
+    stops = stop_runner.recordings(cases, CYCLE)
+    replays = stop_runner.each(
         lambda given: replayed(given[0], given[1], 1), list(zip(cases, stops, strict=True))
     )
     top = maximum_pressure(case)
     errors = [largest_errors(recording, top) for recording in replays]
-    return Findings(
+    return StudyFindings(
         {
             "before": spread([before / PERCENT for before, _ in errors]),
             "after": spread([after / PERCENT for _, after in errors]),
@@ -103,5 +103,5 @@ STUDY = Study(
     "Pressure of tank 2 against cylinder 1 before and after the cylinder dynamics",
     "the third-order transfer function cuts the largest pressure error from 7 % to below 2 %",
     QUANTITIES,
-    conduct,
+    run,
 )

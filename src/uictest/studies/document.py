@@ -8,29 +8,29 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from uictest.studies.quantity import Comparison
-    from uictest.studies.study import Conducted
+    from uictest.studies.quantity import PaperComparison
+    from uictest.studies.study import StudyResult
 
 SCHEMA = "uictest/studies/1"
 
 
-def document(conducted: Sequence[Conducted]) -> str:
+def document(result: Sequence[StudyResult]) -> str:
     """Return the document as JSON; a figure that was not found is null."""
-    return json.dumps({"schema": SCHEMA, "studies": [_study(each) for each in conducted]}, indent=2)
+    return json.dumps({"schema": SCHEMA, "studies": [_study(each) for each in result]}, indent=2)
 
 
-def _study(conducted: Conducted) -> dict[str, Any]:
+def _study(result: StudyResult) -> dict[str, Any]:
     return {
-        "name": conducted.study.name,
-        "title": conducted.study.title,
-        "source": conducted.study.source,
-        "verdict": conducted.verdict,
-        "quantities": [_quantity(comparison) for comparison in conducted.comparisons],
-        "notes": list(conducted.findings.notes),
+        "name": result.study.name,
+        "title": result.study.title,
+        "source": result.study.source,
+        "verdict": result.verdict,
+        "quantities": [_quantity(comparison) for comparison in result.comparisons],
+        "notes": list(result.findings.notes),
     }
 
 
-def _quantity(comparison: Comparison) -> dict[str, Any]:
+def _quantity(comparison: PaperComparison) -> dict[str, Any]:
     quantity, found = comparison.quantity, comparison.found
     return {
         "key": quantity.key,

@@ -10,19 +10,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from uictest.scenario import Case
-from uictest.scenario.friction import FrictionProfile
-from uictest.studies.quantity import Quantity, Reading
+from uictest import rig
+from uictest.scenario import Case, FrictionProfile
+from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import KILOMETRE_PER_HOUR, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from uictest.recording import Recording
-    from uictest.rig import Stop
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 REAL_TRAIN = {
     "braking_time": 17.6,
@@ -54,14 +53,14 @@ _CAVEAT = (
 )
 
 QUANTITIES = (
-    Quantity("braking_time", "braking time of the closest stop", "s", "17.6 s"),
-    Quantity("braking_distance", "braking distance of the closest stop", "m", "197 m"),
-    Quantity("minimum_deceleration", "its least deceleration", "m/s2", "0.98 m/s2", digits=2),
-    Quantity("maximum_deceleration", "its greatest deceleration", "m/s2", "1.52 m/s2", digits=2),
-    Quantity("pad_factor", "its pad friction over the rig's", source="ours", digits=2),
-    Quantity("profiles", "profiles tried", source="ours", digits=0),
-    Quantity("consistent", "profiles that agree in all four figures", source="ours", digits=0),
-    Quantity("agree_in_run", "profiles that agree in time and distance", source="ours", digits=0),
+    StudyQuantity("braking_time", "braking time of the closest stop", "s", "17.6 s"),
+    StudyQuantity("braking_distance", "braking distance of the closest stop", "m", "197 m"),
+    StudyQuantity("minimum_deceleration", "its least deceleration", "m/s2", "0.98 m/s2", digits=2),
+    StudyQuantity("maximum_deceleration", "its greatest deceleration", "m/s2", "1.52 m/s2", digits=2),
+    StudyQuantity("pad_factor", "its pad friction over the rig's", source="ours", digits=2),
+    StudyQuantity("profiles", "profiles tried", source="ours", digits=0),
+    StudyQuantity("consistent", "profiles that agree in all four figures", source="ours", digits=0),
+    StudyQuantity("agree_in_run", "profiles that agree in time and distance", source="ours", digits=0),
 )
 
 
@@ -91,23 +90,23 @@ def profiles() -> Iterator[Profile]:
             yield Profile(level, DRY, place, factor)
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Stop on every profile, and keep those that agree with the real train."""
-    base = laboratory.cases("slide-80")[0]
+    base = stop_runner.cases("slide-80")[0]
     tried = list(profiles())
-    stops = laboratory.each(_stop, [_on(base, profile) for profile in tried])
+    stops = stop_runner.each(_stop, [_on(base, profile) for profile in tried])
     misfits = [misfit(stop) for stop in stops]
     closest = int(np.argmin([max(each.values()) for each in misfits]))
-    recording = laboratory.recordings([_on(base, tried[closest])], CYCLE)[0]
+    recording = stop_runner.recordings([_on(base, tried[closest])], CYCLE)[0]
     consistent = [k for k, each in enumerate(misfits) if max(each.values()) <= 1.0]
     in_run = [
         k for k, each in enumerate(misfits) if max(each["braking_time"], each["braking_distance"]) <= 1.0
     ]
-    figures = {name: Reading(float(stops[closest].measures[name])) for name in REAL_TRAIN}
-    figures["pad_factor"] = Reading(tried[closest].pad_factor)
+    figures = {name: FoundValue(float(stops[closest].measures[name])) for name in REAL_TRAIN}
+    figures["pad_factor"] = FoundValue(tried[closest].pad_factor)
     counts = {"profiles": len(tried), "consistent": len(consistent), "agree_in_run": len(in_run)}
-    return Findings(
-        figures | {name: Reading(float(count)) for name, count in counts.items()},
+    return StudyFindings(
+        figures | {name: FoundValue(float(count)) for name, count in counts.items()},
         tables={"profiles": _table(tried, stops, misfits, in_run), "closest-stop": _stop_table(recording)},
         drawings={"field-against-rig": partial(_draw, recording)},
         notes=(
@@ -128,7 +127,7 @@ def _what_time_and_distance_tell() -> str:
     )
 
 
-def misfit(stop: Stop) -> dict[str, float]:
+def misfit(stop: rig.SimulatedStop) -> dict[str, float]:
     """Return how far each figure of a stop is from the real train's, in tolerances."""
     found = {name: float(stop.measures[name]) for name in REAL_TRAIN}
     off = {name: abs(found[name] - REAL_TRAIN[name]) / TOLERANCES[name] for name in REAL_TRAIN}
@@ -170,14 +169,12 @@ def _points(profile: Profile) -> dict[str, object]:
     return {"points": tuple(points), "interpolation": "steps"}
 
 
-def _stop(case: Case) -> Stop:
-    from uictest.rig import simulate
-
-    return simulate(case)
+def _stop(case: Case) -> rig.SimulatedStop:
+    return rig.simulate(case)
 
 
 def _table(
-    tried: list[Profile], stops: list[Stop], misfits: list[dict[str, float]], kept: list[int]
+    tried: list[Profile], stops: list[rig.SimulatedStop], misfits: list[dict[str, float]], kept: list[int]
 ) -> Table:
     order = sorted(kept, key=lambda k: max(misfits[k].values()))
     columns: dict[str, list[object]] = {"profile": [str(tried[k]) for k in order]}
@@ -222,5 +219,5 @@ STUDY = Study(
     "Field against rig: friction profiles that agree with the real train's stop from 80 km/h",
     "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; its rail is not described",
     QUANTITIES,
-    conduct,
+    run,
 )

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.studies.figures.force_accuracy import draw
-from uictest.studies.laboratory import seeded
-from uictest.studies.quantity import Quantity, repeats_note, spread
+from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, replayed
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.stop_runner import seeded
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import KILONEWTON, PERCENT, shown
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(5)
 _EVERY = 20
@@ -26,7 +26,7 @@ LIMIT = 8.0
 """The source's bound on the error of the computed force, % of the largest force."""
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "module_1",
         "largest error, from the pressure of module 1",
         _UNIT,
@@ -34,7 +34,7 @@ QUANTITIES = (
         upper=LIMIT,
         reason="source",
     ),
-    Quantity(
+    StudyQuantity(
         "full",
         "largest error, from tank 2 by both models",
         _UNIT,
@@ -42,9 +42,9 @@ QUANTITIES = (
         upper=LIMIT,
         reason="source",
     ),
-    Quantity("hysteresis", "largest error, from tank 2 by the hysteresis alone", _UNIT),
-    Quantity("cylinder", "largest error, from tank 2 by the cylinder dynamics alone", _UNIT),
-    Quantity("none", "largest error, from tank 2 by a straight line", _UNIT),
+    StudyQuantity("hysteresis", "largest error, from tank 2 by the hysteresis alone", _UNIT),
+    StudyQuantity("cylinder", "largest error, from tank 2 by the cylinder dynamics alone", _UNIT),
+    StudyQuantity("none", "largest error, from tank 2 by a straight line", _UNIT),
 )
 CHANNELS = {"module_1": "computed_force_1"} | {
     setting: f"computed_force_{setting}_2" for setting in ("full", "hysteresis", "cylinder", "none")
@@ -52,15 +52,15 @@ CHANNELS = {"module_1": "computed_force_1"} | {
 """Channel of the bench that holds the computed force."""
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test and compute its force in every way."""
-    case = laboratory.cases("slide-80")[0]
+    case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
-    stops = laboratory.recordings(cases, CYCLE)
-    replays = laboratory.each(
+    stops = stop_runner.recordings(cases, CYCLE)
+    replays = stop_runner.each(
         lambda given: replayed(given[0], given[1], 1), list(zip(cases, stops, strict=True))
     )
-    return Findings(
+    return StudyFindings(
         {
             key: spread([largest_error(recording, channel) / PERCENT for recording in replays])
             for key, channel in CHANNELS.items()
@@ -93,5 +93,5 @@ STUDY = Study(
     "Computed against measured clamping force",
     "the force computed with both models lies within +-8 % of the measured one",
     QUANTITIES,
-    conduct,
+    run,
 )

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest import identification
 from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.phases import TITLES, lines_of, on_phases
-from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.replay import CYCLE, replayed
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, shown
 
 if TYPE_CHECKING:
-    from uictest.identification import HysteresisResult
     from uictest.recording import Recording
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 _NAN = float("nan")
 _EVERY = 20
@@ -26,19 +26,19 @@ QUANTITIES = tuple(
     quantity
     for phase, title in TITLES.items()
     for quantity in (
-        Quantity(f"{phase}_slope", f"{title}, slope", "kN/bar", digits=3),
-        Quantity(f"{phase}_intercept", f"{title}, intercept", "kN", digits=3),
+        StudyQuantity(f"{phase}_slope", f"{title}, slope", "kN/bar", digits=3),
+        StudyQuantity(f"{phase}_intercept", f"{title}, intercept", "kN", digits=3),
     )
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Find the four lines in module 1 of a slide test, the brake released after the standstill."""
-    case = laboratory.cases("slide-80")[0]
-    stop = laboratory.recordings([case], CYCLE)[0]
+    case = stop_runner.cases("slide-80")[0]
+    stop = stop_runner.recordings([case], CYCLE)[0]
     recording = replayed(case, stop, 1, release=True)
     found = lines_of(recording)
-    return Findings(
+    return StudyFindings(
         dict(_figures(found)),
         tables={"lines": _lines_table(found), "samples": _samples_table(recording)},
         drawings={"four-phase-lines": partial(draw, recording, found)},
@@ -46,17 +46,17 @@ def conduct(laboratory: Laboratory) -> Findings:
     )
 
 
-def _figures(found: HysteresisResult) -> list[tuple[str, Reading]]:
+def _figures(found: identification.HysteresisResult) -> list[tuple[str, FoundValue]]:
     figures = []
     for phase in TITLES:
         line = found.lines.get(phase)
         slope = line.slope / KILONEWTON_PER_BAR if line else _NAN
         intercept = line.intercept / KILONEWTON if line else _NAN
-        figures += [(f"{phase}_slope", Reading(slope)), (f"{phase}_intercept", Reading(intercept))]
+        figures += [(f"{phase}_slope", FoundValue(slope)), (f"{phase}_intercept", FoundValue(intercept))]
     return figures
 
 
-def _order(found: HysteresisResult) -> str:
+def _order(found: identification.HysteresisResult) -> str:
     """Say which releasing line lies above the other: the source says both."""
     if "wsp_releasing" not in found.lines:
         return "The stop holds no WSP releasing, so that the order of the releasing lines stays open."
@@ -69,7 +69,7 @@ def _order(found: HysteresisResult) -> str:
     )
 
 
-def _lines_table(found: HysteresisResult) -> Table:
+def _lines_table(found: identification.HysteresisResult) -> Table:
     lines = [found.lines.get(phase) for phase in TITLES]
     return {
         "phase": list(TITLES),
@@ -103,5 +103,5 @@ STUDY = Study(
     "Slope and intercept of force against pressure in four phases",
     "clamping force is linear in pressure, with a slope and an intercept of its own in each of four phases",
     QUANTITIES,
-    conduct,
+    run,
 )

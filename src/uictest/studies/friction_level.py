@@ -6,18 +6,18 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from uictest.studies.figures.levels import draw
-from uictest.studies.quantity import Quantity, Reading
+from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.slopes import loops, slope_spread, slopes_table
-from uictest.studies.study import Findings, Study
+from uictest.studies.study import Study, StudyFindings
 from uictest.studies.units import PERCENT
 
 if TYPE_CHECKING:
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 _LEVELS = ("009", "010", "011", "012")
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "slope_spread",
         "largest change of a slope among the friction coefficients",
         "%",
@@ -25,21 +25,21 @@ QUANTITIES = (
         reason="ours",
     ),
     *(
-        Quantity(f"distance_at_{level}", f"braking distance at {level[0]}.{level[1:]}", "m")
+        StudyQuantity(f"distance_at_{level}", f"braking distance at {level[0]}.{level[1:]}", "m")
         for level in _LEVELS
     ),
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Find the slopes at every friction coefficient, and how far the train runs."""
-    cases = laboratory.cases("wet-80-friction")
-    found = loops(laboratory, cases)
-    stops = laboratory.repeated(cases, [0])
-    distances = [Reading(float(one.stops[0].measures.braking_distance)) for one in stops]
-    return Findings(
+    cases = stop_runner.cases("wet-80-friction")
+    found = loops(stop_runner, cases)
+    stops = stop_runner.repeated(cases, [0])
+    distances = [FoundValue(float(one.stops[0].measures.braking_distance)) for one in stops]
+    return StudyFindings(
         {
-            "slope_spread": Reading(slope_spread(found) / PERCENT),
+            "slope_spread": FoundValue(slope_spread(found) / PERCENT),
             **dict(zip((f"distance_at_{level}" for level in _LEVELS), distances, strict=True)),
         },
         tables={"lines": slopes_table(found, "friction")},
@@ -52,5 +52,5 @@ STUDY = Study(
     "Force against pressure with initial friction coefficients from 0.09 to 0.12",
     "stops at full command with initial friction coefficients 0.09, 0.10, 0.11 and 0.12",
     QUANTITIES,
-    conduct,
+    run,
 )

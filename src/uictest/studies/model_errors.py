@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from uictest.studies.laboratory import seeded
+from uictest import scenario
 from uictest.studies.neighbourhood import SETTINGS, WITHOUT_CALIPER, Point
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
+from uictest.studies.stop_runner import seeded
 from uictest.studies.units import PERCENT
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.scenario import Case
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 REPLAYED_SEEDS = range(2)
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}
@@ -35,16 +35,16 @@ class ModelError:
     values: Sequence[float]
 
 
-def model_errors(laboratory: Laboratory, points: Sequence[Point]) -> list[ModelError]:
+def model_errors(stop_runner: StopRunner, points: Sequence[Point]) -> list[ModelError]:
     """Return pressure and force errors of every setting along the commands of the rig with four calipers."""
     cases = [seeded(point.case, seed) for point in points for seed in REPLAYED_SEEDS]
-    stops = laboratory.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases, CYCLE)
     work = [
         (case, stop, wheelset)
         for case, stop in zip(cases, stops, strict=True)
         for wheelset in WITHOUT_CALIPER
     ]
-    errors = iter(laboratory.each(lambda given: _errors(*given), work))
+    errors = iter(stop_runner.each(lambda given: _errors(*given), work))
     at = {
         (point.title, seed, wheelset): next(errors)
         for point in points
@@ -67,7 +67,7 @@ def model_errors(laboratory: Laboratory, points: Sequence[Point]) -> list[ModelE
     ]
 
 
-def _errors(case: Case, stop: Recording, wheelset: int) -> dict[tuple[str, str], float]:
+def _errors(case: scenario.Case, stop: Recording, wheelset: int) -> dict[tuple[str, str], float]:
     """Largest errors in % by key and setting."""
     recording = replayed(case, stop, wheelset)
     top, cylinder = maximum_pressure(case), recording["tank_pressure_1"]

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from uictest import rig
 from uictest.scenario import Case
 
 if TYPE_CHECKING:
-    from uictest.rig import Stop
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SETTINGS = ("none", "hysteresis", "cylinder", "full")
 """Settings of the compensation."""
@@ -33,7 +33,7 @@ class Point:
     friction: str
     command: str
     case: Case
-    stops: dict[str, Sequence[Stop]]
+    stops: dict[str, Sequence[rig.SimulatedStop]]
 
     @property
     def title(self) -> str:
@@ -41,12 +41,12 @@ class Point:
         return f"{self.friction}, {self.command}"
 
 
-def neighbourhood(laboratory: Laboratory) -> list[Point]:
+def neighbourhood(stop_runner: StopRunner) -> list[Point]:
     """Return the nine points, friction slowest; what another study has run is not run again."""
-    changes = (_frictions(laboratory), f"brake.command={','.join(_COMMANDS)}")
-    one = laboratory.cases("slide-80", *changes, f"rig.compensation={','.join(SETTINGS)}")
-    four = laboratory.cases("slide-80-four-caliper", *changes)
-    repeats = laboratory.repeated([*one, *four], SEEDS)
+    changes = (_frictions(stop_runner), f"brake.command={','.join(_COMMANDS)}")
+    one = stop_runner.cases("slide-80", *changes, f"rig.compensation={','.join(SETTINGS)}")
+    four = stop_runner.cases("slide-80-four-caliper", *changes)
+    repeats = stop_runner.repeated([*one, *four], SEEDS)
     of_one, of_four = repeats[: len(one)], repeats[len(one) :]
     points = []
     for k, reference in enumerate(of_four):
@@ -58,7 +58,7 @@ def neighbourhood(laboratory: Laboratory) -> list[Point]:
     return points
 
 
-def _frictions(laboratory: Laboratory) -> str:
-    calibrated = laboratory.cases("slide-80")[0].scenario.rail.friction
+def _frictions(stop_runner: StopRunner) -> str:
+    calibrated = stop_runner.cases("slide-80")[0].scenario.rail.friction
     assert isinstance(calibrated, float)
     return "rail.friction=" + ",".join(f"{calibrated + step:.4g}" for step in _FRICTION_STEPS)

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import identification
+
 if TYPE_CHECKING:
-    from uictest.identification import HysteresisResult
     from uictest.recording import Recording
 
 TITLES = {
@@ -20,11 +21,9 @@ TITLES = {
 """The phases of the source's hysteresis model, in its order."""
 
 
-def lines_of(recording: Recording) -> HysteresisResult:
+def lines_of(recording: Recording) -> identification.HysteresisResult:
     """Return the lines that the force of the caliper follows, as `uictest identify hysteresis` finds them."""
-    from uictest.identification import identify_hysteresis
-
-    return identify_hysteresis(
+    return identification.identify_hysteresis(
         recording["time"],
         recording["measured_pressure_1"],
         recording["clamping_force_1"],
@@ -34,10 +33,10 @@ def lines_of(recording: Recording) -> HysteresisResult:
 
 def on_phases(recording: Recording) -> dict[str, NDArray[np.bool_]]:
     """Return which samples lie on the line of each phase; those inside the loop lie on none."""
-    from uictest.identification.phases import on_lines
-
     step = float(recording["time"][1] - recording["time"][0])
-    squeezing, releasing = on_lines(recording["measured_pressure_1"], recording["clamping_force_1"], step)
+    squeezing, releasing = identification.on_lines(
+        recording["measured_pressure_1"], recording["clamping_force_1"], step
+    )
     acting = recording["wsp_acting"] > 0.0
     return {
         "bc_squeezing": squeezing & ~acting,

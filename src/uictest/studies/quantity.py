@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Literal
 
-Verdict = Literal["holds", "misses", "shown"]
+BandStatus = Literal["holds", "misses", "shown"]
 """`shown`: no band was set, the figure is only shown."""
 
 NOT_PUBLIC = "not public"
@@ -17,7 +17,7 @@ NOT_ASKED = "not asked"
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class StudyQuantity:
     """What is compared, in the unit in which it is shown.
 
     Args:
@@ -42,7 +42,7 @@ class Quantity:
     digits: int = 1
     reason: str = ""
 
-    def verdict(self, value: float) -> Verdict:
+    def verdict(self, value: float) -> BandStatus:
         """Return whether a value lies in the band. NaN never does."""
         if self.lower is None and self.upper is None:
             return "shown"
@@ -52,7 +52,7 @@ class Quantity:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class FoundValue:
     """A figure as found: one value, or the median of repeats with the least and the greatest of them."""
 
     value: float
@@ -60,11 +60,11 @@ class Reading:
     high: float | None = None
 
 
-def spread(values: Sequence[float]) -> Reading:
+def spread(values: Sequence[float]) -> FoundValue:
     """Return the median of repeats with their range; a NaN among them makes all three NaN."""
     if any(value != value for value in values):
-        return Reading(float("nan"), float("nan"), float("nan"))
-    return Reading(float(median(values)), float(min(values)), float(max(values)))
+        return FoundValue(float("nan"), float("nan"), float("nan"))
+    return FoundValue(float(median(values)), float(min(values)), float(max(values)))
 
 
 def repeats_note(repeats: int) -> str:
@@ -73,13 +73,13 @@ def repeats_note(repeats: int) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class PaperComparison:
     """Source beside here."""
 
-    quantity: Quantity
-    found: Reading
+    quantity: StudyQuantity
+    found: FoundValue
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> BandStatus:
         """Whether the value, of repeats the median, lies in the band."""
         return self.quantity.verdict(self.found.value)

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
 from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
-from uictest.studies.quantity import NOT_ASKED, Quantity, Reading, spread
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import LITRE, PERCENT, STANDARD_AIR
 
 if TYPE_CHECKING:
-    from uictest.rig import Stop
-    from uictest.studies.laboratory import Laboratory
+    from uictest.rig import SimulatedStop
+    from uictest.studies.stop_runner import StopRunner
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four against itself: what chance alone does."""
@@ -36,7 +36,7 @@ class Measure:
     digits: int = 1
 
 
-MEASURES = (
+COMPARED_MEASURES = (
     Measure("braking_distance", "braking distance", "m"),
     Measure("braking_time", "braking time", "s", digits=2),
     Measure("air_consumed", "air taken", "NL"),
@@ -50,7 +50,7 @@ ERRORS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class RigDifference:
     """What repeats of one rig show at one point, less the median of the rig with four calipers."""
 
     rig: str
@@ -62,34 +62,40 @@ class Difference:
     values: Sequence[float]
 
 
-def _quantities() -> Iterator[Quantity]:
-    for measure in MEASURES:
+def _quantities() -> Iterator[StudyQuantity]:
+    for measure in COMPARED_MEASURES:
         for rig in RIGS:
             title = f"{measure.title}, {rig}"
-            yield Quantity(f"{measure.key}_{rig}", title, measure.unit, NOT_ASKED, digits=measure.digits)
+            yield StudyQuantity(f"{measure.key}_{rig}", title, measure.unit, NOT_ASKED, digits=measure.digits)
     for error in ERRORS:
         for setting in SETTINGS:
-            yield Quantity(
+            yield StudyQuantity(
                 f"{error.key}_{setting}", f"{error.title}, {setting}", error.unit, NOT_ASKED, digits=1
             )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Compare the rigs at every point, then the models along the commands of the rig with four calipers."""
-    points = neighbourhood(laboratory)
+    points = neighbourhood(stop_runner)
     found = [difference for point in points for difference in differences(point)]
     found += [
-        Difference(error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values)
-        for error in model_errors(laboratory, points)
+        RigDifference(
+            error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values
+        )
+        for error in model_errors(stop_runner, points)
     ]
-    return Findings(
-        {f"{measure.key}_{rig}": overall(found, measure.key, rig) for measure in MEASURES for rig in RIGS}
+    return StudyFindings(
+        {
+            f"{measure.key}_{rig}": overall(found, measure.key, rig)
+            for measure in COMPARED_MEASURES
+            for rig in RIGS
+        }
         | {f"{error.key}_{name}": overall(found, error.key, name) for error in ERRORS for name in SETTINGS},
         tables={"differences": _table(found)},
         drawings={
-            "rig-equivalence": partial(draw_train, found, (*MEASURES, *ERRORS)),
+            "rig-equivalence": partial(draw_train, found, (*COMPARED_MEASURES, *ERRORS)),
             "rig-equivalence-wheelsets": partial(
-                draw_wheelsets, found, [each for each in (*MEASURES, *ERRORS) if each.of_wheelsets]
+                draw_wheelsets, found, [each for each in (*COMPARED_MEASURES, *ERRORS) if each.of_wheelsets]
             ),
         },
         notes=_notes(len(points)),
@@ -110,28 +116,30 @@ def _notes(points: int) -> tuple[str, ...]:
     return differences, errors
 
 
-def differences(point: Point) -> Iterator[Difference]:
+def differences(point: Point) -> Iterator[RigDifference]:
     """Yield the differences of all rigs at one point."""
-    for measure in MEASURES:
+    for measure in COMPARED_MEASURES:
         for wheelset in (1, 2, 3, 4) if measure.of_wheelsets else (TRAIN,):
             reference = median(_values(point.stops[FOUR_CALIPER], measure, wheelset))
             for rig in RIGS:
                 values = [value - reference for value in _values(point.stops[rig], measure, wheelset)]
-                yield Difference(rig, point.friction, point.command, measure.key, wheelset, reference, values)
+                yield RigDifference(
+                    rig, point.friction, point.command, measure.key, wheelset, reference, values
+                )
 
 
-def overall(found: Sequence[Difference], measure: str, rig: str) -> Reading:
+def overall(found: Sequence[RigDifference], measure: str, rig: str) -> FoundValue:
     """Return median and range over points, repeats and wheelsets."""
     return spread(
         [value for each in found if (each.measure, each.rig) == (measure, rig) for value in each.values]
     )
 
 
-def _values(stops: Sequence[Stop], measure: Measure, wheelset: int) -> list[float]:
+def _values(stops: Sequence[SimulatedStop], measure: Measure, wheelset: int) -> list[float]:
     return [_value(stop, measure.key, wheelset) for stop in stops]
 
 
-def _value(stop: Stop, key: str, wheelset: int) -> float:
+def _value(stop: SimulatedStop, key: str, wheelset: int) -> float:
     if wheelset != TRAIN:
         value = float(stop.wheelset_measures[wheelset - 1][key])
         return value / PERCENT if key == "maximum_slide" else value
@@ -139,7 +147,7 @@ def _value(stop: Stop, key: str, wheelset: int) -> float:
     return value / STANDARD_AIR / LITRE if key == "air_consumed" else value
 
 
-def _table(found: Sequence[Difference]) -> Table:
+def _table(found: Sequence[RigDifference]) -> Table:
     readings = [spread(each.values) for each in found]
     return {
         "rig": [each.rig for each in found],
@@ -160,5 +168,5 @@ STUDY = Study(
     "One caliper and three tanks against four calipers",
     "",
     tuple(_quantities()),
-    conduct,
+    run,
 )

@@ -6,21 +6,21 @@ from functools import partial
 from statistics import median
 from typing import TYPE_CHECKING
 
+from uictest import rig
 from uictest.studies.figures.robustness import draw
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, WITHOUT_CALIPER, Point, neighbourhood
-from uictest.studies.quantity import Quantity, Reading, spread
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.quantity import FoundValue, StudyQuantity, spread
+from uictest.studies.study import Study, StudyFindings, Table
 
 if TYPE_CHECKING:
-    from uictest.rig import Stop
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 _APART = 1.3
 """From this ratio to the actuations with a caliper on, those without compensation are clearly apart."""
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "in_order",
         "points at which full is near the caliper and none clearly apart",
         "of 9",
@@ -29,7 +29,7 @@ QUANTITIES = (
         digits=0,
         reason="ours",
     ),
-    Quantity(
+    StudyQuantity(
         "full_over_caliper",
         "actuations with full compensation over those with a caliper",
         "",
@@ -39,7 +39,7 @@ QUANTITIES = (
         digits=2,
         reason="ours",
     ),
-    Quantity(
+    StudyQuantity(
         "none_over_caliper",
         "actuations without compensation over those with a caliper",
         "",
@@ -51,17 +51,17 @@ QUANTITIES = (
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Count actuations of modules 2 to 4 with a caliper each, with full compensation and with none."""
-    points = neighbourhood(laboratory)
+    points = neighbourhood(stop_runner)
     counts = {
         point.title: {name: [actuations(stop) for stop in point.stops[name]] for name in SHOWN}
         for point in points
     }
     medians = [{name: median(values) for name, values in of.items()} for of in counts.values()]
-    return Findings(
+    return StudyFindings(
         {
-            "in_order": Reading(float(sum(map(_in_order, medians)))),
+            "in_order": FoundValue(float(sum(map(_in_order, medians)))),
             "full_over_caliper": spread([_ratio(of["full"], of[FOUR_CALIPER]) for of in medians]),
             "none_over_caliper": spread([_ratio(of["none"], of[FOUR_CALIPER]) for of in medians]),
         },
@@ -81,7 +81,7 @@ def conduct(laboratory: Laboratory) -> Findings:
     )
 
 
-def actuations(stop: Stop) -> float:
+def actuations(stop: rig.SimulatedStop) -> float:
     """Return the valve actuations per wheelset, mean of modules 2 to 4."""
     counts = [float(stop.wheelset_measures[n - 1].valve_actuations) for n in WITHOUT_CALIPER]
     return sum(counts) / len(counts)
@@ -119,5 +119,5 @@ STUDY = Study(
     "Valve actuations over friction, command and sensor noise",
     "one stop: 11 actuations with the caliper, 21 without models, 11 with both",
     QUANTITIES,
-    conduct,
+    run,
 )

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest import rig
 from uictest.studies.figures.slide_test import draw
-from uictest.studies.quantity import Quantity, Reading, repeats_note, spread
+from uictest.studies.quantity import FoundValue, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Findings, Study, Table
+from uictest.studies.study import Study, StudyFindings, Table
 from uictest.studies.units import BAR, KILOMETRE_PER_HOUR, shown
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.rig import Stop
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(10)
 WHEELSETS = (1, 2, 3, 4)
@@ -25,7 +25,7 @@ REAL_TRAIN_TIME = 17.6
 """Braking time of the real train, s."""
 
 QUANTITIES = (
-    Quantity(
+    StudyQuantity(
         "braking_time",
         "braking time",
         "s",
@@ -34,7 +34,7 @@ QUANTITIES = (
         19.0,
         reason="ours, about the source's",
     ),
-    Quantity(
+    StudyQuantity(
         "braking_distance",
         "braking distance",
         "m",
@@ -43,9 +43,9 @@ QUANTITIES = (
         215.0,
         reason="ours, about the source's",
     ),
-    Quantity("minimum_deceleration", "least deceleration", "m/s2", "0.98 m/s2, real train", digits=2),
-    Quantity("maximum_deceleration", "greatest deceleration", "m/s2", "1.52 m/s2, real train", digits=2),
-    Quantity(
+    StudyQuantity("minimum_deceleration", "least deceleration", "m/s2", "0.98 m/s2, real train", digits=2),
+    StudyQuantity("maximum_deceleration", "greatest deceleration", "m/s2", "1.52 m/s2, real train", digits=2),
+    StudyQuantity(
         "likeness",
         "largest difference between the mean speeds of two wheelsets",
         "km/h",
@@ -54,16 +54,16 @@ QUANTITIES = (
         digits=2,
         reason="ours",
     ),
-    Quantity("maximum_slide", "largest slide of a wheelset", "%"),
+    StudyQuantity("maximum_slide", "largest slide of a wheelset", "%"),
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Stop from 80 km/h on the rig with one caliper and the full compensation."""
-    case = laboratory.cases("slide-80")[0]
-    stops = laboratory.repeated([case], SEEDS)[0].stops
-    recording = laboratory.recordings([case], CYCLE)[0]
-    return Findings(
+    case = stop_runner.cases("slide-80")[0]
+    stops = stop_runner.repeated([case], SEEDS)[0].stops
+    recording = stop_runner.recordings([case], CYCLE)[0]
+    return StudyFindings(
         {
             name: spread([_figure(stop, name) for stop in stops])
             for name in (
@@ -74,7 +74,7 @@ def conduct(laboratory: Laboratory) -> Findings:
             )
         }
         | {
-            "likeness": Reading(unlikeness(recording) / KILOMETRE_PER_HOUR),
+            "likeness": FoundValue(unlikeness(recording) / KILOMETRE_PER_HOUR),
             "maximum_slide": spread(
                 [100.0 * float(stop.wheelset_measures.maximum_slide.max()) for stop in stops]
             ),
@@ -91,7 +91,7 @@ def conduct(laboratory: Laboratory) -> Findings:
     )
 
 
-def _figure(stop: Stop, name: str) -> float:
+def _figure(stop: rig.SimulatedStop, name: str) -> float:
     return float(stop.measures[name])
 
 
@@ -119,5 +119,5 @@ STUDY = Study(
     "Slide test from 80 km/h: speeds of train and wheelsets",
     "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; on the rig the four wheelset speeds look alike",
     QUANTITIES,
-    conduct,
+    run,
 )

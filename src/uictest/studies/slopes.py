@@ -6,15 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from uictest import identification, scenario
 from uictest.studies.phases import TITLES, lines_of
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.units import KILONEWTON, KILONEWTON_PER_BAR
 
 if TYPE_CHECKING:
-    from uictest.identification import HysteresisResult
     from uictest.recording import Recording
-    from uictest.scenario import Case
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
     from uictest.studies.study import Table
 
 _NAN = float("nan")
@@ -26,16 +25,16 @@ class Loop:
 
     level: str
     recording: Recording
-    lines: HysteresisResult
+    lines: identification.HysteresisResult
 
 
-def loops(laboratory: Laboratory, cases: Sequence[Case]) -> list[Loop]:
+def loops(stop_runner: StopRunner, cases: Sequence[scenario.Case]) -> list[Loop]:
     """Return the loop of module 1 in the stop of every case, the brake released after the standstill."""
-    stops = laboratory.recordings(cases, CYCLE)
-    return laboratory.each(lambda given: _loop(*given), list(zip(cases, stops, strict=True)))
+    stops = stop_runner.recordings(cases, CYCLE)
+    return stop_runner.each(lambda given: _loop(*given), list(zip(cases, stops, strict=True)))
 
 
-def _loop(case: Case, stop: Recording) -> Loop:
+def _loop(case: scenario.Case, stop: Recording) -> Loop:
     recording = replayed(case, stop, 1, release=True)
     return Loop(" ".join(case.parameters.values()), recording, lines_of(recording))
 

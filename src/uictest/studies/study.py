@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from uictest.studies.quantity import Comparison, Quantity, Reading, Verdict
+from uictest.studies.quantity import BandStatus, FoundValue, PaperComparison, StudyQuantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 Table = Mapping[str, Sequence[Any]]
 """Columns of equal length; a name ends in the unit, as in `pressure_bar`."""
@@ -21,7 +21,7 @@ Drawing = Callable[["Figure"], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Findings:
+class StudyFindings:
     """What a study comes to.
 
     Args:
@@ -31,7 +31,7 @@ class Findings:
         notes: sentences about what was found.
     """
 
-    figures: Mapping[str, Reading]
+    figures: Mapping[str, FoundValue]
     tables: Mapping[str, Table] = field(default_factory=dict)
     drawings: Mapping[str, Drawing] = field(default_factory=dict)
     notes: Sequence[str] = ()
@@ -47,40 +47,40 @@ class Study:
         source: what the text of the source says, whose figure and table data are not public; empty where
             the study is ours alone.
         quantities: what is compared.
-        conduct: runs it.
+        run: runs it.
     """
 
     name: str
     title: str
     source: str
-    quantities: Sequence[Quantity]
-    conduct: Callable[[Laboratory], Findings]
+    quantities: Sequence[StudyQuantity]
+    run: Callable[[StopRunner], StudyFindings]
 
 
 @dataclass(frozen=True, slots=True)
-class Conducted:
+class StudyResult:
     """A study and what it came to."""
 
     study: Study
-    findings: Findings
+    findings: StudyFindings
 
     @property
-    def comparisons(self) -> list[Comparison]:
+    def comparisons(self) -> list[PaperComparison]:
         """Source beside here, one for every quantity of the study, in its order."""
         figures = self.findings.figures
-        return [Comparison(quantity, figures[quantity.key]) for quantity in self.study.quantities]
+        return [PaperComparison(quantity, figures[quantity.key]) for quantity in self.study.quantities]
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> BandStatus:
         """`misses` if any quantity does, `shown` if none has a band, else `holds`."""
         verdicts = {comparison.verdict for comparison in self.comparisons}
         return "misses" if "misses" in verdicts else "holds" if "holds" in verdicts else "shown"
 
 
-def conduct(study: Study, laboratory: Laboratory) -> Conducted:
+def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
     """Run a study. Raises KeyError if it finds no figure for one of its quantities."""
-    findings = study.conduct(laboratory)
+    findings = study.run(stop_runner)
     missing = [quantity.key for quantity in study.quantities if quantity.key not in findings.figures]
     if missing:
         raise KeyError(f"{study.name} finds no figure for {', '.join(missing)}")
-    return Conducted(study, findings)
+    return StudyResult(study, findings)

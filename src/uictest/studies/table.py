@@ -9,30 +9,30 @@ from uictest.studies.comparison import band_text, found_text, source_text
 if TYPE_CHECKING:
     from rich.console import Group
 
-    from uictest.studies.study import Conducted
+    from uictest.studies.study import StudyResult
 
 _STYLES = {"holds": "green", "misses": "bold red", "shown": "dim"}
 
 
-def study_table(conducted: Conducted) -> Group:
+def study_table(result: StudyResult) -> Group:
     """Return title, what the source says, a row for every quantity, and the notes."""
     from rich.console import Group
     from rich.padding import Padding
     from rich.table import Table
     from rich.text import Text
 
-    study = conducted.study
+    study = result.study
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("quantity", overflow="fold", ratio=5)
     table.add_column("source", overflow="fold", ratio=3)
     table.add_column("here", overflow="fold", ratio=4)
     table.add_column("band", overflow="fold", ratio=3)
     table.add_column("verdict", no_wrap=True)
-    for comparison in conducted.comparisons:
+    for comparison in result.comparisons:
         quantity = comparison.quantity
         cells = (quantity.title, quantity.source, found_text(comparison), band_text(quantity))
         table.add_row(*map(Text, cells), Text(comparison.verdict, style=_STYLES[comparison.verdict]))
     heading = Text(f"{study.name}  ", style="bold").append(study.title, style="not bold")
     source = Text(source_text(study), style="dim")
-    notes = [Text(note, style="dim") for note in conducted.findings.notes]
+    notes = [Text(note, style="dim") for note in result.findings.notes]
     return Group(heading, source, Padding(table, (1, 0, 1, 2)), *notes, Text())

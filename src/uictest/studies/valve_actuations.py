@@ -5,43 +5,45 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from uictest.studies.figures.valve_actuations import Trace, draw
-from uictest.studies.quantity import NOT_ASKED, Quantity, repeats_note, spread
+from uictest.studies.figures.valve_actuations import ActuationPanel, draw
+from uictest.studies.quantity import NOT_ASKED, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Findings, Study
+from uictest.studies.study import Study, StudyFindings
 
 if TYPE_CHECKING:
-    from uictest.studies.laboratory import Laboratory
+    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(10)
 _OURS = "ours, about the source's"
 
 QUANTITIES = (
-    Quantity("caliper", "module 1, real caliper", "", "11", 10.0, 12.0, reason=_OURS),
-    Quantity("none", "module 2 without hysteresis and cylinder models", "", "21", 19.0, 23.0, reason=_OURS),
-    Quantity("full", "module 2 with both models", "", "11", 10.0, 12.0, reason=_OURS),
-    Quantity("reference", "module 2 with a caliper of its own (four-caliper rig)", "", NOT_ASKED),
+    StudyQuantity("caliper", "module 1, real caliper", "", "11", 10.0, 12.0, reason=_OURS),
+    StudyQuantity(
+        "none", "module 2 without hysteresis and cylinder models", "", "21", 19.0, 23.0, reason=_OURS
+    ),
+    StudyQuantity("full", "module 2 with both models", "", "11", 10.0, 12.0, reason=_OURS),
+    StudyQuantity("reference", "module 2 with a caliper of its own (four-caliper rig)", "", NOT_ASKED),
 )
 
 
-def conduct(laboratory: Laboratory) -> Findings:
+def run(stop_runner: StopRunner) -> StudyFindings:
     """Count the openings of the vent in repeats of the slide test, with one caliper and with four."""
-    none, full = laboratory.cases("slide-80", "rig.compensation=none,full")
-    (four,) = laboratory.cases("slide-80-four-caliper")
-    of_none, of_full, of_four = (one.stops for one in laboratory.repeated([none, full, four], SEEDS))
+    none, full = stop_runner.cases("slide-80", "rig.compensation=none,full")
+    (four,) = stop_runner.cases("slide-80-four-caliper")
+    of_none, of_full, of_four = (one.stops for one in stop_runner.repeated([none, full, four], SEEDS))
     counts = {
         "caliper": [_actuations(stop, 1) for stop in of_full],
         "none": [_actuations(stop, 2) for stop in of_none],
         "full": [_actuations(stop, 2) for stop in of_full],
         "reference": [_actuations(stop, 2) for stop in of_four],
     }
-    recorded_none, recorded_full = laboratory.recordings([none, full], CYCLE)
+    recorded_none, recorded_full = stop_runner.recordings([none, full], CYCLE)
     traces = [
-        Trace("module 1, real caliper", recorded_full, 1),
-        Trace("module 2, no model", recorded_none, 2),
-        Trace("module 2, hysteresis and cylinder dynamics", recorded_full, 2),
+        ActuationPanel("module 1, real caliper", recorded_full, 1),
+        ActuationPanel("module 2, no model", recorded_none, 2),
+        ActuationPanel("module 2, hysteresis and cylinder dynamics", recorded_full, 2),
     ]
-    return Findings(
+    return StudyFindings(
         {name: spread(values) for name, values in counts.items()},
         tables={"actuations": {"seed": list(SEEDS), **counts}},
         drawings={"valve-actuations": partial(draw, traces)},
@@ -62,5 +64,5 @@ STUDY = Study(
     "WSP valve actuations in one slide test from 80 km/h",
     "11 (module 1, real caliper), 21 (module 2 without both models), 11 (module 2 with both)",
     QUANTITIES,
-    conduct,
+    run,
 )

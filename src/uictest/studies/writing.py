@@ -13,28 +13,28 @@ from uictest.studies.comparison import comparison_table
 from uictest.studies.document import document
 
 if TYPE_CHECKING:
-    from uictest.studies.study import Conducted, Drawing, Table
+    from uictest.studies.study import Drawing, StudyResult, Table
 
 
-def write_tables(folder: Path, conducted: Conducted) -> list[Path]:
+def write_tables(folder: Path, result: StudyResult) -> list[Path]:
     """Write the tables of a study into its folder below `folder`, and return the files. Raises OSError."""
-    place = _place(folder, conducted)
+    place = _place(folder, result)
     written = []
-    for name, table in conducted.findings.tables.items():
+    for name, table in result.findings.tables.items():
         path = place / f"{name}.csv"
         write_text_atomic(path, table_text(table))
         written.append(path)
     return written
 
 
-def write_comparison(folder: Path, conducted: Sequence[Conducted]) -> None:
+def write_comparison(folder: Path, result: Sequence[StudyResult]) -> None:
     """Write source beside here of all studies into `comparison.csv` and `studies.json`. Raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
-    write_text_atomic(folder / "comparison.csv", table_text(comparison_table(conducted)))
-    write_text_atomic(folder / "studies.json", document(conducted) + "\n")
+    write_text_atomic(folder / "comparison.csv", table_text(comparison_table(result)))
+    write_text_atomic(folder / "studies.json", document(result) + "\n")
 
 
-def write_figures(folder: Path, conducted: Conducted) -> list[Path]:
+def write_figures(folder: Path, result: StudyResult) -> list[Path]:
     """Draw the figures of a study into its folder below `folder`, and return the files.
 
     Raises ImportError where matplotlib is not installed, OSError where a file cannot be written.
@@ -43,11 +43,11 @@ def write_figures(folder: Path, conducted: Conducted) -> list[Path]:
 
     from uictest.studies.figures.style import RC
 
-    place = _place(folder, conducted)
+    place = _place(folder, result)
     with mpl.rc_context(RC):
         return [
             path
-            for name, drawing in conducted.findings.drawings.items()
+            for name, drawing in result.findings.drawings.items()
             for path in _draw(drawing, place / name)
         ]
 
@@ -65,8 +65,8 @@ def _cell(value: object) -> str:
     return "" if value is None or value != value else str(value)
 
 
-def _place(folder: Path, conducted: Conducted) -> Path:
-    place = folder / conducted.study.name
+def _place(folder: Path, result: StudyResult) -> Path:
+    place = folder / result.study.name
     place.mkdir(parents=True, exist_ok=True)
     return place
 

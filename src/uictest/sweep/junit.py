@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
-from uictest.report.escaping import xml_text
-from uictest.sweep.tally import Count, Tally
+from uictest.report import xml_text
+from uictest.sweep.summaries.tally import Count, Tally
 
 
 def junit_xml(tally: Tally) -> str:

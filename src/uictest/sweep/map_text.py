@@ -8,8 +8,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.report.sweep.wording import STRETCH
-from uictest.sweep.maps import MET, MapOf, mean_of
+from uictest.report import STRETCH
+from uictest.sweep.summaries.maps import MET, MapOf, mean_of
 
 _MOST_SHOWN: Final = 24
 """Rows or columns that a reader takes in."""

@@ -5,6 +5,6 @@ but this user can write, and only files that are intact and were made of the ver
 This room is the only way to these folders.
 """
 
-from uictest.user_cache.files import read, write
+import lazy_loader
 
-__all__ = ["read", "write"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

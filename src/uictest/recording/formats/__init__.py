@@ -4,19 +4,6 @@ Foreign files are read in a process of their own, with bounded time and memory: 
 costs a message, never the program.
 """
 
-from uictest.recording.formats.choice import FORMATS, SUFFIXES, format_of, writer_of
-from uictest.recording.formats.dialect import Dialect
-from uictest.recording.formats.isolation import read_contents
-from uictest.recording.formats.problems import BrokenOffError, MissingExtraError, UnreadableError
+import lazy_loader
 
-__all__ = [
-    "FORMATS",
-    "SUFFIXES",
-    "BrokenOffError",
-    "Dialect",
-    "MissingExtraError",
-    "UnreadableError",
-    "format_of",
-    "read_contents",
-    "writer_of",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

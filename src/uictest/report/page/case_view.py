@@ -9,32 +9,32 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word
-from uictest.report.page.bars import vents
-from uictest.report.page.mark import Mark
-from uictest.report.page.marks import marks_of
-from uictest.report.page.overlay_view import panel_form
-from uictest.report.page.packing import packed
-from uictest.report.page.quantities import (
+from uictest.report.page.script_json import script_json
+from uictest.report.page.stop.bars import vents
+from uictest.report.page.stop.mark import Mark
+from uictest.report.page.stop.marks import marks_of
+from uictest.report.page.stop.overlay_view import panel_form
+from uictest.report.page.stop.packing import packed
+from uictest.report.page.stop.sketch import Sketch, sketch_of
+from uictest.report.traces.quantities import (
     LOOPS,
     PANELS,
-    QUANTITIES,
+    PLOT_QUANTITIES,
     STRIPS,
     WHEELSETS,
     key_of,
     loop_lines,
     panel_lines,
 )
-from uictest.report.page.script_json import script_json
-from uictest.report.page.sketch import Sketch, sketch_of
-from uictest.report.page.trace import BINS, Curve
+from uictest.report.traces.trace import BINS, Curve
 from uictest.report.wording import failing_first
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, Verdict
+    from uictest.report.case_description import CaseDescription
     from uictest.report.difference import Difference
-    from uictest.report.page.trace import Trace
-    from uictest.report.subject import Subject
+    from uictest.report.traces.trace import Trace
 
 Figure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
@@ -58,19 +58,23 @@ class CaseView:
     """
 
     key: str
-    result: CaseResult
-    subject: Subject
+    result: evaluation.CaseResult
+    subject: CaseDescription
     word: str
     explanation: Sequence[str]
     figures: Sequence[Figure]
     sketch: Sketch
     data: str
-    marked: Sequence[tuple[Verdict, Sequence[str]]]
+    marked: Sequence[tuple[evaluation.Verdict, Sequence[str]]]
     note: str
 
 
 def case_view(
-    key: str, result: CaseResult, subject: Subject, trace: Trace, differences: Sequence[Difference] = ()
+    key: str,
+    result: evaluation.CaseResult,
+    subject: CaseDescription,
+    trace: Trace,
+    differences: Sequence[Difference] = (),
 ) -> CaseView:
     """Return the view of a case with its plots drawn; `differences` are those from the baseline."""
     marks = marks_of(result.criteria, trace)
@@ -88,7 +92,9 @@ def case_view(
     )
 
 
-def _marked(result: CaseResult, marks: Sequence[Mark]) -> Iterator[tuple[Verdict, list[str]]]:
+def _marked(
+    result: evaluation.CaseResult, marks: Sequence[Mark]
+) -> Iterator[tuple[evaluation.Verdict, list[str]]]:
     titles = {plot.key: plot.title for plot in (*PANELS, *LOOPS)} | STRIPS
     for verdict in failing_first(result.criteria):
         plots = dict.fromkeys(mark.plot for mark in marks if mark.criterion == verdict.id)
@@ -96,12 +102,12 @@ def _marked(result: CaseResult, marks: Sequence[Mark]) -> Iterator[tuple[Verdict
             yield verdict, [titles[plot].partition(":")[0] for plot in plots]
 
 
-def _notes(result: CaseResult, subject: Subject, trace: Trace) -> Iterator[str]:
+def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: Trace) -> Iterator[str]:
     every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
     yield f"Sampled every {every}."
     if trace.interval * BINS < trace.end - trace.start:
         yield f"A line shows the smallest and the largest sample of every {part}."
-    labels = dict.fromkeys(QUANTITIES[key_of(name)].label for name in trace.derived)
+    labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
     if not trace.states:
@@ -117,7 +123,7 @@ def _notes(result: CaseResult, subject: Subject, trace: Trace) -> Iterator[str]:
         )
 
 
-def figures_of(result: CaseResult) -> Iterator[Figure]:
+def figures_of(result: evaluation.CaseResult) -> Iterator[Figure]:
     """Yield the figures that a brake engineer asks for first."""
     measures = result.measures
     if measures is not None:
@@ -134,7 +140,7 @@ def figures_of(result: CaseResult) -> Iterator[Figure]:
         yield "air consumed", _number(measures.air_consumed_nl), "NL"
 
 
-def gauge_of(verdict: Verdict) -> Gauge | None:
+def gauge_of(verdict: evaluation.Verdict) -> Gauge | None:
     """Return value and bounds on a scale of 100 that holds them and zero; None without a bound."""
     bounds = [bound for bound in (verdict.lower, verdict.upper) if bound is not None]
     if not bounds:
@@ -160,7 +166,7 @@ def plots_json() -> str:
         dataclasses.asdict(loop) | {"lines": [dataclasses.asdict(line) for _, line in loop_lines(loop)]}
         for loop in LOOPS
     ]
-    quantities = {key: dataclasses.asdict(quantity) for key, quantity in QUANTITIES.items()}
+    quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
     return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": STRIPS})
 
 

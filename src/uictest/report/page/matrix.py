@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
+from uictest import evaluation
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,18 +17,18 @@ class Map:
     column_key: str
     rows: Sequence[str]
     columns: Sequence[str]
-    cells: Sequence[Sequence[CaseResult | None]]
+    cells: Sequence[Sequence[evaluation.CaseResult | None]]
 
 
-def maps_of(results: Iterable[CaseResult]) -> list[Map]:
+def maps_of(results: Iterable[evaluation.CaseResult]) -> list[Map]:
     """Return a map for every scenario whose cases vary in exactly two keys, two values of each or more."""
-    by_sweep: dict[tuple[str, ...], list[CaseResult]] = {}
+    by_sweep: dict[tuple[str, ...], list[evaluation.CaseResult]] = {}
     for result in results:
         by_sweep.setdefault((result.scenario, *result.parameters), []).append(result)
     return [found for sweep, cases in by_sweep.items() if (found := _map(sweep[0], sweep[1:], cases))]
 
 
-def _map(scenario: str, keys: Sequence[str], cases: Sequence[CaseResult]) -> Map | None:
+def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResult]) -> Map | None:
     moving = [key for key in keys if len({case.parameters[key] for case in cases}) > 1]
     if len(moving) != 2:
         return None

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
+from uictest import evaluation
 from uictest.report.parameters import base_word, changed_parameters, part_sentences
-
-if TYPE_CHECKING:
-    from uictest.evaluation import EffectivePart
 
 _MOST: Final = 100
 """Parts that a page shows: each takes up to 10 kB of it."""
@@ -26,17 +24,15 @@ PARAMETER_WORDS: Final[dict[str, Any]] = {
 class ShownParts:
     """The parts that a page shows in full, and how many more there are that it does not show."""
 
-    parts: Sequence[EffectivePart]
+    parts: Sequence[evaluation.EffectivePart]
     not_shown: int
 
-    def __contains__(self, part: EffectivePart) -> bool:
+    def __contains__(self, part: evaluation.EffectivePart) -> bool:
         """Whether the page shows a part, so that a link to it leads somewhere."""
         return any(each.id == part.id for each in self.parts)
 
 
-def shown_parts(cases: Iterable[Mapping[str, EffectivePart]]) -> ShownParts:
+def shown_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> ShownParts:
     """Return the distinct parts of some cases in the order of their first use, for a page to show."""
-    from uictest.evaluation import parts_table
-
-    parts = list(parts_table(cases).values())
+    parts = list(evaluation.parts_table(cases).values())
     return ShownParts(parts[:_MOST], max(len(parts) - _MOST, 0))

@@ -42,8 +42,7 @@ def _policy(*digests: str) -> str:
 
 @cache
 def _environment() -> Environment:
-    from jinja2 import DictLoader, StrictUndefined
-    from jinja2 import Environment as JinjaEnvironment
+    from jinja2 import DictLoader, Environment as JinjaEnvironment, StrictUndefined
 
     from uictest.report.page.template_cache import TemplateCache
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from uictest.report.subject import Subject
+from uictest import evaluation
+from uictest.report.case_description import CaseDescription
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult, EffectivePart
-    from uictest.report.page import Trace
+    from uictest.report.traces.trace import Trace
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +32,11 @@ class SweepContent:
     folder: Path
     document: Mapping[str, Any]
     manifest: Mapping[str, Any]
-    worst: Sequence[CaseResult] = ()
-    subjects: Mapping[str, Subject] = field(default_factory=dict)
+    worst: Sequence[evaluation.CaseResult] = ()
+    subjects: Mapping[str, CaseDescription] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
-    base: Mapping[str, EffectivePart] = field(default_factory=dict)
+    base: Mapping[str, evaluation.EffectivePart] = field(default_factory=dict)
 
-    def subject(self, case_id: str) -> Subject:
+    def subject(self, case_id: str) -> CaseDescription:
         """Return what a case is about; an empty subject where that is not known."""
-        return self.subjects.get(case_id, Subject())
+        return self.subjects.get(case_id, CaseDescription())

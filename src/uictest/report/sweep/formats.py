@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from uictest import recording
 from uictest.report.formats import ReportFormat
 
 if TYPE_CHECKING:
@@ -22,12 +23,10 @@ def write_sweep_formats(folder: Path, content: SweepContent, formats: Iterable[R
 
 
 def _write(folder: Path, content: SweepContent, wanted: ReportFormat) -> list[Path]:
-    from uictest.recording import write_bytes_atomic
-
     if wanted is ReportFormat.CSV:
         return [_copied(table, folder) for table in sorted(content.folder.glob("*.csv"))]
     name, data = _file(content, wanted)
-    write_bytes_atomic(folder / name, data)
+    recording.write_bytes_atomic(folder / name, data)
     return [folder / name]
 
 
@@ -47,10 +46,8 @@ def _file(content: SweepContent, wanted: ReportFormat) -> tuple[str, bytes]:
 
 def _copied(table: Path, folder: Path) -> Path:
     """Return the table in a folder; a sweep has its tables from the beginning, elsewhere they are copied."""
-    from uictest.recording import atomic_path
-
     target = folder / table.name
     if target.resolve() != table.resolve():
-        with atomic_path(target) as partial:
+        with recording.atomic_path(target) as partial:
             shutil.copyfile(table, partial)
     return target

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.wording import explanation, verdict_word
 
 if TYPE_CHECKING:
-    from uictest.evaluation import CaseResult
     from uictest.report.sweep.content import SweepContent
 
 
@@ -38,12 +38,10 @@ def notable_cases(content: SweepContent) -> list[NotableCase]:
     return sorted([*worst, *others], key=lambda case: case.met)
 
 
-def _looked_at(result: CaseResult) -> NotableCase:
-    from uictest.evaluation import narrowest_margin
-
+def _looked_at(result: evaluation.CaseResult) -> NotableCase:
     why = "" if result.met else "; ".join(explanation(result))
     distance = getattr(result.measures, "braking_distance_m", None)
-    margin, criterion = narrowest_margin(result)
+    margin, criterion = evaluation.narrowest_margin(result)
     share = None if margin is None else 100.0 * margin
     word = verdict_word(result)
     return NotableCase(result.id, result.met, word, result.outcome, why, distance, share, criterion)

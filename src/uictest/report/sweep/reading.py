@@ -6,8 +6,9 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
+from uictest import evaluation
+from uictest.report.case_description import CaseDescription
 from uictest.report.run_contents import read_traces
-from uictest.report.subject import Subject
 from uictest.report.sweep.content import SweepContent
 
 SWEEP_RESULTS: Final = "sweep.json"
@@ -27,15 +28,13 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
         ValueError: one of them is not what it should be.
 
     """
-    from uictest.evaluation import CaseResult, parts_of
-
     path = folder / SWEEP_RESULTS
     document = _findings(path)
     try:
-        parts = parts_of(document)
-        worst = [CaseResult.from_dict(case, parts) for case in document["worst"]]
+        parts = evaluation.parts_of(document)
+        worst = [evaluation.CaseResult.from_dict(case, parts) for case in document["worst"]]
         base = {role: parts[part_id] for role, part_id in document.get("base", {}).items()}
-        subjects = {name: Subject.from_dict(each) for name, each in document["subjects"].items()}
+        subjects = {name: CaseDescription.from_dict(each) for name, each in document["subjects"].items()}
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ValueError(f"{path}: not the result of a sweep: {error}") from error
     drawn = read_traces(folder, [result.id for result in worst]) if traces else {}

@@ -4,9 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Model
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Model, Quantity, kind
 
 
 class NominalSpeed(Model):

@@ -5,9 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Contradiction, Part, Section
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
 
 GaugePressure = Annotated[Quantity, kind("pressure", at_least="0.1 bar", at_most="20 bar")]
 Volume = Annotated[Quantity, kind("volume", at_least="0.1 L", at_most="10 m3")]
@@ -150,18 +148,18 @@ class BrakeSystem(Part):
     disc: Disc = Field(description="The disc brake of one wheelset.")
     air: Air = Field(description="The air and its surroundings.")
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield what no air system can do."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         yield from self._supply_contradictions()
         if self.laminar_pressure_ratio <= self.critical_pressure_ratio:
-            yield Contradiction(("laminar_pressure_ratio",), "it must lie above critical_pressure_ratio")
+            yield Inconsistency(("laminar_pressure_ratio",), "it must lie above critical_pressure_ratio")
         if self.caliper_tank.ball_volume >= self.tank.volume:
-            yield Contradiction(("caliper_tank", "ball_volume"), "the balls do not fit into tank.volume")
+            yield Inconsistency(("caliper_tank", "ball_volume"), "the balls do not fit into tank.volume")
 
-    def _supply_contradictions(self) -> Iterator[Contradiction]:
+    def _supply_contradictions(self) -> Iterator[Inconsistency]:
         if self.compressor.cut_in_pressure >= self.compressor.cut_out_pressure:
-            yield Contradiction(
+            yield Inconsistency(
                 ("compressor", "cut_in_pressure"),
                 f"the compressor would start at {self.compressor.cut_in_pressure.text} and stop at"
                 f" {self.compressor.cut_out_pressure.text}",
@@ -169,7 +167,7 @@ class BrakeSystem(Part):
             )
         for name, position in self.positions.items():
             if position.maximum_pressure >= self.reservoir.initial_pressure:
-                yield Contradiction(
+                yield Inconsistency(
                     ("positions", name, "maximum_pressure"),
                     f"the brake line cannot reach {position.maximum_pressure.text} from a reservoir at"
                     f" {self.reservoir.initial_pressure.text}",

@@ -5,9 +5,7 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Contradiction, Part, Section
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
 
 Coefficient = Annotated[Quantity, kind("number", at_least="-1e6", at_most="1e6")]
 
@@ -17,7 +15,7 @@ HIGHEST_PRESSURE: Final = 10e5
 """Gauge pressure in Pa up to which the lines of a pair must keep their order."""
 
 
-class Line(Section):
+class ForceLine(Section):
     """Clamping force as a straight line over gauge pressure, where it is positive."""
 
     slope: Annotated[Quantity, kind("force per pressure", at_least="0.001 kN/bar", at_most="1000 kN/bar")] = (
@@ -35,10 +33,10 @@ class Line(Section):
 class FourPhaseHysteresis(Section):
     """Equations (4)-(7): a squeezing and a releasing line, one pair without and one with the WSP acting."""
 
-    bc_squeezing: Line = Field(description="Pressure rising, WSP not acting.")
-    bc_releasing: Line = Field(description="Pressure falling, WSP not acting.")
-    wsp_squeezing: Line = Field(description="Pressure rising, WSP acting.")
-    wsp_releasing: Line = Field(description="Pressure falling, WSP acting.")
+    bc_squeezing: ForceLine = Field(description="Pressure rising, WSP not acting.")
+    bc_releasing: ForceLine = Field(description="Pressure falling, WSP not acting.")
+    wsp_squeezing: ForceLine = Field(description="Pressure rising, WSP acting.")
+    wsp_releasing: ForceLine = Field(description="Pressure falling, WSP acting.")
     transition_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
         description="Time in which one pair of lines turns into the other, so that the force does not jump."
     )
@@ -46,20 +44,20 @@ class FourPhaseHysteresis(Section):
         description="Time of uninterrupted filling after which the WSP no longer counts as acting."
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield the pairs whose squeezing line is not below the releasing line."""
         for phase in ("bc", "wsp"):
-            squeezing: Line = getattr(self, f"{phase}_squeezing")
-            releasing: Line = getattr(self, f"{phase}_releasing")
+            squeezing: ForceLine = getattr(self, f"{phase}_squeezing")
+            releasing: ForceLine = getattr(self, f"{phase}_releasing")
             if _crosses(squeezing, releasing):
-                yield Contradiction(
+                yield Inconsistency(
                     (f"{phase}_squeezing",),
                     "the squeezing line must lie below the releasing line wherever there is force",
                     f"compare its slope and intercept with {phase}_releasing",
                 )
 
 
-def _crosses(squeezing: Line, releasing: Line) -> bool:
+def _crosses(squeezing: ForceLine, releasing: ForceLine) -> bool:
     # Both are straight where positive: the order at the first force of the lower line and at the end decides.
     start = max(0.0, -squeezing.intercept / squeezing.slope)
     return any(squeezing.force(at) > releasing.force(at) for at in (start, HIGHEST_PRESSURE))
@@ -73,10 +71,10 @@ class CylinderDynamics(Section):
     )
     denominator: tuple[Coefficient, Coefficient, Coefficient] = Field(description="a1, a2, a3.")
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield an unstable denominator or a gain at rest that is not one."""
         if not _stable(*self.denominator):
-            yield Contradiction(
+            yield Inconsistency(
                 ("denominator",),
                 "the transfer function is unstable",
                 "every pole must lie inside the unit circle",
@@ -84,7 +82,7 @@ class CylinderDynamics(Section):
             return
         gain = sum(self.numerator) / (1.0 + sum(self.denominator))
         if abs(gain - 1.0) > UNITY_GAIN_TOLERANCE:
-            yield Contradiction(
+            yield Inconsistency(
                 ("numerator",),
                 f"the gain at rest is {gain:.9g}, not 1",
                 "sum of numerator must equal 1 + sum of denominator",
@@ -114,7 +112,9 @@ class Compensation(Part):
     sampling_time: Annotated[Quantity, kind("time", at_least="0.01 ms", at_most="10 ms")] = Field(
         description="Sampling time of the cylinder dynamics."
     )
-    linear: Line = Field(description="Force over pressure without hysteresis, used by the setting 'none'.")
+    linear: ForceLine = Field(
+        description="Force over pressure without hysteresis, used by the setting 'none'."
+    )
     hysteresis: FourPhaseHysteresis = Field(description="Four-phase hysteresis.")
     cylinder: CylinderDynamics = Field(description="Tank pressure to cylinder pressure.")
     provenance: dict[str, str] = Field(

@@ -5,9 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Contradiction, Part
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, kind
 
 Duration = Annotated[Quantity, kind("time", at_least="1 ms", at_most="60 s")]
 Deceleration = Annotated[Quantity, kind("acceleration", at_least="0.001 m/s2", at_most="100 m/s2")]
@@ -86,19 +84,19 @@ class ThresholdController(ControllerPart):
     )
     refill_time: Duration = Field(description="Time of filling in pulses after which the tank fills freely.")
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield durations too short for the controller to see, and thresholds in the wrong order."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         for name in ("vent_watchdog", "hold_limit", "fill_pulse_on"):
             duration: Quantity = getattr(self, name)
             if duration < self.cycle_time:
-                yield Contradiction(
+                yield Inconsistency(
                     (name,), f"{duration.text} is shorter than one controller cycle ({self.cycle_time.text})"
                 )
         if self.holding_deceleration > self.reference_deceleration:
-            yield Contradiction(("holding_deceleration",), "it must not exceed reference_deceleration")
+            yield Inconsistency(("holding_deceleration",), "it must not exceed reference_deceleration")
         if self.hold_deceleration >= self.vent_deceleration:
-            yield Contradiction(
+            yield Inconsistency(
                 ("hold_deceleration",), "a vent would end at once: it must be below vent_deceleration"
             )
 
@@ -110,11 +108,11 @@ class SlipBandController(ControllerPart):
     lower_slide: Slide = Field(description="Slide below which the tank is filled.")
     upper_slide: Slide = Field(description="Slide above which the tank is vented.")
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a band that is upside down."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         if self.lower_slide >= self.upper_slide:
-            yield Contradiction(("lower_slide",), "it must be below upper_slide")
+            yield Inconsistency(("lower_slide",), "it must be below upper_slide")
 
 
 Controller = Annotated[ThresholdController | SlipBandController, Field(discriminator="algorithm")]

@@ -16,11 +16,18 @@ from pydantic_core import PydanticCustomError
 from uictest.scenario.parts.applicability import Applicability
 from uictest.scenario.parts.definition import Definition
 from uictest.scenario.parts.measure_catalogue import MEASURES, Course, Measure
-from uictest.scenario.parts.model import Contradiction, Model, Part
-from uictest.scenario.physical import Physical, written
-from uictest.scenario.quantities import SCENARIO_SOURCE, Quantity
-from uictest.scenario.units import KINDS
-from uictest.scenario.wording import quoted, suggestion
+from uictest.scenario.yaml import (
+    SCENARIO_SOURCE,
+    Inconsistency,
+    Model,
+    Part,
+    Physical,
+    Quantity,
+    quoted,
+    suggestion,
+    written,
+)
+from uictest.units import KINDS
 
 WHEELSETS = 4
 """Wheelsets of the car."""
@@ -128,7 +135,7 @@ class Criterion(Model):
             return (count + 1) // 2 if self.wheelsets.at_least == "half" else self.wheelsets.at_least
         return count if self.wheelsets == "all" else 1
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield missing or crossed bounds, a wrong aggregation, definitions missing or of no use."""
         yield from self._bounds_that_bound_nothing()
         yield from self._aggregation_that_does_not_fit()
@@ -138,40 +145,40 @@ class Criterion(Model):
     def _measured(self) -> Measure:
         return MEASURES[self.measure]
 
-    def _bounds_that_bound_nothing(self) -> Iterator[Contradiction]:
+    def _bounds_that_bound_nothing(self) -> Iterator[Inconsistency]:
         if self.lower is None and self.upper is None:
-            yield Contradiction(
+            yield Inconsistency(
                 (), f"criterion {quoted(self.id)} has no bound", "write 'lower', 'upper' or both"
             )
         elif self.lower is not None and self.upper is not None and self.lower > self.upper:
-            yield Contradiction(
+            yield Inconsistency(
                 ("lower",), f"the lower bound {self.lower.text} is above the upper bound {self.upper.text}"
             )
 
-    def _aggregation_that_does_not_fit(self) -> Iterator[Contradiction]:
+    def _aggregation_that_does_not_fit(self) -> Iterator[Inconsistency]:
         if self._measured.of_wheelsets and self.wheelsets is None:
-            yield Contradiction(
+            yield Inconsistency(
                 (),
                 f"{quoted(self.measure)} has a value per wheelset: 'wheelsets' must say how many keep it",
                 "write 'wheelsets: all', 'wheelsets: any' or 'wheelsets: {at_least: half}'",
             )
         if not self._measured.of_wheelsets and self.wheelsets is not None:
-            yield Contradiction(
+            yield Inconsistency(
                 ("wheelsets",), f"{quoted(self.measure)} is a measure of the whole stop, not of wheelsets"
             )
 
-    def _definitions_that_do_not_fit(self) -> Iterator[Contradiction]:
+    def _definitions_that_do_not_fit(self) -> Iterator[Inconsistency]:
         needed, given = self._measured.definitions, self.definition.parameters()
         for name in needed:
             if name not in given:
-                yield Contradiction(
+                yield Inconsistency(
                     (),
                     f"{quoted(self.measure)} rests on {quoted(name)}, which is not defined",
                     "write it under 'definition'",
                 )
         for name in given:
             if name not in needed:
-                yield Contradiction(
+                yield Inconsistency(
                     ("definition", name), f"{quoted(self.measure)} does not rest on {quoted(name)}"
                 )
 
@@ -189,24 +196,24 @@ class Criteria(Part):
         description="The criteria, judged in this order.", json_schema_extra={"minItems": 1}
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield sources that are not described and criteria of the same name."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         yield from self._undescribed_sources()
         if not self.criteria:
-            yield Contradiction(("criteria",), "the profile has no criterion", "write at least one")
+            yield Inconsistency(("criteria",), "the profile has no criterion", "write at least one")
         seen: set[str] = set()
         for index, criterion in enumerate(self.criteria):
             if criterion.id in seen:
-                yield Contradiction(
+                yield Inconsistency(
                     ("criteria", index, "id"), f"a second criterion is called {quoted(criterion.id)}"
                 )
             seen.add(criterion.id)
 
-    def _undescribed_sources(self) -> Iterator[Contradiction]:
+    def _undescribed_sources(self) -> Iterator[Inconsistency]:
         for index, criterion in enumerate(self.criteria):
             if criterion.source not in {SCENARIO_SOURCE, *self.sources}:
-                yield Contradiction(
+                yield Inconsistency(
                     ("criteria", index, "source"),
                     f"unknown source {quoted(criterion.source)}",
                     suggestion(criterion.source, self.sources) or "describe it under 'sources'",

@@ -5,9 +5,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
-from uictest.scenario.parts.model import Contradiction, Model
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import SCENARIO_SOURCE, Quantity
+from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, kind
 
 
 def _marked_throughout(given: object) -> object:
@@ -26,13 +24,13 @@ def _marked(given: object, source: str) -> object:
     return given if isinstance(given, dict | Quantity) else {"value": given, "source": source}
 
 
-def _range_contradictions(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Contradiction]:
+def _range_contradictions(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Inconsistency]:
     """Yield a range that does not rise or does not hold the value."""
     lower, upper = ends
     if lower > upper:
-        yield Contradiction(("range",), f"the range falls from {lower.text} to {upper.text}")
+        yield Inconsistency(("range",), f"the range falls from {lower.text} to {upper.text}")
     elif not lower <= value <= upper:
-        yield Contradiction(
+        yield Inconsistency(
             ("value",), f"{value.text} is outside its own range of {lower.text} to {upper.text}"
         )
 
@@ -55,7 +53,7 @@ class FirstPhaseDuration(Model):
         default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a range that does not rise or does not hold the value."""
         yield from _range_contradictions(self.value, self.range)
 
@@ -72,7 +70,7 @@ class LowSpeedCutoff(Model):
         default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
     )
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield every cut-off between two classes, then what is wrong with the range."""
         for key, cutoff in (
             (("value",), self.value),
@@ -80,7 +78,7 @@ class LowSpeedCutoff(Model):
             (("range", 1), self.range[1]),
         ):
             if round(cutoff * 3.6, 6) % 10.0:
-                yield Contradiction(
+                yield Inconsistency(
                     key, f"{cutoff.text} is no multiple of 10 km/h", "slides are kept in such classes"
                 )
         yield from _range_contradictions(self.value, self.range)

@@ -4,9 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Part
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Part, Quantity, kind
 
 Speed = Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 

@@ -5,9 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Contradiction, Part, Section
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
 
 Friction = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
 Share = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
@@ -47,11 +45,11 @@ class RailCondition(Part):
     reduction_slip: Share = Field(description="kS: reduction of the creep slope in the area of slip.")
     contact: Contact = Field(description="The contact of one wheel.")
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         if self.reduction_slip > self.reduction_adhesion:
-            yield Contradiction(
+            yield Inconsistency(
                 ("reduction_slip",),
                 f"kS = {self.reduction_slip.text} exceeds kA = {self.reduction_adhesion.text}",
                 "the law needs reduction_slip <= reduction_adhesion <= 1",

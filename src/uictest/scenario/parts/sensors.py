@@ -4,9 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Part, Section
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Part, Quantity, Section, kind
 
 ErrorShare = Annotated[Quantity, kind("share", at_least="-50 %", at_most="50 %")]
 NoiseShare = Annotated[Quantity, kind("share", at_least="0 %", at_most="50 %")]

@@ -10,9 +10,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.parts.model import Contradiction, Part, Section
-from uictest.scenario.physical import kind
-from uictest.scenario.quantities import Quantity
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
 
 Height = Annotated[Quantity, kind("length", at_least="1 cm", at_most="5 m")]
 Stiffness = Annotated[Quantity, kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
@@ -128,28 +126,28 @@ class Vehicle(Part):
         """Mass of the car, kg."""
         return self.body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
 
-    def contradictions(self) -> Iterator[Contradiction]:
+    def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield what cannot be built: wheels or bogies that overlap, more inertia than the mass allows."""
-        yield from super().contradictions()
+        yield from super().inconsistencies()
         if self.bogie.half_wheelbase <= self.wheelset.radius:
-            yield Contradiction(
+            yield Inconsistency(
                 ("bogie", "half_wheelbase"),
                 "the wheels of a bogie overlap: half_wheelbase must exceed wheelset.radius",
             )
         if self.half_pivot_distance <= self.bogie.half_wheelbase + self.wheelset.radius:
-            yield Contradiction(
+            yield Inconsistency(
                 ("half_pivot_distance",),
                 "the bogies overlap: it must exceed bogie.half_wheelbase + wheelset.radius",
             )
         if self.wheelset.rotational_inertia > self.wheelset.mass * self.wheelset.radius**2:
-            yield Contradiction(
+            yield Inconsistency(
                 ("wheelset", "rotational_inertia"),
                 "no wheelset of this mass and radius has this inertia",
                 f"at most mass x radius2 = {self.wheelset.mass * self.wheelset.radius**2:.4g} kg m2",
             )
         yield from self._springs_too_soft()
 
-    def _springs_too_soft(self) -> Iterator[Contradiction]:
+    def _springs_too_soft(self) -> Iterator[Inconsistency]:
         """Yield the springs on which what they carry swings more slowly than any car does."""
         body, sprung = self.body.mass, self.body.mass + 2.0 * self.bogie.mass
         primary, secondary, link = self.primary, self.secondary, self.traction_link
@@ -162,7 +160,7 @@ class Vehicle(Part):
         ):
             frequency = math.sqrt(stiffness / mass) / math.tau
             if frequency < LOWEST_FREQUENCY:
-                yield Contradiction(
+                yield Inconsistency(
                     key,
                     f"too soft: {mass / 1000.0:.4g} t swing at {frequency:.2g} Hz on these springs",
                     f"at least {LOWEST_FREQUENCY} Hz are accepted, a stiffness"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from uictest import recording
 from uictest.studies.figures.style import BAND, INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
 from uictest.studies.units import KILOMETRE_PER_HOUR, PERCENT
 
@@ -11,14 +12,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from uictest.recording import Recording
 
 _LOW_SPEED = 30.0 * KILOMETRE_PER_HOUR
 """The slides of a train slower than this are not drawn: near standstill a slide says nothing."""
 
 
 def draw(
-    dry: Recording, slip: Recording, distances: tuple[float, float], slide: float, figure: Figure
+    dry: recording.Recording,
+    slip: recording.Recording,
+    distances: tuple[float, float],
+    slide: float,
+    figure: Figure,
 ) -> None:
     """Draw both stops with the limits of Appendix B: distances in m, slide in %."""
     figure.set_size_inches(WIDTH, 4.8)
@@ -28,7 +32,7 @@ def draw(
     _draw_slip(speeds, slides, slip, slide)
 
 
-def _draw_dry(axes: Axes, dry: Recording, distances: tuple[float, float]) -> None:
+def _draw_dry(axes: Axes, dry: recording.Recording, distances: tuple[float, float]) -> None:
     axes.axvspan(*distances, color=BAND, zorder=0)
     axes.plot(dry["distance"], dry["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5)
     stop = float(dry["distance"][-1])
@@ -53,7 +57,7 @@ def _draw_dry(axes: Axes, dry: Recording, distances: tuple[float, float]) -> Non
     from_zero(axes)
 
 
-def _draw_slip(speeds: Axes, slides: Axes, slip: Recording, limit: float) -> None:
+def _draw_slip(speeds: Axes, slides: Axes, slip: recording.Recording, limit: float) -> None:
     time = slip["time"]
     counted = slip["speed"] > _LOW_SPEED
     for n, colour in WHEELSETS.items():

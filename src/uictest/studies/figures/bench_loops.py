@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from uictest import identification
 from uictest.studies.figures.style import BLUE, INK, MUTED, WIDTH, from_zero
 from uictest.studies.units import BAR, KILONEWTON
 
@@ -12,11 +13,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from uictest.identification import HysteresisResult
     from uictest.recording import Recording
 
 
-def draw(tests: Mapping[str, Recording], found: HysteresisResult, figure: Figure) -> None:
+def draw(tests: Mapping[str, Recording], found: identification.HysteresisResult, figure: Figure) -> None:
     """Draw the bench tests; the lines found under triangular pressure are laid over its loop."""
     figure.set_size_inches(WIDTH, 4.3)
     axes = figure.subplots(
@@ -37,7 +37,7 @@ def draw(tests: Mapping[str, Recording], found: HysteresisResult, figure: Figure
         _mark_width(axes[1][list(tests).index("triangular")], found)
 
 
-def _mark_width(axes: Axes, found: HysteresisResult) -> None:
+def _mark_width(axes: Axes, found: identification.HysteresisResult) -> None:
     force = found.high_force
     left, right = (found.lines[phase].pressure(force) / BAR for phase in ("bc_releasing", "bc_squeezing"))
     up = force / KILONEWTON

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest import identification
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from uictest.studies.phases import TITLES, on_phases
 from uictest.studies.units import BAR, KILONEWTON
@@ -14,13 +15,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from uictest.identification import HysteresisResult
     from uictest.recording import Recording
 
 _EVERY = 10
 
 
-def draw(recording: Recording, found: HysteresisResult, figure: Figure) -> None:
+def draw(recording: Recording, found: identification.HysteresisResult, figure: Figure) -> None:
     """Draw the BC phases on the left and the WSP phases on the right."""
     figure.set_size_inches(WIDTH, 3.5)
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
@@ -31,7 +31,7 @@ def draw(recording: Recording, found: HysteresisResult, figure: Figure) -> None:
     from_zero(left)
 
 
-def _draw_pair(axes: Axes, recording: Recording, found: HysteresisResult, pair: str) -> None:
+def _draw_pair(axes: Axes, recording: Recording, found: identification.HysteresisResult, pair: str) -> None:
     pressure, force = recording["measured_pressure_1"] / BAR, recording["clamping_force_1"] / KILONEWTON
     axes.plot(pressure[::_EVERY], force[::_EVERY], color=MUTED, alpha=0.35, linewidth=0.7)
     for phase, mask in on_phases(recording).items():

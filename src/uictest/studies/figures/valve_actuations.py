@@ -20,7 +20,7 @@ _VENT = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class ActuationPanel:
     """One module of one stop."""
 
     title: str
@@ -28,7 +28,7 @@ class Trace:
     module: int
 
 
-def draw(traces: Sequence[Trace], figure: Figure) -> None:
+def draw(traces: Sequence[ActuationPanel], figure: Figure) -> None:
     """Draw the panels one below the other; a tick below the pressure marks each opening of the vent."""
     figure.set_size_inches(WIDTH, 1.55 * len(traces) + 0.3)
     panels = figure.subplots(len(traces), 1, sharex=True, sharey=True)
@@ -44,7 +44,7 @@ def draw(traces: Sequence[Trace], figure: Figure) -> None:
     panels[-1].set_xlabel("time, s")
 
 
-def openings(trace: Trace) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def openings(trace: ActuationPanel) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Return the samples at which the vent of the module is told to open."""
     venting = trace.recording[f"valve_command_{trace.module}"] == _VENT
     return np.flatnonzero(venting[1:] & ~venting[:-1]) + 1

@@ -1,0 +1,12 @@
+from .batch import BatchResult as BatchResult, run_cases as run_cases
+from .case import CaseRun as CaseRun, RecordingRequest as RecordingRequest, run_case as run_case
+from .descriptions import subjects_of as subjects_of
+from .expression import ExpressionError as ExpressionError, parse as parse
+from .parts import (
+    PartsOfCases as PartsOfCases,
+    parts_of_cases as parts_of_cases,
+    parts_of_recorded as parts_of_recorded,
+    with_parts as with_parts,
+)
+from .replay import replay as replay, shortest_cycle as shortest_cycle
+from .selection import by_expression as by_expression, by_id as by_id, by_tag as by_tag

@@ -1,0 +1,107 @@
+"""`uictest compare`: two runs or two recordings side by side."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from uictest import comparison, recording
+from uictest.cli.commands.report import run_folder
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.folders import why_no_run
+from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.streams import data, message, terminal_width
+from uictest.recording import formats
+
+
+def compare(
+    first: Annotated[Path, typer.Argument(metavar="A", help="A run's folder, or a recording.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="Another of the same kind.")],
+    tolerance: ToleranceTexts = None,
+    channels: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--channel",
+            metavar="NAME",
+            help="Draw this channel on the page; NAME may hold *. May be repeated.",
+        ),
+    ] = None,
+    page: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write a page with overlay plots, too.")
+    ] = None,
+    shown: ListFormat = PlainFormat.TEXT,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Show what differs between two runs or two recordings. Exit 1 where something is out of tolerance."""
+    if channels and page is None:
+        raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
+    compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])
+    if shown is PlainFormat.JSON:
+        data(comparison.comparison_json(compared))
+    else:
+        for line in comparison.comparison_lines(
+            compared, every=verbosity > 0, width=terminal_width(sys.stdout)
+        ):
+            data(line)
+    if page is not None:
+        recording.write_text_atomic(page, comparison.comparison_html(compared))
+        for line in compared.undrawn:
+            message(f"uictest: not drawn: {line}")
+    message(f"uictest: {comparison.verdict_line(compared)}")
+    return ExitCode.MET if compared.agrees else ExitCode.MISSED
+
+
+def _compared(
+    first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
+) -> comparison.Comparison:
+    """Compare two runs or two recordings; `channels` are patterns to draw, None where there is no page."""
+    places = [run_folder(place) for place in (first, second)]
+    if any(place.is_dir() for place in places):
+        return _runs(places[0], places[1], tolerances, channels)
+    recordings = _recording(places[0]), _recording(places[1])
+    try:
+        return comparison.compare_recordings(*recordings, _names(first, second), tolerances, channels or ())
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: --channel: {error}") from error
+
+
+def _runs(
+    first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
+) -> comparison.Comparison:
+    """Compare two runs, and draw the stops that both have recorded and that differ."""
+    if reason := why_no_run(first) or why_no_run(second):
+        raise InvalidInputError(
+            f"uictest: {reason}; compare takes the folders of two runs, or two recordings"
+        )
+    try:
+        compared = comparison.compare_run_folders(first, second, tolerances)
+        return compared if channels is None else comparison.with_overlays(compared, first, second, channels)
+    except (OSError, ValueError) as error:
+        raise InvalidInputError(f"uictest: cannot compare as runs: {error}") from error
+
+
+def _recording(path: Path) -> recording.Recording:
+    from uictest.cli.recordings import each_file
+
+    try:
+        if path.suffix == ".parquet":
+            return recording.read_parquet(path)
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    except OSError as error:
+        raise InvalidInputError(f"uictest: {path}: {error.strerror or error}") from error
+    return each_file(
+        [path], lambda one: recording.recording_of(formats.read_contents(one), {"source": one.name})
+    )[0]
+
+
+def _names(first: Path, second: Path) -> tuple[str, str]:
+    """Return what two files are called: their names, or their paths where those are the same."""
+    if first.name != second.name:
+        return first.name, second.name
+    return str(first), str(second)

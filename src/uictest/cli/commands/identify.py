@@ -1,0 +1,283 @@
+"""`uictest identify`: the numbers of the compensation from a recording."""
+
+from __future__ import annotations
+
+import math
+import re
+import shlex
+from collections.abc import Sequence
+from itertools import combinations
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from uictest import field_data, identification, library, recording, scenario
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Trusted, Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.registration import command
+from uictest.cli.streams import data, message
+from uictest.scenario import yaml
+
+identify = typer.Typer(
+    rich_markup_mode=None,
+    help="Identify hysteresis or cylinder dynamics from a recording.",
+)
+
+_OPTIONS = {
+    "input": "--input",
+    "output": "--output-channel",
+    "pressure": "--pressure",
+    "force": "--force",
+    "command": "--command",
+}
+"""Role of a channel -> the option that names it."""
+Recording = Annotated[
+    Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
+]
+Output = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write; none: only report."),
+]
+Base = Annotated[
+    str,
+    typer.Option("--base", metavar="NAME|FILE", help="Compensation whose other numbers are kept."),
+]
+Name = Annotated[
+    str,
+    typer.Option(
+        "--name",
+        metavar="NAME",
+        help="Name of the compensation in FILE [default: from the file name of RECORDING].",
+        show_default=False,
+    ),
+]
+Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
+HeldOut = Annotated[
+    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record kept from the fit.")
+]
+
+
+@command(identify, "hysteresis")
+def hysteresis(
+    context: typer.Context,
+    record: Recording,
+    output: Output = None,
+    base: Base = "six-inch",
+    name: Name = "",
+    trusted: Trusted = None,
+    pressure: Annotated[
+        str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder's pressure.")
+    ] = "cylinder_pressure_1",
+    force: Annotated[
+        str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
+    ] = "clamping_force_1",
+    command: Annotated[
+        str, typer.Option("--command", metavar="CHANNEL", help="Valve command: 0 fill, 1 hold, 2 vent.")
+    ] = "valve_command_1",
+    intervals: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--wsp", metavar="FROM..TO", help="Time in s in which the WSP acts, instead of commands."
+        ),
+    ] = None,
+    acting_time: Annotated[
+        float,
+        typer.Option(
+            "--acting-time",
+            min=0.0,
+            max=60.0,
+            help="Time of filling in s after which the WSP no longer acts.",
+        ),
+    ] = 2.0,
+    transition_time: Annotated[
+        float,
+        typer.Option(
+            "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
+        ),
+    ] = 0.1,
+    held_out: HeldOut = 0.25,
+    date: Date = "",
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
+    kept = _base(base, trusted or ())
+    part_name = "" if output is None else _name(name, record)
+    given = [_interval(text) for text in intervals or ()]
+    wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
+    recorded = _record(record, wanted)
+    channels = recorded.channels
+    time = channels["time"]
+    acting = (
+        identification.wsp_acting_in_intervals(time, given)
+        if given
+        else identification.wsp_acting_from_commands(time, channels["command"], acting_time)
+    )
+    try:
+        result = identification.identify_hysteresis(
+            time, channels["pressure"], channels["force"], acting, transition_time, held_out
+        )
+    except identification.UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
+    data(_hysteresis_report(result))
+    if output is not None:
+        provenance = _provenance(context, record, recorded, date)
+        text = identification.with_hysteresis(
+            kept, part_name, result, provenance, acting_time, transition_time
+        )
+        _write(output, text)
+    return ExitCode.MET
+
+
+@command(identify, "cylinder")
+def cylinder(
+    context: typer.Context,
+    record: Recording,
+    output: Output = None,
+    base: Base = "six-inch",
+    name: Name = "",
+    trusted: Trusted = None,
+    tank: Annotated[
+        str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank's pressure.")
+    ] = "measured_pressure_2",
+    cylinder: Annotated[
+        str,
+        typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder's pressure."),
+    ] = "cylinder_pressure_1",
+    criterion: Annotated[
+        Literal["least-squares", "largest-error"],
+        typer.Option(
+            "--criterion", help="What is made least; the largest error suits records of little noise."
+        ),
+    ] = "least-squares",
+    held_out: HeldOut = 0.25,
+    date: Date = "",
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
+    kept = _base(base, trusted or ())
+    part_name = "" if output is None else _name(name, record)
+    recorded = _record(record, {"input": tank, "output": cylinder})
+    channels = recorded.channels
+    try:
+        result = identification.identify_cylinder(
+            channels["time"], channels["input"], channels["output"], criterion, held_out
+        )
+        identification.require_fit(result)
+    except identification.UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
+    data(_cylinder_report(result))
+    if output is not None:
+        provenance = _provenance(context, record, recorded, date)
+        _write(output, identification.with_cylinder(kept, part_name, result, provenance))
+    return ExitCode.MET
+
+
+def _record(record: Path, wanted: dict[str, str]) -> identification.Record:
+    """Read the channels of a record by role. Raises InvalidInputError where two options name the same one."""
+    for (role, name), (other, same) in combinations(wanted.items(), 2):
+        if name == same:
+            raise InvalidInputError(
+                f"uictest: {_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
+            )
+    try:
+        return identification.read_record(_existing(record), wanted)
+    except identification.UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+
+
+def _existing(record: Path) -> Path:
+    if not record.is_file():
+        raise InvalidInputError(f"uictest: {record}: {'not a file' if record.exists() else 'no such file'}")
+    return record
+
+
+def _interval(text: str) -> tuple[float, float]:
+    first, dots, last = text.partition("..")
+    try:
+        begin, end = float(first), float(last)
+    except ValueError:
+        begin, end = 1.0, 0.0
+    if not dots or not -math.inf < begin < end < math.inf:
+        raise InvalidInputError(
+            f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
+        )
+    return begin, end
+
+
+def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
+    """The compensation that keeps its other numbers: of the library, or a file."""
+    try:
+        return identification.load_compensation(reference, trusted)
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def _name(name: str, record: Path) -> str:
+    """The name that was asked for, else one from the file name of the record, which no library part has."""
+    derived = re.sub(r"[^a-z0-9]+", "-", record.stem.lower()).strip("-")[:100]
+    if name and not re.fullmatch(yaml.NAME_PATTERN, name):
+        raise InvalidInputError(f"uictest: --name {name!r}: write lower case letters, digits and . _ -")
+    if not name and (not derived or derived in library.names("compensations")):
+        raise InvalidInputError(
+            f"uictest: {record.name} gives no name that is free for the compensation; write --name NAME"
+        )
+    return name or derived
+
+
+def _provenance(
+    context: typer.Context, record: Path, recorded: identification.Record, date: str
+) -> identification.Provenance:
+    from uictest import __version__
+
+    return identification.Provenance(
+        record=record.name,
+        digest=field_data.digest_of(record),
+        samples_digest=identification.samples_digest(recorded.channels),
+        origin=recorded.origin,
+        command=shlex.join(["uictest", *context.obj.arguments]),
+        version=__version__,
+        date=date,
+    )
+
+
+def _write(output: Path, text: str) -> None:
+    if not output.parent.is_dir():
+        raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+    recording.write_text_atomic(output, text)
+    message(f"uictest: wrote {output}")
+
+
+def _hysteresis_report(result: identification.HysteresisResult) -> str:
+    lines = [
+        f"{phase:<16}{line.slope * 100:9.4f} kN/bar +-{line.slope_confidence * 100:8.4f}"
+        f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
+        for phase, line in result.lines.items()
+    ]
+    lines += [
+        f"{kind} loop width {width / 1e5:.4f} bar at {result.high_force / 1e3:.2f} kN"
+        for kind, width in result.loop_widths.items()
+    ]
+    largest, rms = 100.0 * result.largest_error, 100.0 * result.rms_error
+    force = result.largest_force / 1e3
+    lines.append(f"force error, held out: largest {largest:.2f} %, rms {rms:.2f} % of {force:.2f} kN")
+    return "\n".join(lines)
+
+
+def _cylinder_report(result: identification.CylinderResult) -> str:
+    model = result.transfer_function
+    before, after = 100.0 * result.largest_before, 100.0 * result.largest_after
+    pressure = result.largest_pressure / 1e5
+    poles = ", ".join(f"{pole.real:.6f}{pole.imag:+.6f}j" for pole in model.poles)
+    return "\n".join(
+        [
+            f"sampling time {model.sampling_time * 1e3:g} ms",
+            f"numerator {', '.join(map(repr, model.numerator))}",
+            f"denominator 1.0, {', '.join(map(repr, model.denominator))}",
+            f"poles {poles}",
+            f"gain within 3 dB up to {model.band:.4g} Hz",
+            f"fit, held out: {result.fit:.2f} %",
+            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+        ]
+    )

@@ -1,0 +1,149 @@
+"""`uictest library`: the parts that come with the program, and those of its users."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from uictest import field_data, scenario
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Trusted, Verbosity
+from uictest.cli.problems import InvalidInputError
+from uictest.cli.registration import command
+from uictest.cli.streams import data
+from uictest.report import printable
+from uictest.rig import bench
+from uictest.scenario import yaml
+
+library = typer.Typer(rich_markup_mode=None, help="Show the parts that come with the program.")
+
+
+@command(library, "list")
+def list_parts(verbosity: Verbosity = 0) -> ExitCode:
+    """List the parts, one per line, each with its title."""
+    data(_aligned([(reference, _title(reference)) for reference in _references()]))
+    return ExitCode.MET
+
+
+@command(library, "show")
+def show_part(
+    reference: Annotated[
+        str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180, or the file of a part.")
+    ],
+    trusted: Trusted = None,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
+
+    Of a part that extends another, what differs from it. Below the numbers stand the sources, the
+    publications they name and, of identified numbers, how. Of a channel map, the names that a channel may
+    have in a file.
+    """
+    if reference.endswith((".yaml", ".yml")):
+        _show_file(Path(reference), trusted or ())
+        return ExitCode.MET
+    if reference not in _references():
+        raise InvalidInputError(f"uictest: no part {reference!r} in the library; {_hint(reference)}")
+    folder, _, name = reference.partition("/")
+    data(printable(f"{reference}: {_title(reference)}"))
+    if folder == "channel_maps":
+        data(_aligned(_channels(name)))
+    else:
+        _show_numbers(_part(folder, name))
+    return ExitCode.MET
+
+
+def _show_file(path: Path, trusted: Sequence[Path]) -> None:
+    """Show the file of a part, a bench recipe or a channel map. Raises InvalidInputError for any other."""
+    try:
+        written = yaml.plain(yaml.read_file(path))
+        title = written.get("title", "")
+        heading = printable(f"{path}: {title}")
+        schema = written.get("schema")
+        if schema == "uictest/channel-map/1":
+            channels = _channels(str(path), trusted)
+            data(f"{heading}\n{_aligned(channels)}")
+            return
+        is_bench = schema == "uictest/bench/1"
+        part = _part("benches", str(path), trusted) if is_bench else scenario.load_part_file(path, trusted)
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+    data(f"{heading}\nbased on {part.based_on}" if part.based_on else heading)
+    _show_numbers(part)
+
+
+def _show_numbers(part: yaml.Part) -> None:
+    from uictest.library import references
+
+    shown = list(scenario.numbers(part))
+    original = {} if part.original is None else {each.key: each for each in scenario.numbers(part.original)}
+    data(_aligned([(*_row(number), _difference(number, original, part)) for number in shown]))
+    if removed := original.keys() - {number.key for number in shown}:
+        data(f"removed: {', '.join(sorted(removed))}")
+    used = {number.quantity.source for number in shown}
+    sources = [(name, each.text) for name, each in part.sources.items() if name in used]
+    cited = [
+        each for each in references().items() if any(text.startswith(each[0] + ":") for _, text in sources)
+    ]
+    provenance = list(getattr(part, "provenance", {}).items())
+    for title, rows in (("sources", sources), ("references", cited), ("provenance", provenance)):
+        if rows:
+            data(f"\n{title}\n{_aligned(rows)}")
+
+
+def _row(number: scenario.Number) -> tuple[str, ...]:
+    """Return key, number, mark and the name of the source, which may be called like its mark."""
+    if number.source is None:
+        return (number.key, number.quantity.text, scenario.mark_of(number.quantity, {}), "")
+    mark, name = number.source.mark, number.quantity.source
+    return (number.key, number.quantity.text, mark, "" if name == mark else name)
+
+
+def _difference(number: scenario.Number, original: Mapping[str, scenario.Number], part: yaml.Part) -> str:
+    """Return what the part that this one extends has instead; empty where it has the same."""
+    if part.original is None:
+        return ""
+    other = original.get(number.key)
+    if other is not None and other.quantity == number.quantity:
+        return ""
+    return f"({part.based_on}: {'none' if other is None else other.quantity.text})"
+
+
+def _channels(name: str, trusted: Sequence[Path] = ()) -> list[tuple[str, ...]]:
+    channels = field_data.load_map(name, trusted)[0].channels
+    return [(channel, ", ".join(source.source), source.unit) for channel, source in channels.items()]
+
+
+def _part(folder: str, name: str, trusted: Sequence[Path] = ()) -> yaml.Part:
+    if folder == "benches":
+        return bench.load_bench(bench.recipe_path(name), trusted=trusted).recipe
+
+    return scenario.load_part(f"{folder}/{name}")
+
+
+def _title(reference: str) -> str:
+    return str(yaml.plain(yaml.read_library(*reference.split("/")))["title"])
+
+
+def _references() -> list[str]:
+    from uictest.library import FOLDERS, OTHER_FOLDERS, names
+
+    return [f"{folder}/{name}" for folder in sorted((*FOLDERS, *OTHER_FOLDERS)) for name in names(folder)]
+
+
+def _hint(reference: str) -> str:
+    from uictest.library import FOLDERS, OTHER_FOLDERS
+
+    guess = yaml.nearest(reference, _references())
+    accepted = ", ".join(f"{folder}/..." for folder in sorted((*FOLDERS, *OTHER_FOLDERS)))
+    return f"did you mean {guess!r}?" if guess else f"accepted: {accepted}"
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    shown = [[printable(cell) for cell in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*shown, strict=True)]
+    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in shown)
+    return "\n".join(line.rstrip() for line in lines)

@@ -1,0 +1,51 @@
+"""`uictest schema`: the JSON Schema of scenario and sweep files."""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from uictest import recording
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Verbosity
+from uictest.cli.streams import data
+
+
+class SchemaKind(StrEnum):
+    """Kinds of file that have a schema."""
+
+    SCENARIO = "scenario"
+    SWEEP = "sweep"
+
+
+def schema(
+    subject: Annotated[SchemaKind, typer.Argument(metavar="[scenario|sweep]", help="Kind of file.")] = (
+        SchemaKind.SCENARIO
+    ),
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to a file, not to stdout.")
+    ] = None,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Print the JSON Schema (draft-07) of scenario or sweep files."""
+    text = schema_text(subject)
+    if output is None:
+        data(text.rstrip("\n"))
+        return ExitCode.MET
+
+    recording.write_text_atomic(output, text)
+    return ExitCode.MET
+
+
+def schema_text(subject: SchemaKind = SchemaKind.SCENARIO) -> str:
+    """Return the schema of a kind of file as the JSON text that is kept in the repository."""
+    if subject is SchemaKind.SWEEP:
+        from uictest.sweep import sweep_schema as described
+    else:
+        from uictest.scenario import json_schema as described
+
+    return f"{json.dumps(described(), indent=2, ensure_ascii=False)}\n"

@@ -1,0 +1,29 @@
+from .case import JUDGED_KEYS as JUDGED_KEYS, error_result as error_result, evaluate as evaluate
+from .coverage import Coverage as Coverage, MissingData as MissingData
+from .document import (
+    parts_document as parts_document,
+    parts_of as parts_of,
+    result_document as result_document,
+    results_of as results_of,
+    to_json as to_json,
+)
+from .effective_parts import EffectiveParts as EffectiveParts
+from .json_form import json_form as json_form
+from .judgement import judge as judge
+from .margin import narrowest_margin as narrowest_margin, relative_margin as relative_margin
+from .parameters import EffectivePart as EffectivePart, Parameter as Parameter, parts_table as parts_table
+from .result import (
+    CaseMeasures as CaseMeasures,
+    CaseResult as CaseResult,
+    CaseWheelsetMeasures as CaseWheelsetMeasures,
+    unit_of as unit_of,
+)
+from .simulated import evaluate_simulated as evaluate_simulated
+from .units import UNITS as UNITS
+from .verdict import (
+    AppliedDefinition as AppliedDefinition,
+    Sensitivity as Sensitivity,
+    Status as Status,
+    Verdict as Verdict,
+    VerdictInterval as VerdictInterval,
+)

@@ -1,0 +1,168 @@
+"""The channel map: which channel of a file is which, in what unit, and how the record is prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field
+
+from uictest import library
+from uictest.field_data.channels import UNITS, WHEELSETS
+from uictest.field_data.preparation import Preparation
+from uictest.field_data.units import accepted, factor
+from uictest.recording.formats import Dialect
+from uictest.scenario import Files, Roots, is_path
+from uictest.scenario.yaml import (
+    Inconsistency,
+    Map,
+    Model,
+    Scalar,
+    inherit,
+    plain,
+    quoted,
+    read_file,
+    single_error,
+    suggestion,
+    validated,
+)
+
+SCHEMA: Final = "uictest/channel-map/1"
+DEFAULT: Final = "uictest"
+NUMBER: Final = "{n}"
+"""Stands for the number of the wheelset, in the name of a channel and in its sources."""
+_USUAL_ENCODINGS: Final = ("utf-8", "cp1252", "latin-1", "utf-16", "cp1250", "cp437", "cp850", "mac_roman")
+_PRESETS: Final = Path(library.__file__).parent / "channel_maps"
+
+
+def _shorthand(given: object) -> object:
+    return {"source": given} if isinstance(given, str | tuple) else given
+
+
+def _several(given: object) -> object:
+    return (given,) if isinstance(given, str) else given
+
+
+class Source(Model):
+    """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
+
+    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
+        description="Name in the file, or several of which the first that is there counts; group/name too."
+    )
+    unit: str = Field(default="", description="Unit of the value; left out, the file's own.")
+    scale: float = Field(default=1.0, allow_inf_nan=False, description="Factor on every sample.")
+    offset: float = Field(default=0.0, allow_inf_nan=False, description="Added after scaling, in `unit`.")
+    sign: Literal[1, -1] = Field(default=1, description="-1 where the file counts the other way.")
+    states: dict[str, int] = Field(default={}, description="Name of a state in the file -> its number.")
+
+
+class DialectSection(Model):
+    """How a text file writes its table; lines are counted from one."""
+
+    delimiter: str = Field(default=",", min_length=1, max_length=1, description="Between two cells.")
+    decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
+    thousands: Literal["", ".", ",", "'", " "] = Field(default="", description="Between groups of digits.")
+    header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
+    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: found, or none.")
+    first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
+    encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield an encoding that is not known, and a sign that would have two meanings."""
+        try:
+            "".encode(self.encoding)
+        except (LookupError, ValueError):
+            hint = suggestion(self.encoding, _USUAL_ENCODINGS)
+            yield Inconsistency(("encoding",), f"unknown encoding {quoted(self.encoding)}", hint)
+        if self.thousands == self.decimal:
+            yield Inconsistency(("thousands",), f"{quoted(self.thousands)} is the decimal sign already")
+
+
+class ChannelMap(Model):
+    """A channel map as it is written, parents merged in."""
+
+    schema_id: Literal["uictest/channel-map/1"] = Field(alias="schema", description="What the file holds.")
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the map.")
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    channels: dict[str, Annotated[Source, BeforeValidator(_shorthand)]] = Field(
+        description="Canonical channel -> where it comes from; {n} stands for each wheelset's number."
+    )
+    csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
+    preparation: Preparation = Field(
+        default=Preparation(), description="How a record is prepared before it is measured."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield channels that are not known and units that are not theirs."""
+        for name, source in self.channels.items():
+            of_first = name.replace(NUMBER, str(WHEELSETS[0]))
+            if of_first not in UNITS:
+                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in UNITS)
+                yield Inconsistency(
+                    ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
+                )
+            elif source.unit and factor(source.unit, UNITS[of_first]) is None:
+                yield Inconsistency(
+                    ("channels", name, "unit"),
+                    f"{quoted(source.unit)} is no unit of {name}",
+                    "accepted: " + ", ".join(accepted(UNITS[of_first])),
+                )
+
+    @property
+    def dialect(self) -> Dialect:
+        """The dialect of text files."""
+        return Dialect(**dict(self.csv))
+
+    def sources(self) -> dict[str, Source]:
+        """Return every channel with its source, wheelsets spelled out; what is named alone goes first."""
+        spelled_out: dict[str, Source] = {}
+        for name, source in self.channels.items():
+            numbers = WHEELSETS if NUMBER in name else ()
+            spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
+        return spelled_out | {name: s for name, s in self.channels.items() if NUMBER not in name}
+
+
+def presets() -> tuple[str, ...]:
+    """Return the names of the channel maps that come with the program."""
+    return tuple(sorted(path.stem for path in _PRESETS.glob("*.yaml")))
+
+
+def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, dict[str, str]]:
+    """Return the map that a preset's name or the path of a file stands for, and the files read for it.
+
+    Files are given with their SHA-256. Parents stay at or below the folder of the map, the working folder and
+    the `trusted` folders. Raises ScenarioErrors with every error, each at its place, KeyError
+    for a name that is neither.
+    """
+    if reference in presets():
+        tree = read_file(_PRESETS / f"{reference}.yaml")
+    elif reference.endswith((".yaml", ".yml")):
+        tree = read_file(Path(reference))
+    else:
+        raise KeyError(reference)
+    files = Files(Roots.of([Path(reference)], trusted))
+    merged, documents = inherit(tree, lambda parent: _parent(parent, files))
+    loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
+    inputs = {
+        each.display
+        if each.folder != _PRESETS
+        else f"library:channel_maps/{Path(each.display).name}": each.sha256
+        for each in documents
+    }
+    return loaded, inputs
+
+
+def _parent(reference: Scalar, files: Files) -> Map:
+    if reference.text in presets():
+        return read_file(_PRESETS / f"{reference.text}.yaml")
+    if not is_path(reference.text):
+        hint = suggestion(reference.text, presets())
+        raise single_error(reference.place, f"no channel map {quoted(reference.text)}", "extends", hint)
+    return files.beside(reference, "extends")
+
+
+def _numbered(source: Source, number: int) -> Source:
+    names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
+    changed: dict[str, Any] = {"source": names}
+    return source.model_copy(update=changed)

@@ -1,0 +1,19 @@
+from .channels import Record as Record, read_record as read_record, samples_digest as samples_digest
+from .compensation_base import load_compensation as load_compensation
+from .compensation_file import (
+    Provenance as Provenance,
+    with_cylinder as with_cylinder,
+    with_hysteresis as with_hysteresis,
+)
+from .cylinder import (
+    CylinderResult as CylinderResult,
+    identify_cylinder as identify_cylinder,
+    require_fit as require_fit,
+)
+from .hysteresis import HysteresisResult as HysteresisResult, identify_hysteresis as identify_hysteresis
+from .phases import (
+    on_lines as on_lines,
+    wsp_acting_from_commands as wsp_acting_from_commands,
+    wsp_acting_in_intervals as wsp_acting_in_intervals,
+)
+from .suitability import UnsuitableRecordError as UnsuitableRecordError

@@ -1,0 +1,20 @@
+from .records import (
+    DEFINITION as DEFINITION,
+    SPEED_CLASSES as SPEED_CLASSES,
+    STOP_MEASURES as STOP_MEASURES,
+    WHEELSET_MEASURES as WHEELSET_MEASURES,
+    WINDOW_SECONDS as WINDOW_SECONDS,
+)
+from .train import (
+    begin as begin,
+    begin_window as begin_window,
+    finish as finish,
+    keep_window as keep_window,
+    observe_train as observe_train,
+)
+from .wheelset import (
+    begin_slides as begin_slides,
+    begin_wheelset as begin_wheelset,
+    keep_slide as keep_slide,
+    observe_wheelset as observe_wheelset,
+)

@@ -1,0 +1,79 @@
+from .baseline import (
+    BaselineComparison as BaselineComparison,
+    baseline_summary as baseline_summary,
+    case_word as case_word,
+    not_compared_sentences as not_compared_sentences,
+)
+from .case_description import CaseDescription as CaseDescription
+from .content import RunContent as RunContent
+from .csv_table import Cell as Cell, csv_text as csv_text
+from .difference import (
+    Difference as Difference,
+    value_text as value_text,
+    worst_of_wheelsets as worst_of_wheelsets,
+)
+from .escaping import csv_cell as csv_cell, printable as printable, xml_text as xml_text
+from .formats import ReportFormat as ReportFormat, write_formats as write_formats
+from .github import (
+    annotation as annotation,
+    case_annotations as case_annotations,
+    missing_annotations as missing_annotations,
+    no_command as no_command,
+)
+from .junit import junit_xml as junit_xml
+from .latest import latest_run as latest_run, point_latest as point_latest
+from .lines import (
+    case_line as case_line,
+    criterion_lines as criterion_lines,
+    definition_lines as definition_lines,
+    missing_lines as missing_lines,
+    part_lines as part_lines,
+)
+from .manifest import manifest as manifest, named_parts as named_parts, without_machine as without_machine
+from .markdown import append_step_summary as append_step_summary
+from .run_contents import read_run as read_run, run_content as run_content
+from .run_folder import RunFolder as RunFolder
+from .run_report import (
+    RECORDINGS as RECORDINGS,
+    RESULTS as RESULTS,
+    run_name as run_name,
+    write_recording as write_recording,
+    write_reports as write_reports,
+)
+from .sweep.content import SweepContent as SweepContent
+from .sweep.formats import write_sweep_formats as write_sweep_formats
+from .sweep.github import sweep_annotations as sweep_annotations
+from .sweep.markdown import append_sweep_step_summary as append_sweep_step_summary
+from .sweep.reading import SWEEP_RESULTS as SWEEP_RESULTS, read_sweep as read_sweep
+from .sweep.trends import TREND_COLUMNS as TREND_COLUMNS, trend_rows as trend_rows
+from .sweep.wording import (
+    STRETCH as STRETCH,
+    circumstances_words as circumstances_words,
+    flip_words as flip_words,
+    not_judged_words as not_judged_words,
+    sweep_tally as sweep_tally,
+)
+from .table import explanation_text as explanation_text, verdict_table as verdict_table
+from .text_table import (
+    Column as Column,
+    aligned as aligned,
+    columns_not_shown as columns_not_shown,
+    fitted as fitted,
+    table_width as table_width,
+    wrapped_name as wrapped_name,
+)
+from .traces.quantities import PLOT_QUANTITIES as PLOT_QUANTITIES, Panel as Panel, PlotLine as PlotLine
+from .traces.trace import (
+    Curve as Curve,
+    Trace as Trace,
+    curve_of as curve_of,
+    interval_of as interval_of,
+    trace_of as trace_of,
+)
+from .wording import (
+    DIFFERS as DIFFERS,
+    counted as counted,
+    listed as listed,
+    number as number,
+    tally as tally,
+)

@@ -1,0 +1,63 @@
+"""Something drawn into a plot beside its lines."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from uictest import evaluation
+from uictest.report.escaping import printable
+from uictest.report.wording import quantity
+
+Kind = Literal["limit", "found", "window", "band", "instant", "point", "interval"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """Something drawn into a plot, in the plot's units.
+
+    limit, found: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
+    where it has no end. instant: an upright line at `x0`. point: the place `x0`, `y`. interval: from `x0` to
+    `x1` in row `y` of a strip.
+    """
+
+    plot: str
+    kind: Kind
+    label: str
+    x0: float | None = None
+    x1: float | None = None
+    y: float | None = None
+    criterion: str = ""
+    status: evaluation.Status = "pass"
+
+
+def limit_marks(
+    verdict: evaluation.Verdict,
+    plot: str,
+    *,
+    x0: float | None = None,
+    x1: float | None = None,
+    scale: float = 1.0,
+) -> Iterator[Mark]:
+    """Yield the bounds of a criterion as level lines; a plot's unit is `scale` of the criterion's."""
+    for bound in (verdict.lower, verdict.upper):
+        if bound is not None and math.isfinite(bound):
+            yield Mark(plot, "limit", f"limit {quantity(bound, verdict.unit)}", x0, x1, bound / scale)
+
+
+def misses(verdict: evaluation.Verdict, value: float) -> bool:
+    """Return whether a value, in the unit of the criterion, is outside its bounds."""
+    below = verdict.lower is not None and value < verdict.lower
+    return below or (verdict.upper is not None and value > verdict.upper)
+
+
+def instant(plot: str, time: float, label: str) -> Mark:
+    """Return an upright line."""
+    return Mark(plot, "instant", printable(label), time, time)
+
+
+def point(plot: str, x: float, y: float, label: str) -> Mark:
+    """Return a marked place."""
+    return Mark(plot, "point", printable(label), x, x, y)

@@ -1,0 +1,50 @@
+"""Criteria as they are drawn into the plots: limits, and the instants and intervals that decided them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
+
+from uictest import evaluation
+from uictest.report.page.stop import train_marks, wheelset_marks
+from uictest.report.page.stop.mark import Mark
+from uictest.report.wording import failing_first
+
+if TYPE_CHECKING:
+    from uictest.report.traces.trace import Trace
+
+DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]] = MappingProxyType(
+    {
+        "braking_distance": train_marks.braking_distance,
+        "braking_time": train_marks.braking_time,
+        "mean_deceleration": train_marks.mean_deceleration,
+        "standstill": train_marks.standstill,
+        "initial_adhesion": train_marks.initial_adhesion,
+        "minimum_deceleration": train_marks.minimum_deceleration,
+        "maximum_deceleration": train_marks.maximum_deceleration,
+        "reservoir_minimum_pressure": train_marks.reservoir_minimum_pressure,
+        "air_consumed": train_marks.air_consumed,
+        "energy_residual": train_marks.energy_residual,
+        "air_residual": train_marks.air_residual,
+        "maximum_slide_above_cutoff": wheelset_marks.maximum_slide,
+        "locked_time": wheelset_marks.locked,
+        "longest_lock": wheelset_marks.locked,
+        "sliding_duration": wheelset_marks.sliding,
+        "valve_actuations": wheelset_marks.vented,
+        "air_vented": wheelset_marks.vented,
+        "maximum_clamping_force": wheelset_marks.maximum_clamping_force,
+    }
+)
+"""Measure -> how a criterion that bounds it is drawn: every measure has an entry."""
+
+
+def marks_of(verdicts: Iterable[evaluation.Verdict], trace: Trace) -> list[Mark]:
+    """Return the marks of every criterion that applied to a stop, those of failing ones first."""
+    return [
+        replace(mark, criterion=verdict.id, status=verdict.verdict)
+        for verdict in failing_first(verdicts)
+        if verdict.verdict != "not_applicable" and verdict.measure in DRAWN
+        for mark in DRAWN[verdict.measure](verdict, trace)
+    ]

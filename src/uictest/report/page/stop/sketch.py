@@ -1,0 +1,199 @@
+"""The plots of one stop as plain drawings: what paper, and a browser without JavaScript, show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from uictest.report.page.axis import Axis, Tick, span
+from uictest.report.page.stop.bars import Bar, bars_path, mark_bars, state_bars
+from uictest.report.page.stop.mark import Mark
+from uictest.report.page.stop.polyline import dots, path, path_over_time
+from uictest.report.traces.quantities import (
+    LOOPS,
+    PANELS,
+    STRIPS,
+    WHEELSETS,
+    Loop,
+    Panel,
+    PlotLine,
+    loop_lines,
+    panel_lines,
+)
+from uictest.report.traces.trace import Trace
+
+WIDTH, LEFT, RIGHT = 960, 52, 948
+_HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
+_BELOW = 32  # the panels: tick labels and what they count
+_BAND = 15
+_LOOP_WIDTH, _LOOP_HEIGHT = 316, 230
+
+
+@dataclass(frozen=True, slots=True)
+class Rectangle:
+    """A shaded part of a drawing, pixels."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    kind: str
+    status: str
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A level line of a mark, pixels; a point where both ends are the same."""
+
+    x1: float
+    x2: float
+    y: float
+    kind: str
+    status: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """One plot ready to be written as SVG: every coordinate in pixels."""
+
+    key: str
+    title: str
+    left: float
+    right: float
+    top: float
+    bottom: float
+    x_ticks: Sequence[Tick] = ()
+    y_ticks: Sequence[Tick] = ()
+    x_title: str = ""
+    y_title: str = ""
+    paths: Sequence[tuple[PlotLine, str]] = ()
+    shaded: Sequence[Rectangle] = ()
+    levels: Sequence[Level] = ()
+    bars: Sequence[tuple[str, str]] = ()
+    """Kind of bars and their path."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sketch:
+    """All plots of one stop: panels above each other over one time axis, and the loops."""
+
+    height: float
+    panels: list[Drawing] = field(default_factory=list)
+    loops: list[Drawing] = field(default_factory=list)
+
+
+def sketch_of(trace: Trace, marks: Sequence[Mark]) -> Sketch:
+    """Return the drawings of a stop; quantities that it has no series of are left out."""
+    over_time = panels_over_time(trace, [(panel, panel_lines(panel)) for panel in PANELS], marks)
+    loops = [_loop(loop, trace, [mark for mark in marks if mark.plot == loop.key]) for loop in LOOPS]
+    return Sketch(over_time.height, over_time.panels, [loop for loop in loops if loop.paths])
+
+
+def panels_over_time(
+    trace: Trace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]], marks: Sequence[Mark]
+) -> Sketch:
+    """Return panels above each other over one time axis, below them the valve states if there are any."""
+    time = Axis(trace.start, trace.end if trace.end > trace.start else trace.start + 1.0, LEFT, RIGHT)
+    drawings: list[Drawing] = []
+    top = 0.0
+    for panel, lines in panels:
+        known = [line for line in lines if line.series in trace.curves]
+        if known:
+            own = [mark for mark in marks if mark.plot == panel.key]
+            drawings.append(_panel(panel, known, trace, time, top, own))
+            top = drawings[-1].bottom + _GAP
+    for key, title in STRIPS.items():
+        bars = mark_bars(marks, key) | (state_bars(trace) if key == "valves" else {})
+        if bars:
+            drawings.append(_strip(key, title, bars, [mark for mark in marks if mark.plot == key], time, top))
+            top = drawings[-1].bottom + _GAP
+    return Sketch(top + _BELOW, drawings)
+
+
+def _panel(
+    panel: Panel, lines: Sequence[PlotLine], trace: Trace, time: Axis, top: float, marks: Sequence[Mark]
+) -> Drawing:
+    upper, lower = top + _TITLE, top + _TITLE + panel.height * _HEIGHT
+    levels = [mark.y for mark in marks if mark.y is not None]
+    curves = [(line, trace.curves[line.series]) for line in lines]
+    y = Axis(*span((curve.y for _, curve in curves), [*panel.include, *levels]), lower, upper)
+    return Drawing(
+        panel.key,
+        panel.title,
+        LEFT,
+        RIGHT,
+        upper,
+        lower,
+        time.tick_marks(10),
+        y.tick_marks(4),
+        y_title=panel.unit,
+        paths=[(line, path_over_time(time.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
+        shaded=list(_shaded(marks, time, upper, lower)),
+        levels=list(_levels(marks, time, y)),
+    )
+
+
+def _strip(
+    key: str, title: str, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
+) -> Drawing:
+    upper = top + _TITLE
+    bottom = upper + len(WHEELSETS) * _BAND
+    row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
+    return Drawing(
+        key,
+        title,
+        LEFT,
+        RIGHT,
+        upper,
+        bottom,
+        time.tick_marks(10),
+        [(row.at(n), str(n)) for n in WHEELSETS],
+        bars=[(kind, bars_path(kind, each, time, row)) for kind, each in bars.items()],
+        levels=list(_levels([mark for mark in marks if mark.label], time, row)),
+    )
+
+
+def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
+    curves = [
+        (line, trace.loops[name])
+        for _, line in loop_lines(loop)
+        if (name := f"{loop.key} {line.series}") in trace.loops
+    ]
+    draw = dots if loop.dots else path
+    ends = [end for mark in marks for end in (mark.x0, mark.x1) if end is not None]
+    x = Axis(*span((curve.x for _, curve in curves), [*loop.include, *ends]), LEFT, _LOOP_WIDTH - 10)
+    y = Axis(*span((curve.y for _, curve in curves), [0.0]), _LOOP_HEIGHT - 34, _TITLE)
+    return Drawing(
+        loop.key,
+        loop.title,
+        x.start,
+        x.end,
+        y.end,
+        y.start,
+        x.tick_marks(5),
+        y.tick_marks(5),
+        loop.across_title,
+        loop.up_title,
+        [(line, draw(x.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
+        list(_shaded(marks, x, y.end, y.start)),
+    )
+
+
+def _shaded(marks: Sequence[Mark], x: Axis, upper: float, lower: float) -> Iterator[Rectangle]:
+    for mark in marks:
+        if mark.y is None:
+            first, last = _ends(mark, x)
+            yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.status, mark.label)
+
+
+def _levels(marks: Sequence[Mark], x: Axis, y: Axis) -> Iterator[Level]:
+    for mark in marks:
+        if mark.y is not None:
+            yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.status, mark.label)
+
+
+def _ends(mark: Mark, x: Axis) -> tuple[float, float]:
+    first = x.start if mark.x0 is None else x.at(mark.x0)
+    return first, x.end if mark.x1 is None else x.at(mark.x1)

@@ -1,0 +1,163 @@
+"""What is drawn of a stop: the quantities, the panels over time and the loops."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+WHEELSETS = (1, 2, 3, 4)
+KMH = 1.0 / 3.6
+"""m/s"""
+GRAVITY = 9.80665
+"""m/s2, exact by definition."""
+ORDINARY_CREEP = 10.0
+"""%: the axis of the slide reaches at least so far, so that a wheel that only creeps is seen to; chosen."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlotQuantity:
+    """A channel as a page shows it: label, unit, and how many SI units one of that is."""
+
+    label: str
+    unit: str
+    scale: float = 1.0
+    of_wheelsets: bool = False
+
+
+PLOT_QUANTITIES = {
+    "distance": PlotQuantity("distance", "m"),
+    "speed": PlotQuantity("train", "km/h", KMH),
+    "reference_speed": PlotQuantity("reference", "km/h", KMH),
+    "wheel_speed": PlotQuantity("wheelset", "km/h", KMH, of_wheelsets=True),
+    "slide": PlotQuantity("slide", "%", 0.01, of_wheelsets=True),
+    "reservoir_pressure": PlotQuantity("reservoir", "bar", 1e5),
+    "brake_line_pressure": PlotQuantity("brake line", "bar", 1e5),
+    "tank_pressure": PlotQuantity("tank", "bar", 1e5, of_wheelsets=True),
+    "cylinder_pressure": PlotQuantity("cylinder", "bar", 1e5, of_wheelsets=True),
+    "clamping_force": PlotQuantity("clamping force", "kN", 1e3, of_wheelsets=True),
+    "deceleration": PlotQuantity("deceleration", "g"),
+    "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True),
+    "valve_command": PlotQuantity("valve", "1", of_wheelsets=True),
+}
+"""Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """Quantities that share a vertical axis over time.
+
+    `height` is relative; the axis holds the values in `include`, whatever the quantities reach.
+    """
+
+    key: str
+    title: str
+    unit: str
+    quantities: tuple[str, ...]
+    height: float = 1.0
+    include: tuple[float, ...] = (0.0,)
+
+
+PANELS = (
+    Panel("speed", "Speed of train and wheelsets", "km/h", ("wheel_speed", "reference_speed", "speed"), 1.5),
+    Panel("slide", "Slide", "%", ("slide",), include=(0.0, ORDINARY_CREEP)),
+    Panel(
+        "pressure",
+        "Pressures (cylinder dotted)",
+        "bar",
+        ("reservoir_pressure", "brake_line_pressure", "cylinder_pressure", "tank_pressure"),
+        1.3,
+    ),
+    Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
+    Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
+)
+"""Panels over time from top to bottom; the strips follow below them."""
+
+STRIPS = {
+    "valves": "WSP valves: hold (faint), vent (strong)",
+    "locked": "Locked wheelsets",
+    "sliding": "Sliding wheelsets",
+}
+"""Strips with a row for each wheelset, from top to bottom, and their titles; one without bars is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """One quantity over another, whose axis holds the values in `include`.
+
+    `dots`: the samples as dots, where lines between them would mislead.
+    """
+
+    key: str
+    title: str
+    across: str
+    up: str
+    across_title: str
+    up_title: str
+    dots: bool = False
+    include: tuple[float, ...] = (0.0,)
+
+
+LOOPS = (
+    Loop("over-distance", "Speed over distance", "distance", "speed", "distance, m", "speed, km/h"),
+    Loop("force-loop", "Clamping force over tank pressure", "tank_pressure", "clamping_force", "bar", "kN"),
+    Loop(
+        "adhesion-loop",
+        "Adhesion over slide",
+        "slide",
+        "adhesion",
+        "slide, %",
+        "adhesion",
+        True,
+        (0.0, ORDINARY_CREEP),
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class PlotLine:
+    """One series in a panel: its name, what it is called, the role that colours it, dotted or not."""
+
+    series: str
+    label: str
+    role: str
+    dotted: bool = False
+
+
+_ROLES = {
+    "speed": "train",
+    "deceleration": "train",
+    "reference_speed": "reference",
+    "reservoir_pressure": "reservoir",
+    "brake_line_pressure": "brake-line",
+}
+_DOTTED = frozenset({"reference_speed", "cylinder_pressure"})
+
+
+def lines_of(key: str) -> tuple[PlotLine, ...]:
+    """Return the lines that show a quantity: one, or one per wheelset."""
+    quantity = PLOT_QUANTITIES[key]
+    if not quantity.of_wheelsets:
+        return (PlotLine(key, quantity.label, _ROLES.get(key, "train"), key in _DOTTED),)
+    return tuple(
+        PlotLine(f"{key}_{n}", f"{quantity.label} {n}", f"wheelset-{n}", key in _DOTTED) for n in WHEELSETS
+    )
+
+
+def names_of(key: str) -> tuple[str, ...]:
+    """Return the channels of a quantity: one, or one per wheelset."""
+    return tuple(f"{key}_{n}" for n in WHEELSETS) if PLOT_QUANTITIES[key].of_wheelsets else (key,)
+
+
+def key_of(name: str) -> str:
+    """Return the quantity of a channel."""
+    return next(key for key in PLOT_QUANTITIES if name in names_of(key))
+
+
+def loop_lines(loop: Loop) -> list[tuple[str, PlotLine]]:
+    """Return the lines of a loop, each with the channel that it is drawn over."""
+    across = names_of(loop.across)
+    return [(across[k % len(across)], line) for k, line in enumerate(lines_of(loop.up))]
+
+
+def panel_lines(panel: Panel) -> tuple[PlotLine, ...]:
+    """Return the lines of a panel, the last one in front."""
+    return tuple(line for key in panel.quantities for line in lines_of(key))

@@ -1,0 +1,171 @@
+"""What the plots of one stop are drawn from: a recording in the engineer's units, thinned out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.report.traces.extremes import thinned
+from uictest.report.traces.quantities import GRAVITY, LOOPS, PLOT_QUANTITIES, WHEELSETS, loop_lines, names_of
+
+if TYPE_CHECKING:
+    from uictest.recording import Recording
+
+BINS = 800
+"""Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""
+
+LOOP_BINS = 400
+"""Parts of a stop of which a loop shows the extremes of both its quantities; chosen."""
+
+DECELERATION_WINDOW = 0.5
+"""s: over how long the deceleration that is drawn is averaged; chosen to show what a passenger feels."""
+
+SLIDE_SPEED = 1.0
+"""m/s: below it no slide is derived, as none is recorded by the rig."""
+
+STATES = ("valve_command",)
+"""Quantities that hold states: every change of them is drawn, at its time."""
+
+UNKNOWN = -1
+"""The state where none was recorded."""
+
+Series = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """The points of a line, as samples: `x` and `y` are equally long; where y is NaN the line has a gap."""
+
+    x: Series
+    y: Series
+
+
+@dataclass(frozen=True, slots=True)
+class States:
+    """A channel of states: `state[k]` holds from `time[k]` (s) to `time[k + 1]`, the last to the end."""
+
+    time: Series
+    state: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """What is drawn of one stop.
+
+    Args:
+        start, end: first and last time of the record, s since the brake command.
+        interval: time between two samples of the record, s.
+        curves: name -> line over time (s), in the unit of `quantities.QUANTITIES`; wheelsets have
+            `_1` .. `_4` at the end.
+        states: name -> states over time.
+        loops: key of a loop and name of its upper series, with a blank between -> line.
+        sliding_time: when a wheelset first slid, s; None where none did or it is not known.
+        derived: names of the curves that the record does not hold.
+
+    """
+
+    start: float
+    end: float
+    interval: float
+    curves: Mapping[str, Curve]
+    states: Mapping[str, States] = field(default_factory=dict)
+    loops: Mapping[str, Curve] = field(default_factory=dict)
+    sliding_time: float | None = None
+    derived: tuple[str, ...] = ()
+
+
+def trace_of(recording: Recording) -> Trace:
+    """Return what is drawn of a recording: the extremes of every signal, every change of a state."""
+    time = recording["time"]
+    series = _in_units(dict(recording.channels) | _derived(recording))
+    return Trace(
+        float(time[0]),
+        float(time[-1]),
+        interval_of(time),
+        {name: curve_of(time, samples) for name, samples in series.items() if not _is_state(name)},
+        {name: _states(time, samples) for name, samples in series.items() if _is_state(name)},
+        dict(_loops(series)),
+        _sliding_time(recording.metadata),
+        tuple(name for name in series if name not in recording.channels),
+    )
+
+
+def deceleration(time: Series, speed: Series) -> Series:
+    """Return the deceleration (g) of a train, averaged over a window around each moment.
+
+    `time` is in s and `speed` in m/s. At the ends of the record the window is what is left of it.
+    """
+    if len(time) < 2:
+        return np.zeros_like(time)
+    before = np.maximum(time - DECELERATION_WINDOW / 2, time[0])
+    after = np.minimum(time + DECELERATION_WINDOW / 2, time[-1])
+    change = np.interp(before, time, speed) - np.interp(after, time, speed)
+    return np.asarray(change / (after - before) / GRAVITY, dtype=np.float64)
+
+
+def slide(speed: Series, wheel_speed: Series) -> Series:
+    """Return the slide (v - r omega) / v of a wheelset; 0 where the train is no faster than `SLIDE_SPEED`."""
+    runs = speed > SLIDE_SPEED
+    share = (speed - wheel_speed) / np.where(runs, speed, 1.0)
+    return np.where(runs | np.isnan(speed), share, 0.0)
+
+
+def _derived(recording: Recording) -> dict[str, Series]:
+    """Return what is drawn though the record does not hold it, SI (the deceleration in g)."""
+    channels = recording.channels
+    if "speed" not in channels:
+        return {}
+    speed = channels["speed"]
+    derived = {"deceleration": deceleration(channels["time"], speed)}
+    for n in WHEELSETS:
+        if f"wheel_speed_{n}" in channels and f"slide_{n}" not in channels:
+            derived[f"slide_{n}"] = slide(speed, channels[f"wheel_speed_{n}"])
+    return derived
+
+
+def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
+    return {
+        name: np.asarray(channels[name], dtype=np.float64) / quantity.scale
+        for key, quantity in PLOT_QUANTITIES.items()
+        for name in names_of(key)
+        if name in channels
+    }
+
+
+def curve_of(time: Series, samples: Series) -> Curve:
+    """Return the line through the extremes of a signal."""
+    rows = thinned(samples, BINS)
+    return Curve(time[rows], samples[rows])
+
+
+def _is_state(name: str) -> bool:
+    return name.rpartition("_")[0] in STATES
+
+
+def _states(time: Series, samples: Series) -> States:
+    state = np.where(np.isfinite(samples), np.rint(samples), UNKNOWN).astype(np.int64)
+    changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
+    return States(time[changes], state[changes])
+
+
+def _loops(series: Mapping[str, Series]) -> Iterator[tuple[str, Curve]]:
+    for loop in LOOPS:
+        for across, line in loop_lines(loop):
+            if across in series and line.series in series:
+                x, y = series[across], series[line.series]
+                rows = np.union1d(thinned(x, LOOP_BINS), thinned(y, LOOP_BINS))
+                yield f"{loop.key} {line.series}", Curve(x[rows], y[rows])
+
+
+def interval_of(time: Series) -> float:
+    """Return the mean time between two samples, s (0 for a single sample)."""
+    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 0.0
+
+
+def _sliding_time(metadata: Mapping[str, str]) -> float | None:
+    written = metadata.get("sliding_time")
+    return None if written is None else float(written)

@@ -1,0 +1,136 @@
+"""Stops side by side: each lane runs one, and takes the next from a queue when it has ended.
+
+Compiled only. What branches or looks up tables - friction laws, controllers, tables of measures - runs lane
+by lane once per controller cycle; everything else runs in all lanes at once. A lane does what
+:func:`uictest.rig.model.stop.stop` does, and its measures have the same bits.
+"""
+
+from typing import Any, NamedTuple
+
+from uictest.lanes import align_stack, lane, put, take, vectors
+from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.start import start
+from uictest.rig.model.step import step
+from uictest.rig.model.stop import (
+    begin_stop_measures,
+    begin_tables,
+    close_stop_measures,
+    keep_tables,
+    observe_cycle,
+)
+
+_IDLE = -1
+"""Number of a lane's case when it has none."""
+
+
+class Rig(NamedTuple):
+    """Records of one rig, or blocks of them in lanes: a car, two bogies, four wheelsets."""
+
+    car: Any
+    bogies: Any
+    wheelsets: Any
+
+
+class Lanes(NamedTuple):
+    """Blocks of lanes (:func:`uictest.lanes.block`): a rig, its parameters, the measures of its stop."""
+
+    rig: Rig
+    settings: Any
+    measures: Any
+    wheelset_measures: Any
+
+
+class Cases(NamedTuple):
+    """What stops are given and the records that take their measures, an entry for each case."""
+
+    parameters: Any
+    rail: Any
+    measures: Any
+    wheelset_measures: Any
+
+
+def run_queue(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any) -> None:
+    """Run the cases of ``queue`` in ``lanes`` and fill their measures.
+
+    Args:
+        lanes: blocks, all of as many lanes.
+        blank: records of zeros, with which a lane begins.
+        cases: parameters and measures of all cases.
+        queue: numbers of the cases to be run, in the order in which they begin; at least one, and all with
+            the same number of steps in a controller cycle.
+        running: for each lane, the number of its case; set here.
+    """
+    align_stack()
+    begun = 0
+    for k in range(running.size):
+        # A lane that finds the queue empty steps this case, and so meets no numbers that a case does not.
+        _set(lanes, blank, cases.parameters[queue[0]], k)
+        begun = _take(lanes, blank, cases, queue, running, begun, k)
+    ended = 0
+    while ended < queue.size:
+        _run_cycle(lanes, cases, running)
+        for k in range(running.size):
+            if running[k] != _IDLE and _ends(lanes, cases, running[k], k):
+                ended += 1
+                begun = _take(lanes, blank, cases, queue, running, begun, k)
+
+
+def _take(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any, begun: int, k: int) -> int:
+    """Let lane ``k`` begin the next case, or idle when none waits; return how many have begun."""
+    if begun == queue.size:
+        running[k] = _IDLE
+        return begun
+    case = queue[begun]
+    running[k] = case
+    _set(lanes, blank, cases.parameters[case], k)
+    begin_tables(cases.measures[case], cases.wheelset_measures[case])
+    return begun + 1
+
+
+def _set(lanes: Lanes, blank: Rig, p: Any, k: int) -> None:
+    """Set lane ``k`` to the instant of the brake command."""
+    rig = lanes.rig
+    car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
+    put(lane(lanes.settings, k), p)
+    put(car, blank.car[0])
+    for j in range(2):
+        put(bogies[j], blank.bogies[j])
+    for i in range(4):
+        put(wheelsets[i], blank.wheelsets[i])
+    start(car, bogies, wheelsets, p)
+    begin_stop_measures(car, lane(lanes.measures, k), lane(lanes.wheelset_measures, k), p)
+
+
+def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Step all lanes through a controller cycle; the controllers of lanes that run no case keep still."""
+    rig = lanes.rig
+    car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
+    settings = vectors(lanes.settings)
+    steps = 0
+    sense(car, wheelsets, settings)
+    for k in range(running.size):
+        case = running[k]
+        if case != _IDLE:
+            p = cases.parameters[case]
+            begin_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
+            steps = p.steps_per_cycle
+    command_valves(car, wheelsets, settings)
+    for _ in range(steps):
+        step(car, bogies, wheelsets, settings)
+    observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
+
+
+def _ends(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
+    """Take in the end of a cycle of lane ``k``; whether its stop has ended, which completes its measures."""
+    p, rig = cases.parameters[case], lanes.rig
+    measures, wheelset_measures = cases.measures[case], cases.wheelset_measures[case]
+    car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
+    samples, wheelset_samples = lane(lanes.measures, k), lane(lanes.wheelset_measures, k)
+    keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
+    if car.stopped == 0.0 and car.cycle < p.cycles:
+        return False
+    take(measures, samples)
+    for i in range(4):
+        take(wheelset_measures[i], wheelset_samples[i])
+    close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
+    return True

@@ -1,0 +1,164 @@
+"""Many stops on one core, several at a time in the lanes of a SIMD register."""
+
+import importlib
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.lanes import block, register_width
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.physics import arithmetic
+from uictest.rig.backends.compiled import OPTIONS, Function, callback, compiled_operations, translate
+from uictest.rig.backends.machine_code import address, is_kept, native_function
+from uictest.rig.model.records import BOGIE, CAR, PARAMETERS, WHEELSET
+
+_RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
+"""Records of one rig and how many there are."""
+_BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
+"""Records that each lane has."""
+
+
+class BatchMeasures(NamedTuple):
+    """Measures of many stops, in the order of the cases.
+
+    Attributes:
+        measures: records of :data:`uictest.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.measures.WHEELSET_MEASURES`, shape (cases, 4).
+    """
+
+    measures: NDArray[Any]
+    wheelset_measures: NDArray[Any]
+
+
+def run_in_lanes(
+    parameters: NDArray[Any], rail: NDArray[np.float64], width: int | None = None
+) -> BatchMeasures:
+    """Run the stop of every case; each gives the same bits as alone, whatever its neighbours.
+
+    Other threads may run meanwhile, on batches of their own. The first batch on a machine takes some
+    seconds more, for compilation.
+
+    Args:
+        parameters: records of :data:`~uictest.rig.model.records.PARAMETERS`, shape (cases,).
+        rail: friction laws of the cases, shape (cases, 4, n): places in m, friction coefficients there, times
+            in s, factors then.
+        width: number of lanes; by default as many as this processor's registers hold.
+    """
+    parameters, rail = np.ascontiguousarray(parameters), np.ascontiguousarray(rail)
+    batch = BatchMeasures(
+        np.zeros(parameters.size, STOP_MEASURES), np.zeros((parameters.size, 4), WHEELSET_MEASURES)
+    )
+    for queue in _queues(parameters["steps_per_cycle"]):
+        _run_queue(parameters, rail, batch, queue, width or register_width())
+    return batch
+
+
+def lanes_are_warm() -> bool:
+    """Whether the lanes of this processor lie compiled in the cache, so that a batch begins at once."""
+    return is_kept(_name(register_width()))
+
+
+def _queues(steps_per_cycle: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Numbers of the cases that can run side by side: lanes begin their controller cycles together."""
+    return [np.flatnonzero(steps_per_cycle == steps) for steps in np.unique(steps_per_cycle)]
+
+
+def _run_queue(
+    parameters: NDArray[Any],
+    rail: NDArray[np.float64],
+    batch: BatchMeasures,
+    queue: NDArray[np.int64],
+    width: int,
+) -> None:
+    blocks = [block(layout, width, number) for layout, number in _BLOCKS]
+    blank = [np.zeros(number, layout) for layout, number in _RIG]
+    made_here = (*blocks, *blank, *batch, queue, np.empty(width, np.int64))
+    count, points = parameters.size, rail.shape[-1]
+    arguments = (
+        address(parameters, PARAMETERS, (count,)),
+        address(rail, "f8", (count, 4, points)),
+        *(address(array, array.dtype, array.shape) for array in made_here),
+        *(count, points, queue.size),
+    )
+    native_function(_name(width), partial(_callback, width), len(arguments))(*arguments)
+
+
+def _name(width: int) -> str:
+    return f"uictest_lanes_{width}"
+
+
+def _callback(width: int) -> Any:
+    """Return the loop over a queue of cases compiled, as a function of addresses and of what lies there."""
+    numba: Any = importlib.import_module("numba")  # its functions have no types
+    carray = numba.carray
+    lanes, rig, all_cases, run_queue = _translated(numba)
+
+    def on_addresses(
+        parameters: Any,
+        rail: Any,
+        cars: Any,
+        bogies: Any,
+        wheelsets: Any,
+        settings: Any,
+        samples: Any,
+        wheelset_samples: Any,
+        blank_car: Any,
+        blank_bogies: Any,
+        blank_wheelsets: Any,
+        measures: Any,
+        wheelset_measures: Any,
+        queue: Any,
+        running: Any,
+        count: int,
+        points: int,
+        queued: int,
+    ) -> int:
+        run_queue(
+            lanes(
+                rig(carray(cars, 1), carray(bogies, 2), carray(wheelsets, 4)),
+                carray(settings, 1),
+                carray(samples, 1),
+                carray(wheelset_samples, 4),
+            ),
+            rig(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
+            all_cases(
+                carray(parameters, count),
+                carray(rail, (count, 4, points)),
+                carray(measures, count),
+                carray(wheelset_measures, (count, 4)),
+            ),
+            carray(queue, queued),
+            carray(running, width),
+        )
+        return 0
+
+    blocks = (block(layout, width).dtype for layout, _ in _BLOCKS)
+    records = (*(layout for layout, _ in _RIG), STOP_MEASURES, WHEELSET_MEASURES)
+    return callback(on_addresses, PARAMETERS, "f8", *blocks, *records, "i8", "i8", int, int, int)
+
+
+def _translated(numba: Any) -> tuple[Any, Any, Any, Any]:
+    """Return what lanes, a rig and cases are to compiled code, and the loop over a queue of cases.
+
+    What has no branches is translated for lanes, the rest for one.
+    """
+    from uictest import lanes
+    from uictest.rig.backends.lane_stops import Cases, Lanes, Rig, run_queue
+    from uictest.rig.model.cycle import command_valves, sense
+    from uictest.rig.model.step import step
+    from uictest.rig.model.stop import observe_cycle
+
+    njit: Any = numba.njit(**OPTIONS)
+    in_lanes: dict[Function, Any] = {
+        **compiled_operations(),
+        arithmetic.select: lanes.select,
+        arithmetic.minimum: lanes.minimum,
+        arithmetic.maximum: lanes.maximum,
+        arithmetic.sqrt: lanes.sqrt,
+        arithmetic.floor: lanes.floor,
+    }
+    without_branches = (sense, command_valves, step, observe_cycle)
+    wide = {function: translate(function, njit, in_lanes) for function in without_branches}
+    return Lanes, Rig, Cases, translate(run_queue, njit, {**compiled_operations(), **wide})

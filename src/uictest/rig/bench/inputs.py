@@ -1,0 +1,120 @@
+"""What a bench test applies: a demanded brake-line pressure and valve commands over time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.physics import FILL, HOLD, VENT
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """Base step in s and the number of steps in a controller cycle."""
+
+    step: float
+    steps_per_cycle: int
+
+    @property
+    def cycle_time(self) -> float:
+        """Controller cycle, s."""
+        return self.step * self.steps_per_cycle
+
+    def cycles(self, duration: float) -> int:
+        """Whole cycles in ``duration`` s, at least one."""
+        return max(round(duration / self.cycle_time), 1)
+
+    def times(self, cycles: int) -> NDArray[np.float64]:
+        """End of every step in so many cycles, s; n x step, never accumulated."""
+        return np.arange(1, cycles * self.steps_per_cycle + 1, dtype=np.float64) * self.step
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BenchInput:
+    """Demanded gauge pressure in Pa for each step, valve command for each controller cycle."""
+
+    demand: NDArray[np.float64]
+    commands: NDArray[np.int64]
+
+
+def joined(inputs: Iterable[BenchInput]) -> BenchInput:
+    """One input after the other."""
+    parts = list(inputs)
+    return BenchInput(
+        np.concatenate([part.demand for part in parts]), np.concatenate([part.commands for part in parts])
+    )
+
+
+def bypassed(times: Sequence[float], pressures: Sequence[float], clock: Clock) -> BenchInput:
+    """A pressure given at times in s from 0 on, straight between them; the valves always fill."""
+    cycles = clock.cycles(float(times[-1]))
+    demand = np.interp(clock.times(cycles), times, pressures)
+    return BenchInput(demand, np.full(cycles, FILL))
+
+
+def stepwise(levels: Sequence[float], hold: float, clock: Clock) -> BenchInput:
+    """Pressure levels in Pa, each demanded at once and for ``hold`` s."""
+    cycles = clock.cycles(hold)
+    demand = np.repeat(np.asarray(levels, dtype=float), cycles * clock.steps_per_cycle)
+    return BenchInput(demand, np.full(cycles * len(levels), FILL))
+
+
+def triangular(peaks: Sequence[float], floor: float, rate: float, clock: Clock) -> BenchInput:
+    """Ramps from ``floor`` Pa up to each peak and down again, at ``rate`` Pa/s."""
+    corners = [floor] + [pressure for peak in peaks for pressure in (peak, floor)]
+    times = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corners)) / rate)])
+    return bypassed(list(times), corners, clock)
+
+
+def random_pressure(
+    lowest: float, highest: float, interval: float, duration: float, seed: int, clock: Clock
+) -> BenchInput:
+    """Straight lines between pressures drawn evenly from a range, one every ``interval`` s."""
+    count = max(round(duration / interval), 1)
+    drawn = np.random.Generator(np.random.Philox(seed)).uniform(lowest, highest, count + 1)
+    drawn[0] = 0.0
+    return bypassed(list(np.arange(count + 1) * interval), list(drawn), clock)
+
+
+def wsp_cycling(
+    pressure: float,
+    lead: float,
+    cycles: int,
+    vent: tuple[float, float],
+    hold: tuple[float, float],
+    fill: tuple[float, float],
+    seed: int,
+    clock: Clock,
+) -> BenchInput:
+    """A full application for ``lead`` s, then vent, hold and fill in turn as a WSP commands them.
+
+    Each duration is drawn evenly from its range, in s. A hold follows every vent and every fill.
+    """
+    draw = np.random.Generator(np.random.Philox(seed)).uniform
+    pieces = [np.full(clock.cycles(lead), FILL)]
+    for _ in range(cycles):
+        for command, span in ((VENT, vent), (HOLD, hold), (FILL, fill), (HOLD, hold)):
+            pieces.append(np.full(clock.cycles(draw(*span)), command))
+    commands = np.concatenate(pieces)
+    return BenchInput(np.full(len(commands) * clock.steps_per_cycle, pressure), commands)
+
+
+def recorded(
+    times: NDArray[np.float64],
+    pressures: NDArray[np.float64],
+    commands: NDArray[np.float64] | None,
+    clock: Clock,
+) -> BenchInput:
+    """A demand, straight between its samples, and the commands in force at the middle of each cycle."""
+    start = float(times[0])
+    cycles = clock.cycles(float(times[-1]) - start)
+    demand = np.interp(clock.times(cycles), times - start, pressures)
+    if commands is None:
+        return BenchInput(demand, np.full(cycles, FILL))
+    middles = (np.arange(cycles) + 0.5) * clock.cycle_time
+    # A sample says which command was in force when it was taken, hence since the one before it.
+    at = np.searchsorted(times - start, middles, side="left")
+    return BenchInput(demand, commands[np.minimum(at, len(commands) - 1)].astype(np.int64))

@@ -1,0 +1,1 @@
+"""The model of the rig: its records and how they are stepped."""

@@ -1,0 +1,81 @@
+"""Balances of energy and air: what came in, what is left, what was turned into heat or let out."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.physics import kinetic_energy, longitudinal, spring_energy, vertical
+
+Record = Any
+
+
+def stored_energy(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> float:
+    """Kinetic energy, energy of the springs and of the height gained on the gradient, J."""
+    energy: float = _frame_energy(car, p.body_mass, p.body_inertia, p)
+    for j in range(2):
+        bogie = bogies[j]
+        energy += _frame_energy(bogie, p.bogie_mass, p.bogie_inertia, p)
+        energy += _secondary_energy(car, bogie, p)
+    for i in range(4):
+        energy += _wheelset_energy(wheelsets[i], bogies[i // 2], p)
+    return energy
+
+
+def _frame_energy(frame: Record, mass: float, inertia: float, p: Record) -> float:
+    motion = kinetic_energy(mass, frame.speed) + kinetic_energy(mass, frame.vertical_speed)
+    height: float = p.gradient * frame.position
+    return motion + kinetic_energy(inertia, frame.pitch_rate) + mass * float(p.gravity) * height
+
+
+def _secondary_energy(car: Record, bogie: Record, p: Record) -> float:
+    rise = vertical(car.height, car.pitch, bogie.ahead) - bogie.height
+    energy = spring_energy(p.secondary_vertical_stiffness, rise)
+    energy += spring_energy(p.secondary_longitudinal_stiffness, _shift(car, bogie, p.secondary_height, p))
+    return energy + spring_energy(p.link_stiffness, _shift(car, bogie, p.link_height, p))
+
+
+def _shift(car: Record, bogie: Record, height: float, p: Record) -> float:
+    return longitudinal(car.position, car.pitch, height - p.body_height) - longitudinal(
+        bogie.position, bogie.pitch, height - p.bogie_height
+    )
+
+
+def _wheelset_energy(wheelset: Record, bogie: Record, p: Record) -> float:
+    shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, p.wheel_radius - p.bogie_height)
+    rise = vertical(bogie.height, bogie.pitch, wheelset.ahead)
+    springs = spring_energy(p.primary_longitudinal_stiffness, shift) + spring_energy(
+        p.primary_vertical_stiffness, rise
+    )
+    motion: float = kinetic_energy(p.wheelset_mass, wheelset.speed) + kinetic_energy(
+        p.wheelset_inertia, wheelset.rotation
+    )
+    height: float = p.gradient * wheelset.position
+    return springs + motion + float(p.wheelset_mass * p.gravity) * height
+
+
+def energy_residual(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> float:
+    """Energy that is not accounted for, as a share of the energy at the start.
+
+    kinetic + springs + height = initial - (disc heat + contact loss + dampers + running resistance)
+    """
+    lost = car.damper_loss + car.resistance_loss
+    for i in range(4):
+        lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss
+    residual: float = stored_energy(car, bogies, wheelsets, p) + lost - car.initial_energy
+    return residual / float(car.initial_energy)
+
+
+def stored_air(car: Record, wheelsets: Sequence[Record]) -> float:
+    """Air in the reservoir, the brake line and the tanks, kg."""
+    air: float = car.reservoir_mass + car.line_mass
+    for i in range(4):
+        air += wheelsets[i].air_mass
+    return air
+
+
+def air_residual(car: Record, wheelsets: Sequence[Record]) -> float:
+    """Air that is not accounted for, as a share of what was taken from the reservoir."""
+    released = car.exhausted_air
+    for i in range(4):
+        released += wheelsets[i].vented_air
+    balance: float = stored_air(car, wheelsets) + released - car.compressor_air - car.initial_air
+    return balance / float(car.consumed_air)

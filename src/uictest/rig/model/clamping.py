@@ -1,0 +1,101 @@
+"""From the pressure of a module to its clamping force: the real caliper, or what replaces it."""
+
+from typing import Any
+
+from uictest.physics import (
+    analogue_reading,
+    clamping_force,
+    fma,
+    force_after,
+    line,
+    memory,
+    output,
+    phase_share,
+    select,
+    stroke_after,
+)
+
+Record = Any
+
+
+def step_clamping(wheelset: Record, p: Record) -> None:
+    """Advance caliper and compensation of one module and choose the force that the vehicle receives.
+
+    A module with a caliper gives what its loadcells read. A module without one gives the force computed
+    from its pressure sensor. Both have a computed force, so that it can be held against the measured
+    one.
+    """
+    gauge = wheelset.pressure - p.atmospheric_pressure
+    _step_caliper(wheelset, gauge, p)
+    reading = analogue_reading(
+        gauge,
+        p.pressure_gain_error,
+        p.pressure_offset,
+        wheelset.pressure_error,
+        p.pressure_range,
+        p.pressure_resolution,
+        p.pressure_steps,
+    )
+    _step_cylinder(wheelset, reading, p)
+    _step_hysteresis(wheelset, p)
+    loadcells = analogue_reading(
+        wheelset.caliper_force,
+        p.loadcell_gain_error,
+        p.loadcell_offset,
+        wheelset.loadcell_error,
+        p.loadcell_range,
+        p.loadcell_resolution,
+        p.loadcell_steps,
+    )
+    wheelset.clamping_force = select(wheelset.has_caliper > 0.0, loadcells, wheelset.computed_force)
+
+
+def _step_caliper(wheelset: Record, gauge: float, p: Record) -> None:
+    stroke = stroke_after(
+        wheelset.stroke,
+        gauge,
+        p.piston_area,
+        p.preload,
+        p.coulomb_friction,
+        p.clearance,
+        p.piston_damping,
+        p.squeezing_stiffness,
+        p.releasing_stiffness,
+        p.free_compliance,
+        p.squeezing_compliance,
+        p.releasing_compliance,
+    )
+    wheelset.stroke_change = stroke - wheelset.stroke
+    wheelset.stroke = stroke
+    wheelset.caliper_force = clamping_force(stroke, p.clearance, p.contact_stiffness, p.lever_ratio)
+
+
+def _step_cylinder(wheelset: Record, reading: float, p: Record) -> None:
+    """Turn the reading of a tank into cylinder pressure; a caliper's own cylinder needs no such model."""
+    filtered = output(reading, wheelset.memory_1, p.b0)
+    wheelset.memory_1 = memory(reading, filtered, p.b1, p.a1, wheelset.memory_2)
+    wheelset.memory_2 = memory(reading, filtered, p.b2, p.a2, wheelset.memory_3)
+    wheelset.memory_3 = memory(reading, filtered, p.b3, p.a3, 0.0)
+    modelled = (1.0 - wheelset.has_caliper) * p.uses_cylinder_dynamics
+    wheelset.compensated_pressure = select(modelled > 0.0, filtered, reading)
+
+
+def _step_hysteresis(wheelset: Record, p: Record) -> None:
+    """Turn cylinder pressure into force, by the four lines or by a single one."""
+    pressure = wheelset.compensated_pressure
+    share = phase_share(wheelset.wsp_share, wheelset.wsp_acting, p.phase_change_per_step)
+    squeezing = line(
+        pressure,
+        fma(share, p.wsp_squeezing_slope - p.bc_squeezing_slope, p.bc_squeezing_slope),
+        fma(share, p.wsp_squeezing_intercept - p.bc_squeezing_intercept, p.bc_squeezing_intercept),
+    )
+    releasing = line(
+        pressure,
+        fma(share, p.wsp_releasing_slope - p.bc_releasing_slope, p.bc_releasing_slope),
+        fma(share, p.wsp_releasing_intercept - p.bc_releasing_intercept, p.bc_releasing_intercept),
+    )
+    wheelset.wsp_share = share
+    hysteretic = force_after(wheelset.computed_force, squeezing, releasing)
+    linear = line(pressure, p.linear_slope, p.linear_intercept)
+    modelled = wheelset.has_caliper + p.uses_hysteresis
+    wheelset.computed_force = select(modelled > 0.0, hysteretic, linear)

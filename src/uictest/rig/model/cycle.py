@@ -1,0 +1,100 @@
+"""What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
+
+Sensors are read and valves are told without branches, in lanes too; what lies between is scalar code that may
+branch and look up tables. Between two cycles :func:`uictest.rig.model.step.step` runs alone.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.controllers import decide
+from uictest.physics import (
+    FILL,
+    VENT,
+    bell,
+    command_before,
+    interpolated,
+    remember,
+    select,
+    speed_reading,
+    threefry,
+)
+
+Record = Any
+_CHANNELS = 16
+"""Noise channels set aside for each wheelset."""
+_SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
+
+
+def sense(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+    """Read the sensors of all wheelsets for cycle ``car.cycle``."""
+    read_sensors(wheelsets[0], p, car.cycle, 0)
+    read_sensors(wheelsets[1], p, car.cycle, 1)
+    read_sensors(wheelsets[2], p, car.cycle, 2)
+    read_sensors(wheelsets[3], p, car.cycle, 3)
+
+
+def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) -> None:
+    """Find the friction under each wheelset and let the controller decide on what was sensed.
+
+    Args:
+        car: car record.
+        wheelsets: four wheelset records.
+        p: parameter record.
+        rail: array of shape (4, n): places in m, friction coefficients there, times in s, factors then.
+    """
+    factor = interpolated(car.time, rail[2], rail[3], p.friction_times)
+    for i in range(4):
+        wheelset = wheelsets[i]
+        along = interpolated(car.position - wheelset.behind, rail[0], rail[1], p.friction_points)
+        wheelset.friction = along * factor
+    decide(car, wheelsets, p)
+
+
+def command_valves(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+    """Set the valve targets for the steps of the cycle, which begins now."""
+    command_valve(wheelsets[0], p)
+    command_valve(wheelsets[1], p)
+    command_valve(wheelsets[2], p)
+    command_valve(wheelsets[3], p)
+    car.substep = 0.0
+    car.cycle += 1
+
+
+def read_sensors(wheelset: Record, p: Record, cycle: int, number: int) -> None:
+    """Read the speed sensor and draw the momentary errors of the pressure sensor and the loadcells."""
+    channel = number * _CHANNELS
+    wheelset.pressure_error = p.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
+    wheelset.loadcell_error = p.loadcell_noise * sensor_noise(p, cycle, channel + _LOADCELL)
+    wheelset.measured_speed = speed_reading(
+        wheelset.rotation * p.wheel_radius,
+        p.tooth_pitch,
+        p.timer_resolution,
+        p.cycle_time,
+        p.slowest_measured_speed,
+        p.speed_noise * sensor_noise(p, cycle, channel + _SPEED),
+    )
+
+
+def sensor_noise(p: Record, cycle: int, channel: int) -> float:
+    """Number of mean 0 and variance 1 for one cycle and one noise channel."""
+    word_0, word_1 = threefry(p.seed, p.case_key, cycle, channel)
+    return bell(word_0, word_1)
+
+
+def command_valve(wheelset: Record, p: Record) -> None:
+    """Put the newest command into the register and find what the delay lets through in this cycle."""
+    command = select(p.wsp_active == 0, FILL, wheelset.command)
+    register = remember(wheelset.command_register, command)
+    wheelset.command = command
+    wheelset.command_register = register
+    before = command_before(register, p.valve_delay_cycles + 1)
+    after = command_before(register, p.valve_delay_cycles)
+    filling_cycles = select(command == FILL, wheelset.filling_cycles + 1, 0)
+    wheelset.fill_before = select(before == FILL, 1.0, 0.0)
+    wheelset.fill_after = select(after == FILL, 1.0, 0.0)
+    wheelset.vent_before = select(before == VENT, 1.0, 0.0)
+    wheelset.vent_after = select(after == VENT, 1.0, 0.0)
+    wheelset.venting = select(command == VENT, 1.0, 0.0)
+    wheelset.filling_cycles = filling_cycles
+    wheelset.wsp_acting = select(filling_cycles < p.wsp_acting_cycles, 1.0, 0.0)

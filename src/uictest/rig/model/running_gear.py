@@ -1,0 +1,241 @@
+"""Motion of the vehicle: wheelsets on the rail, bogies and car body coupled by their suspensions.
+
+All forces come from the state at the beginning of the step; speeds are advanced first and positions
+with the new speeds (semi-implicit Euler), which keeps the energy of the suspensions bounded without
+damping of its own. Only the creep force is implicit, for it alone is stiff.
+"""
+
+from typing import Any
+
+from uictest.physics import (
+    SLOWEST_CREEP,
+    contact_stiffness,
+    fma,
+    force_and_slope,
+    friction_limit,
+    gradient_force,
+    locked_force,
+    longitudinal,
+    lowest_slip,
+    maximum,
+    minimum,
+    refined_slip,
+    running_resistance,
+    select,
+    stress_gradient,
+    suspension_force,
+    torque,
+    turning_direction,
+    vertical,
+)
+
+Record = Any
+LOWEST_LOAD = 0.2
+"""Share of the reference load below which a wheel's load is not followed: far beyond what braking unloads."""
+HIGHEST_LOAD = 2.5
+"""Share of the reference load beyond which the contact ellipse grows no more."""
+
+
+def clear_forces(frame: Record) -> None:
+    """Forget the forces on a bogie or the car body before they are summed anew."""
+    frame.longitudinal_force = 0.0
+    frame.vertical_force = 0.0
+    frame.moment = 0.0
+
+
+def couple_body(car: Record, bogie: Record, p: Record) -> None:
+    """Add the forces of the secondary suspension and the traction link between a bogie and the body."""
+    _couple_longitudinally(
+        car,
+        bogie,
+        p.secondary_longitudinal_stiffness,
+        p.secondary_longitudinal_damping,
+        p.secondary_height,
+        p,
+    )
+    _couple_longitudinally(car, bogie, p.link_stiffness, p.link_damping, p.link_height, p)
+    rise = vertical(car.height, car.pitch, bogie.ahead) - bogie.height
+    rate = vertical(car.vertical_speed, car.pitch_rate, bogie.ahead) - bogie.vertical_speed
+    lift = suspension_force(p.secondary_vertical_stiffness, p.secondary_vertical_damping, rise, rate)
+    bogie.vertical_force += lift
+    car.vertical_force -= lift
+    car.moment -= bogie.ahead * lift
+    car.damper_loss += p.step * p.secondary_vertical_damping * rate * rate
+
+
+def _couple_longitudinally(
+    car: Record, bogie: Record, stiffness: float, damping: float, height: float, p: Record
+) -> None:
+    above_body = height - p.body_height
+    above_bogie = height - p.bogie_height
+    shift = longitudinal(car.position, car.pitch, above_body) - longitudinal(
+        bogie.position, bogie.pitch, above_bogie
+    )
+    rate = longitudinal(car.speed, car.pitch_rate, above_body) - longitudinal(
+        bogie.speed, bogie.pitch_rate, above_bogie
+    )
+    pull = suspension_force(stiffness, damping, shift, rate)
+    bogie.longitudinal_force += pull
+    bogie.moment -= above_bogie * pull
+    car.longitudinal_force -= pull
+    car.moment += above_body * pull
+    car.damper_loss += p.step * damping * rate * rate
+
+
+def couple_wheelset(wheelset: Record, bogie: Record, car: Record, p: Record) -> None:
+    """Add the forces of a primary suspension to the bogie; find the wheelset's load, thrust and torque."""
+    above = p.wheel_radius - p.bogie_height
+    shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, above)
+    rate = wheelset.speed - longitudinal(bogie.speed, bogie.pitch_rate, above)
+    pull = suspension_force(p.primary_longitudinal_stiffness, p.primary_longitudinal_damping, shift, rate)
+    rise = vertical(bogie.height, bogie.pitch, wheelset.ahead)
+    rise_rate = vertical(bogie.vertical_speed, bogie.pitch_rate, wheelset.ahead)
+    lift = suspension_force(p.primary_vertical_stiffness, p.primary_vertical_damping, rise, rise_rate)
+    bogie.longitudinal_force += pull
+    bogie.vertical_force -= lift
+    bogie.moment -= fma(above, pull, wheelset.ahead * lift)
+    car.damper_loss += p.step * fma(
+        p.primary_longitudinal_damping * rate, rate, p.primary_vertical_damping * rise_rate * rise_rate
+    )
+    wheelset.thrust = -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
+    wheelset.wheel_load = maximum(fma(-0.5, lift, p.static_wheel_load), LOWEST_LOAD * p.reference_load)
+    wheelset.torque = torque(
+        wheelset.clamping_force, p.calipers_per_wheelset, p.pads_per_caliper, p.pad_friction, p.disc_radius
+    )
+
+
+def begin_slip(wheelset: Record, p: Record) -> None:
+    """Bracket the slip speed at the end of the step and begin from the last one.
+
+    The brake is taken to turn the wheelset with its full torque; a lock is found when the step is done.
+    """
+    load_ratio = minimum(wheelset.wheel_load * p.load_scale, HIGHEST_LOAD)
+    wheelset.contact_stiffness = contact_stiffness(p.creep_stiffness, load_ratio)
+    slip = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
+    braking = turning_direction(wheelset.rotation, wheelset.speed) * wheelset.torque
+    pushed = fma(p.mass_response, wheelset.thrust, slip)
+    free_slip = fma(p.inertia_response * p.wheel_radius, braking, pushed)
+    direction = select(free_slip < 0.0, -1.0, 1.0)
+    wheelset.slip_direction = direction
+    wheelset.free_slip = direction * free_slip
+    wheelset.highest_slip = wheelset.free_slip
+    wheelset.lowest_slip = lowest_slip(
+        wheelset.free_slip, p.slip_response, wheelset.wheel_load, wheelset.friction
+    )
+    wheelset.slip_estimate = maximum(direction * slip, 0.0)
+
+
+def find_limit(wheelset: Record, p: Record) -> None:
+    """Find the friction limit at the estimated slip speed, and how it changes."""
+    wheelset.friction_limit, wheelset.limit_slope = friction_limit(
+        wheelset.slip_estimate, wheelset.wheel_load, wheelset.friction, p.friction_ratio, p.friction_decay
+    )
+
+
+def find_gradient(wheelset: Record, p: Record) -> None:
+    """Find the gradient of the tangential stress at the estimated slip speed."""
+    (
+        wheelset.stress_pull,
+        wheelset.stress_hold,
+        wheelset.inverse_adhesion,
+        wheelset.inverse_slip,
+        wheelset.stress_angle,
+        wheelset.stress_tangent,
+    ) = stress_gradient(
+        wheelset.slip_estimate,
+        maximum(abs(wheelset.speed), SLOWEST_CREEP),
+        wheelset.friction_limit,
+        wheelset.contact_stiffness,
+        p.reduction_adhesion,
+        p.reduction_slip,
+    )
+
+
+def refine_slip(wheelset: Record, p: Record) -> float:
+    """Take one Newton step towards the slip speed; return the creep force of both wheels before it, N."""
+    gradient = (
+        wheelset.stress_pull,
+        wheelset.stress_hold,
+        wheelset.inverse_adhesion,
+        wheelset.inverse_slip,
+        wheelset.stress_angle,
+        wheelset.stress_tangent,
+    )
+    force, slope = force_and_slope(
+        gradient,
+        maximum(abs(wheelset.speed), SLOWEST_CREEP),
+        wheelset.friction_limit,
+        wheelset.limit_slope,
+        wheelset.contact_stiffness,
+        p.reduction_adhesion,
+        p.reduction_slip,
+    )
+    wheelset.slip_estimate, wheelset.lowest_slip, wheelset.highest_slip = refined_slip(
+        wheelset.slip_estimate,
+        wheelset.lowest_slip,
+        wheelset.highest_slip,
+        wheelset.free_slip,
+        p.slip_response,
+        force,
+        slope,
+    )
+    return 2.0 * force
+
+
+def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
+    """Advance speed and rotation under rail and brake; the brake torque reacts on the bogie.
+
+    Where the full brake torque would turn the wheelset against its sense of rotation the brake holds it: it
+    stands, and its brake carries just the torque of the rail. It stays so until the rail's torque exceeds the
+    brake's, without chatter. A locked wheelset slides as fast as it did, so that its force is the one found
+    at the last slip speed.
+    """
+    speed = wheelset.speed
+    rotation = wheelset.rotation
+    sense = turning_direction(rotation, speed)
+    slip_change = wheelset.free_slip - wheelset.slip_estimate
+    turning_creep = wheelset.slip_direction * slip_change * p.slip_stiffness
+    moment = fma(p.wheel_radius, turning_creep, -sense * wheelset.torque)
+    turned = fma(p.inertia_response, moment, rotation)
+    locked = turned * sense <= 0.0
+    free_speed = fma(p.mass_response, wheelset.thrust, speed)
+    sliding_creep = locked_force(speed, free_speed, wheelset.sliding_force, p.mass_response)
+    holding = fma(p.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
+    creep = select(locked, sliding_creep, turning_creep)
+    braking = select(locked, holding, sense * wheelset.torque)
+    wheelset.creep_force = creep
+    wheelset.speed = fma(-p.mass_response, creep, free_speed)
+    wheelset.rotation = select(locked, 0.0, turned)
+    wheelset.position += p.step * wheelset.speed
+    wheelset.slip_speed = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
+    turning = 0.5 * (rotation + wheelset.rotation)
+    wheelset.brake_heat += p.step * braking * (turning + bogie.pitch_rate)
+    wheelset.contact_loss += p.step * creep * (0.5 * (speed + wheelset.speed) - p.wheel_radius * turning)
+    bogie.moment -= braking
+
+
+def step_frame(
+    frame: Record, mass: float, mass_response: float, pitch_response: float, resistance: float, p: Record
+) -> None:
+    """Advance the three motions of a bogie or the car body under the forces summed on it."""
+    drag = resistance + gradient_force(mass, p.gradient, p.gravity)
+    frame.speed += mass_response * (frame.longitudinal_force - drag)
+    frame.vertical_speed += mass_response * frame.vertical_force
+    frame.pitch_rate += pitch_response * frame.moment
+    frame.position += p.step * frame.speed
+    frame.height += p.step * frame.vertical_speed
+    frame.pitch += p.step * frame.pitch_rate
+
+
+def step_body(car: Record, p: Record) -> None:
+    """Advance the car body and note the instant and place of standstill."""
+    speed = car.speed
+    position = car.position
+    drag = running_resistance(speed, p.resistance_constant, p.resistance_linear, p.resistance_quadratic)
+    step_frame(car, p.body_mass, p.body_mass_response, p.body_pitch_response, drag, p)
+    car.resistance_loss += p.step * drag * 0.5 * (speed + car.speed)
+    stops = (1.0 - car.stopped) * select(car.speed <= 0.0, 1.0, 0.0) > 0.0
+    share = speed / select(stops, speed - car.speed, 1.0)
+    car.stop_time = select(stops, car.time + share * p.step, car.stop_time)
+    car.stop_position = select(stops, position + 0.5 * share * p.step * speed, car.stop_position)
+    car.stopped = select(stops, 1.0, car.stopped)

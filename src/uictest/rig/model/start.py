@@ -1,0 +1,54 @@
+"""State of the rig at the instant of the brake command: the train rolls, the brakes are released."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.controllers import begin
+from uictest.rig.model.balance import stored_air, stored_energy
+
+Record = Any
+_LONG_AGO = 1_000_000
+"""Cycles of uninterrupted filling that stand for "the WSP has not acted yet"."""
+
+
+def start(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> None:
+    """Set the state of zeroed records for a stop from ``p.initial_speed``."""
+    car.speed = p.initial_speed
+    start_supply(car, p)
+    for j in range(2):
+        bogies[j].speed = p.initial_speed
+        bogies[j].ahead = p.half_pivot_distance * (1.0 - 2.0 * j)
+    for i in range(4):
+        side = 1.0 - 2.0 * (i % 2)
+        bogie = bogies[i // 2]
+        _start_wheelset(wheelsets[i], p)
+        wheelsets[i].has_caliper = 1.0 if i < p.calipers else 0.0
+        wheelsets[i].ahead = side * p.half_wheelbase
+        wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
+    _start_air(wheelsets, p)
+    begin(car, wheelsets, p.initial_speed)
+    car.initial_energy = stored_energy(car, bogies, wheelsets, p)
+    car.initial_air = stored_air(car, wheelsets)
+
+
+def start_supply(car: Record, p: Record) -> None:
+    """Fill the reservoir; the brake line is empty."""
+    car.reservoir_pressure = p.reservoir_pressure
+    car.line_pressure = p.atmospheric_pressure
+    car.reservoir_mass = p.reservoir_pressure * p.reservoir_volume / (p.gas_constant * p.air_temperature)
+    car.line_mass = p.atmospheric_pressure * p.line_volume / (p.gas_constant * p.air_temperature)
+
+
+def _start_wheelset(wheelset: Record, p: Record) -> None:
+    wheelset.speed = p.initial_speed
+    wheelset.rotation = p.initial_speed / p.wheel_radius
+    wheelset.wheel_load = p.static_wheel_load
+    wheelset.filling_cycles = _LONG_AGO
+    wheelset.fill_opening = 1.0
+    wheelset.pressure = p.atmospheric_pressure
+
+
+def _start_air(wheelsets: Sequence[Record], p: Record) -> None:
+    for i in range(4):
+        volume = p.caliper_tank_volume if i < p.calipers else p.tank_volume
+        wheelsets[i].air_mass = p.atmospheric_pressure * volume / (p.gas_constant * p.air_temperature)

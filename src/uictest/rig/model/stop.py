@@ -1,0 +1,137 @@
+"""One stop from the brake command to standstill."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.measures import (
+    begin,
+    begin_slides,
+    begin_wheelset,
+    begin_window,
+    finish,
+    keep_slide,
+    keep_window,
+    observe_train,
+    observe_wheelset,
+)
+from uictest.physics import select
+from uictest.rig.model.balance import air_residual, energy_residual
+from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.start import start
+from uictest.rig.model.step import step
+from uictest.rig.model.trace import sample
+
+Record = Any
+
+
+def run_stop(
+    car: Record,
+    bogies: Sequence[Record],
+    wheelsets: Sequence[Record],
+    p: Record,
+    rail: Any,
+    measures: Record,
+    wheelset_measures: Sequence[Record],
+    trace: Any,
+    steps_per_sample: int,
+) -> int:
+    """Run one stop on zeroed records, fill the measures and return the number of rows written to ``trace``.
+
+    Steps run in whole controller cycles. Standstill is found within the step and the cycle is finished,
+    so that a stop runs the same steps alone or beside others. ``trace`` has
+    :data:`~uictest.rig.model.trace.ROW` columns and a row for every ``steps_per_sample`` steps; with 0
+    nothing is recorded. Recording reads the state and never changes it.
+    """
+    start(car, bogies, wheelsets, p)
+    begin_stop_measures(car, measures, wheelset_measures, p)
+    begin_tables(measures, wheelset_measures)
+    rows = 0
+    steps = 0
+    while car.stopped == 0.0 and car.cycle < p.cycles:
+        sense(car, wheelsets, p)
+        begin_cycle(car, wheelsets, p, rail)
+        command_valves(car, wheelsets, p)
+        if steps_per_sample > 0 and rows == 0:
+            sample(trace[0], car, wheelsets, p)
+            rows = 1
+        for _ in range(p.steps_per_cycle):
+            step(car, bogies, wheelsets, p)
+            steps += 1
+            if steps_per_sample > 0 and steps % steps_per_sample == 0:
+                sample(trace[rows], car, wheelsets, p)
+                rows += 1
+        observe_cycle(car, wheelsets, measures, wheelset_measures, p)
+        keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
+    close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
+    return rows
+
+
+def begin_stop_measures(
+    car: Record, measures: Record, wheelset_measures: Sequence[Record], p: Record
+) -> None:
+    """Start the measures of a stop that are one number."""
+    begin(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
+    for i in range(4):
+        begin_wheelset(wheelset_measures[i])
+
+
+def begin_tables(measures: Record, wheelset_measures: Sequence[Record]) -> None:
+    """Start the measures of a stop that are a table."""
+    begin_window(measures)
+    for i in range(4):
+        begin_slides(wheelset_measures[i])
+
+
+def observe_cycle(
+    car: Record, wheelsets: Sequence[Record], measures: Record, wheelset_measures: Sequence[Record], p: Record
+) -> None:
+    """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
+    stands = car.stopped > 0.0
+    time = select(stands, car.stop_time, car.time)
+    position = select(stands, car.stop_position, car.position)
+    speed = select(stands, 0.0, car.speed)
+    for i in range(4):
+        wheelset = wheelsets[i]
+        observed = wheelset_measures[i]
+        observe_wheelset(
+            observed,
+            measures,
+            p,
+            i + 1,
+            time,
+            speed,
+            wheelset.rotation * p.wheel_radius,
+            select(stands, observed.venting, wheelset.venting),
+            select(stands, 0.0, wheelset.clamping_force),
+        )
+    observe_train(measures, p, time, position, speed, car.reservoir_pressure - p.atmospheric_pressure)
+    finish(measures, stands, time, position)
+
+
+def keep_tables(
+    measures: Record,
+    wheelset_measures: Sequence[Record],
+    samples: Record,
+    wheelset_samples: Sequence[Record],
+    p: Record,
+) -> None:
+    """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
+    keep_window(measures, samples)
+    for i in range(4):
+        keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
+
+
+def close_stop_measures(
+    car: Record,
+    bogies: Sequence[Record],
+    wheelsets: Sequence[Record],
+    measures: Record,
+    wheelset_measures: Sequence[Record],
+    p: Record,
+) -> None:
+    """Add the ledgers and balances of the whole stop."""
+    measures.air_consumed = car.consumed_air
+    measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
+    measures.air_residual = air_residual(car, wheelsets)
+    for i in range(4):
+        wheelset_measures[i].air_vented = wheelsets[i].vented_air

@@ -1,0 +1,47 @@
+from .case import Case as Case
+from .discovery import SWEEP_SUFFIXES as SWEEP_SUFFIXES, link_outside as link_outside
+from .expansion import (
+    EXPANSION_KEYS as EXPANSION_KEYS,
+    Setting as Setting,
+    Variant as Variant,
+    distinct as distinct,
+    expand as expand,
+)
+from .identifiers import LONGEST as LONGEST, short_keys as short_keys, value_label as value_label
+from .json_schema import SCHEMA_DRAFT as SCHEMA_DRAFT, as_draft_07 as as_draft_07, json_schema as json_schema
+from .library_parts import (
+    Number as Number,
+    load_part as load_part,
+    load_part_file as load_part_file,
+    numbers as numbers,
+)
+from .loading import load as load
+from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Scenario as Scenario, Slug as Slug
+from .part_keys import PART_KEYS as PART_KEYS, with_default_parts as with_default_parts
+from .parts.applicability import Applicability as Applicability, Nominal as Nominal
+from .parts.brake import BrakeSystem as BrakeSystem
+from .parts.compensation import Compensation as Compensation
+from .parts.criteria import Criteria as Criteria, Criterion as Criterion
+from .parts.definition import Parameter as Parameter
+from .parts.friction import FrictionProfile as FrictionProfile
+from .parts.measure_catalogue import Course as Course
+from .parts.measures import MeasureDefinitions as MeasureDefinitions
+from .parts.rail import RailCondition as RailCondition
+from .parts.vehicle import Vehicle as Vehicle
+from .rail_friction import (
+    CONDITION as CONDITION,
+    changed_alone as changed_alone,
+    sets_friction as sets_friction,
+)
+from .references import Files as Files, Parts as Parts, is_path as is_path
+from .resolution import resolve as resolve
+from .roots import Roots as Roots
+from .values import (
+    DESCRIPTIVE as DESCRIPTIVE,
+    Value as Value,
+    is_changed as is_changed,
+    mark_of as mark_of,
+    values_in as values_in,
+)
+from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
+from .yaml.quantities import Quantity as Quantity

@@ -1,0 +1,5 @@
+"""YAML files with the place of every key and value, checked against typed models."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,67 @@
+from .assignment import FIXED as FIXED, with_value as with_value
+from .diagnostics import (
+    Diagnostic as Diagnostic,
+    ScenarioErrors as ScenarioErrors,
+    diagnose as diagnose,
+    in_reading_order as in_reading_order,
+    single_error as single_error,
+)
+from .inheritance import inherit as inherit
+from .model import (
+    NAME_PATTERN as NAME_PATTERN,
+    Inconsistency as Inconsistency,
+    Key as Key,
+    Model as Model,
+    Part as Part,
+    Section as Section,
+    Source as Source,
+    quantities_in as quantities_in,
+)
+from .model_keys import models_in as models_in
+from .overrides import (
+    Override as Override,
+    apply_overrides as apply_overrides,
+    parse_overrides as parse_overrides,
+)
+from .parsing import parse as parse
+from .physical import (
+    QUANTITY_KEYWORD as QUANTITY_KEYWORD,
+    Physical as Physical,
+    default as default,
+    kind as kind,
+    written as written,
+)
+from .quantities import (
+    DEFAULT_SOURCE as DEFAULT_SOURCE,
+    SCENARIO_SOURCE as SCENARIO_SOURCE,
+    Quantity as Quantity,
+    QuantityError as QuantityError,
+    parse_quantity as parse_quantity,
+)
+from .reading import (
+    LIBRARY as LIBRARY,
+    display_name as display_name,
+    is_file as is_file,
+    read_file as read_file,
+    read_library as read_library,
+    unreadable_error as unreadable_error,
+    whole_file as whole_file,
+)
+from .reference_schema import PartReference as PartReference
+from .scalars import resolve as resolve
+from .tree import (
+    COMMAND_LINE as COMMAND_LINE,
+    Document as Document,
+    Entry as Entry,
+    Map as Map,
+    Node as Node,
+    Place as Place,
+    Scalar as Scalar,
+    Sequence as Sequence,
+    as_written as as_written,
+    describe as describe,
+    entry_at as entry_at,
+    plain as plain,
+)
+from .validation import dotted as dotted, validated as validated
+from .wording import nearest as nearest, quoted as quoted, suggestion as suggestion, visible as visible

@@ -1,0 +1,54 @@
+"""Setting one dotted key of a scenario's tree."""
+
+from typing import Final
+
+from uictest.scenario.yaml.diagnostics import single_error
+from uictest.scenario.yaml.tree import Entry, Map, Node, Place, Scalar, describe
+from uictest.scenario.yaml.wording import quoted
+
+FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude"})
+"""Keys that belong to the file and not to a case."""
+
+
+def with_value(tree: Map, key: str, value: Entry, part_keys: frozenset[str]) -> Map:
+    """A copy of ``tree`` in which the dotted ``key`` has another value.
+
+    A reference to a part on the way (one of ``part_keys``) becomes a mapping that extends what it named.
+    Raises ScenarioErrors at the key of ``value``.
+    """
+    elements = key.split(".")
+    if not all(elements):
+        raise single_error(
+            value.key, f"{quoted(key)} is not a key", hint="write names joined by dots: rail.friction"
+        )
+    if elements[0] in FIXED:
+        raise single_error(
+            value.key, f"{quoted(elements[0])} belongs to the file and cannot vary from case to case", key
+        )
+    return _assigned(tree, elements, value, "", part_keys)
+
+
+def _assigned(tree: Map, elements: list[str], value: Entry, above: str, part_keys: frozenset[str]) -> Map:
+    first, rest = elements[0], elements[1:]
+    if not rest:
+        return tree.with_entry(first, value)
+    key = f"{above}{first}"
+    inner = _mapping(tree.get(first), key, value.key, part_keys)
+    return tree.with_entry(
+        first, Entry(_key_place(tree, first, value), _assigned(inner, rest, value, f"{key}.", part_keys))
+    )
+
+
+def _key_place(tree: Map, name: str, value: Entry) -> Place:
+    entry = tree.entries.get(name)
+    return value.key if entry is None else entry.key
+
+
+def _mapping(node: Node | None, key: str, place: Place, part_keys: frozenset[str]) -> Map:
+    if node is None:
+        return Map({}, place)
+    if isinstance(node, Map):
+        return node
+    if isinstance(node, Scalar) and key in part_keys:
+        return Map({"extends": Entry(node.place, node)}, place)
+    raise single_error(place, f"{quoted(key)} is {describe(node)} and has no keys of its own", key)

@@ -1,0 +1,97 @@
+"""Messages about a file: where, what was found, what is accepted."""
+
+import unicodedata
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from uictest.scenario.yaml.tree import Node, Place
+from uictest.scenario.yaml.wording import visible
+
+EXCERPT_WIDTH: Final = 100
+_LEAD: Final = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One error in one file. Everything a user wrote appears escaped, safe for a terminal.
+
+    ``line`` and ``column`` count from one; ``excerpt`` is the line with a caret line below it.
+    """
+
+    file: str
+    line: int
+    column: int
+    key: str
+    message: str
+    excerpt: str
+    hint: str
+
+    def __str__(self) -> str:
+        subject = f"{self.key}: " if self.key else ""
+        lines = [f"{self.file}:{self.line}:{self.column}: {subject}{self.message}"]
+        margin = f"{self.line:>5} | "
+        for text in self.excerpt.splitlines():
+            lines.append((margin + text).rstrip())
+            margin = " " * 5 + " | "
+        if self.hint:
+            lines.append(f"      = {self.hint}")
+        return "\n".join(lines)
+
+
+class ScenarioErrors(Exception):  # noqa: N818 - it holds many errors, and its name says so
+    """Every error found in the files that were read.
+
+    ``salvaged`` is the tree of a file that could be read in spite of them: more errors may be found in it.
+    """
+
+    def __init__(self, diagnostics: Iterable[Diagnostic], salvaged: Node | None = None) -> None:
+        self.diagnostics = tuple(dict.fromkeys(diagnostics))
+        self.salvaged = salvaged
+        super().__init__(self.diagnostics)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.diagnostics))
+
+
+def diagnose(place: Place, message: str, key: str = "", hint: str = "") -> Diagnostic:
+    """A diagnostic at ``place`` with an excerpt; ``message`` and ``hint`` must be escaped already."""
+    return Diagnostic(
+        file=visible(place.document.display),
+        line=place.line,
+        column=place.column,
+        key=visible(key),
+        message=message,
+        excerpt=_excerpt(place),
+        hint=hint,
+    )
+
+
+def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """File by file, as first met, and from top to bottom in each."""
+    met = {name: number for number, name in enumerate(dict.fromkeys(each.file for each in diagnostics))}
+    return sorted(diagnostics, key=lambda each: (met[each.file], each.line, each.column))
+
+
+def single_error(place: Place, message: str, key: str = "", hint: str = "") -> ScenarioErrors:
+    """One diagnostic as an exception."""
+    return ScenarioErrors([diagnose(place, message, key, hint)])
+
+
+def _excerpt(place: Place) -> str:
+    lines = place.document.lines
+    if not 1 <= place.line <= len(lines) or not lines[place.line - 1].strip():
+        return ""
+    line, at = lines[place.line - 1], place.column - 1
+    start = max(0, at - _LEAD)
+    before, after = line[start:at], line[at : start + EXCERPT_WIDTH]
+    shown = _shown(before)
+    return f"{shown}{_shown(after)}\n{' ' * _width(shown)}^".rstrip("\n")
+
+
+def _shown(text: str) -> str:
+    return visible(text.replace("\t", " "))
+
+
+def _width(text: str) -> int:
+    return sum(2 if unicodedata.east_asian_width(char) in "WF" else 1 for char in text)

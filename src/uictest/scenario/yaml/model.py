@@ -1,0 +1,152 @@
+"""What every model of a scenario shares: frozen, no unknown keys, inconsistencies told all at once."""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar, Final, Literal, NamedTuple, Self
+
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic_core import CoreSchema, PydanticCustomError
+
+from uictest.scenario.yaml.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
+from uictest.scenario.yaml.wording import quoted, suggestion
+
+Key = tuple[str | int, ...]
+
+NAME_PATTERN: Final = r"^[a-z0-9][a-z0-9._-]{0,99}$"
+"""What the name of a part looks like."""
+
+
+class Inconsistency(NamedTuple):
+    """Values that are acceptable one by one but impossible together; ``key`` is relative to the model."""
+
+    key: Key
+    message: str
+    hint: str = ""
+
+
+class Model(BaseModel):
+    """A mapping of a scenario or of a library file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield what is impossible about these values taken together."""
+        yield from ()
+
+    def undescribed(self) -> Iterator[Inconsistency]:
+        """Yield what is said nowhere though something here refers to it."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        found = [*self.undescribed(), *self.inconsistencies()]
+        if found:
+            raise PydanticCustomError(
+                "contradiction", "{message}", {"message": found[0].message, "inconsistencies": found}
+            )
+        return self
+
+
+class Section(Model):
+    """A mapping inside a part, which an inline mapping with ``extends`` may give in part."""
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        schema = handler.resolve_ref_schema(handler(core))
+        schema.pop("required", None)
+        return schema
+
+
+class Source(Model):
+    """Where a number comes from."""
+
+    mark: Literal["stated", "published", "identified", "chosen"] = Field(
+        description="stated: in the source paper's text; published: elsewhere; identified: from a record; "
+        "chosen: by us, a surrogate."
+    )
+    text: str = Field(
+        description="The publication and the place in it, the record, or why a chosen value is plausible.",
+        min_length=1,
+    )
+
+
+class Part(Model):
+    """A part of the rig: a library file, a user's file, or an inline mapping of a scenario."""
+
+    folder: ClassVar[str]
+    """Folder of the library that holds parts of this kind."""
+
+    schema_id: str | None = Field(
+        default=None,
+        alias="schema",
+        description="What the file holds and which version of it, e.g. uictest/vehicle/1.",
+    )
+    name: str = Field(
+        default="inline",
+        pattern=NAME_PATTERN,
+        description="Name of the part: lower case, no blanks.",
+    )
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    sources: dict[str, Source] = Field(
+        default_factory=dict,
+        description="Where the numbers come from; each number names a key of this mapping.",
+    )
+
+    # Beside the fields, so that a copy with other numbers still knows what it was changed from.
+    _based_on: str | None = PrivateAttr(default=None)
+    _original: "Part | None" = PrivateAttr(default=None)
+
+    @property
+    def based_on(self) -> str | None:
+        """Name of the library part at the root of `extends`, else of the file there.
+
+        A library part is based on itself. None for a part that extends nothing.
+        """
+        return self._based_on
+
+    @property
+    def original(self) -> "Part | None":
+        """The part called `based_on` as its file has it; None where that file is not a whole part."""
+        return self._original
+
+    def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
+        """A copy that knows the part at the root of `extends`."""
+        part = self.model_copy()
+        part._based_on, part._original = based_on, original
+        return part
+
+    def undescribed(self) -> Iterator[Inconsistency]:
+        """Yield every number whose source is not described."""
+        known = {SCENARIO_SOURCE, DEFAULT_SOURCE, *self.sources}
+        for key, quantity in quantities_in(self):
+            if quantity.source not in known:
+                yield Inconsistency(
+                    (*key, "source"),
+                    f"unknown source {quoted(quantity.source)}",
+                    suggestion(quantity.source, self.sources) or "describe it under 'sources'",
+                )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Let an inline mapping extend a library part and override only what it names."""
+        schema = handler.resolve_ref_schema(handler(core))
+        schema.pop("required", None)
+        schema["properties"]["extends"] = {
+            "type": "string",
+            "description": "Library name or relative path of the part that this mapping changes.",
+        }
+        return schema
+
+
+def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]]:
+    """Yield every quantity inside a model, tuple or mapping with its key."""
+    if isinstance(value, Quantity):
+        yield key, value
+    elif isinstance(value, BaseModel):
+        for name, inner in value:
+            yield from quantities_in(inner, (*key, name))
+    elif isinstance(value, dict):
+        for name, inner in value.items():
+            yield from quantities_in(inner, (*key, name))
+    elif isinstance(value, tuple):
+        for index, inner in enumerate(value):
+            yield from quantities_in(inner, (*key, index))

@@ -1,0 +1,47 @@
+"""What a model accepts at a key: found by walking its annotations, through lists, mappings and unions."""
+
+from collections.abc import Iterator
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel
+
+from uictest.scenario.yaml.model import Key
+
+
+def accepted_keys(model: Any, key: Key) -> set[str]:
+    """The keys that the mapping at ``key`` of a model accepts."""
+    names: set[str] = set()
+    for each in models_at(model, key):
+        names.update(field.alias or name for name, field in each.model_fields.items())
+    return names
+
+
+def fields_named(model: Any, key: Key, name: str) -> Iterator[Any]:
+    """Yield the fields called ``name`` of the mapping at ``key`` of a model."""
+    for each in models_at(model, key):
+        for field_name, field in each.model_fields.items():
+            if name in (field_name, field.alias):
+                yield field
+
+
+def models_at(model: Any, key: Key) -> list[Any]:
+    """The models that the mapping at ``key`` may be; indices, names in a dict and tags are passed over."""
+    here = models_in(model)
+    for element in key:
+        inner = [
+            field.annotation
+            for each in here
+            for name, field in each.model_fields.items()
+            if element in (name, field.alias)
+        ]
+        here = [found for annotation in inner for found in models_in(annotation)] or here
+    return here
+
+
+def models_in(annotation: Any) -> list[Any]:
+    """The models that an annotation names, however deep."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    if get_origin(annotation) is Literal:
+        return []
+    return [found for inner in get_args(annotation) for found in models_in(inner)]

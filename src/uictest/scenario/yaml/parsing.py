@@ -1,0 +1,175 @@
+"""YAML text to a tree of nodes with places.
+
+Reads the events of the YAML parser instead of its objects: no tag can construct anything, no alias is ever
+expanded, and size and depth are bounded before memory is spent.
+"""
+
+import re
+from collections.abc import Iterator
+from typing import Any, Final
+
+import yaml
+
+from uictest.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose, single_error
+from uictest.scenario.yaml.scalars import resolve
+from uictest.scenario.yaml.tree import Document, Entry, Map, Node, Place, Scalar, Sequence
+from uictest.scenario.yaml.wording import quoted, visible
+
+DEEPEST: Final = 20
+MOST_NODES: Final = 20_000
+MOST_DIAGNOSTICS: Final = 20
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+# What YAML 1.2 calls non-printable; the parser would stop at it without a usable position.
+_FORBIDDEN = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_BYTE_ORDER_MARK = "\ufeff"
+
+
+def parse(
+    document: Document,
+    line: int = 1,
+    column: int = 1,
+    text: str | None = None,
+    beginning: str = "a scenario starts with its schema",
+) -> Node:
+    """The tree of a document, or of a piece of it that starts at ``line`` and ``column``.
+
+    ``beginning`` is what to say of an empty document.
+
+    Raises ScenarioErrors with every structural error found and, where the text could be read all the same,
+    the tree that it was taken for.
+    """
+    return _Parser(document, document.text if text is None else text, line, column, beginning).parse()
+
+
+class _Parser:
+    """Recursive descent over parser events."""
+
+    def __init__(self, document: Document, text: str, line: int, column: int, beginning: str) -> None:
+        self.document = document
+        self.text = text
+        self.line = line
+        self.column = column
+        self.beginning = beginning
+        self.found: list[Diagnostic] = []
+        self.nodes = 0
+        self.events: Iterator[Any] = iter(())
+
+    def parse(self) -> Node:
+        self._refuse_control_characters()
+        root: Node | None = None
+        try:
+            root = self._root()
+        except yaml.YAMLError as error:
+            self.found.append(self._syntax_error(error))
+        except RecursionError:
+            raise single_error(Place(self.document), "nested too deeply") from None
+        if self.found or root is None:
+            raise ScenarioErrors(self.found, root)
+        return root
+
+    def _refuse_control_characters(self) -> None:
+        match = _FORBIDDEN.search(self.text, 1 if self.text.startswith(_BYTE_ORDER_MARK) else 0)
+        if match is not None:
+            before = Document("", self.document.folder, self.text[: match.start()]).lines
+            place = self._place(len(before) - 1, len(before[-1]))
+            raise single_error(
+                place, f"character {quoted(match[0])} is not allowed in YAML", hint="is this a text file?"
+            )
+
+    def _root(self) -> Node:
+        self.events = iter(yaml.parse(self.text, Loader=_LOADER))
+        next(self.events)  # start of the stream
+        if isinstance(next(self.events), yaml.StreamEndEvent):
+            raise single_error(Place(self.document), "the file is empty", hint=self.beginning)
+        root = self._node(next(self.events), depth=0)
+        next(self.events)  # end of the document
+        after = next(self.events)
+        if not isinstance(after, yaml.StreamEndEvent):
+            self._report(after, "a second YAML document", "one file holds one of them")
+        return root
+
+    def _node(self, event: Any, depth: int) -> Node:
+        self._guard(event, depth)
+        place = self._place_of(event)
+        if isinstance(event, yaml.MappingStartEvent):
+            return self._map(place, depth)
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self._sequence(place, depth)
+        if isinstance(event, yaml.AliasEvent):
+            self._report(event, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
+            return Scalar(None, "", place)
+        value = event.value if event.style else resolve(event.value)  # a style is a quotation or a block
+        return Scalar(value, event.value, place)
+
+    def _guard(self, event: Any, depth: int) -> None:
+        self.nodes += 1
+        if self.nodes > MOST_NODES:
+            raise single_error(self._place_of(event), f"more than {MOST_NODES} values in one file")
+        if depth > DEEPEST:
+            raise single_error(self._place_of(event), f"nested deeper than {DEEPEST} levels")
+        if isinstance(event, yaml.AliasEvent):
+            return
+        if event.anchor is not None:
+            self._report(event, f"anchor {quoted('&' + event.anchor)} is not accepted", _REPEAT_HINT)
+        if event.tag is not None:
+            self._report(event, f"tag {quoted(event.tag)} is not accepted", "write the value without a tag")
+
+    def _map(self, place: Place, depth: int) -> Map:
+        entries: dict[str, Entry] = {}
+        while not isinstance(event := next(self.events), yaml.MappingEndEvent):
+            key = self._node(event, depth + 1)
+            node = self._node(next(self.events), depth + 1)
+            if not isinstance(key, Scalar):
+                self.found.append(diagnose(key.place, "a key must be a text", hint="write `key: value`"))
+            elif key.text in entries:
+                self.found.append(_duplicate(key, entries[key.text]))
+            else:
+                entries[key.text] = Entry(key.place, node)
+        return Map(entries, place)
+
+    def _sequence(self, place: Place, depth: int) -> Sequence:
+        items: list[Node] = []
+        while not isinstance(event := next(self.events), yaml.SequenceEndEvent):
+            items.append(self._node(event, depth + 1))
+        return Sequence(tuple(items), place)
+
+    def _report(self, event: Any, message: str, hint: str) -> None:
+        self.found.append(diagnose(self._place_of(event), message, hint=hint))
+        if len(self.found) >= MOST_DIAGNOSTICS:
+            raise ScenarioErrors(self.found)
+
+    def _place_of(self, event: Any) -> Place:
+        return self._place(event.start_mark.line, event.start_mark.column)
+
+    def _place(self, line: int, column: int) -> Place:
+        return Place(self.document, self.line + line, (self.column if line == 0 else 1) + column)
+
+    def _syntax_error(self, error: yaml.YAMLError) -> Diagnostic:
+        mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+        place = Place(self.document) if mark is None else _within(self._place(mark.line, mark.column))
+        problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read"
+        context = getattr(error, "context", None)
+        message = f"not valid YAML: {problem}" + (f" ({context})" if context else "")
+        return diagnose(place, visible(message), hint=_syntax_hint(place))
+
+
+_REPEAT_HINT: Final = "repeat the value, or use `extends`"
+
+
+def _duplicate(key: Scalar, first: Entry) -> Diagnostic:
+    return diagnose(
+        key.place, f"duplicate key {quoted(key.text)}", key.text, f"first given in line {first.key.line}"
+    )
+
+
+def _within(place: Place) -> Place:
+    """The place itself, or the end of the text when the parser points beyond it."""
+    lines = place.document.lines
+    return place if place.line <= len(lines) else Place(place.document, len(lines), len(lines[-1]) + 1)
+
+
+def _syntax_hint(place: Place) -> str:
+    lines = place.document.lines
+    line = lines[place.line - 1]
+    return "indent with blanks, not with tabs" if line[: len(line) - len(line.lstrip())].count("\t") else ""

@@ -1,0 +1,17 @@
+from .catalogue import STUDIES as STUDIES
+from .comparison import lines as lines
+from .document import document as document
+from .quantity import FoundValue as FoundValue, StudyQuantity as StudyQuantity
+from .stop_runner import StopRunner as StopRunner
+from .study import (
+    Study as Study,
+    StudyFindings as StudyFindings,
+    StudyResult as StudyResult,
+    run_study as run_study,
+)
+from .table import study_table as study_table
+from .writing import (
+    write_comparison as write_comparison,
+    write_figures as write_figures,
+    write_tables as write_tables,
+)

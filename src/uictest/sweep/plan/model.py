@@ -1,0 +1,241 @@
+"""What a sweep file says: the scenario, the values of its parameters, how they are combined or drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from uictest.scenario import Slug
+from uictest.scenario.yaml import Inconsistency, Model
+from uictest.sweep.plan.amount import WrittenAmount, common_unit
+
+SWEEP_SCHEMA: Final = "uictest/sweep/1"
+MOST_CASES: Final = 100_000_000
+MOST_POINTS: Final = 2**24
+FARTHEST_END: Final = 100_000
+"""Deviations from the mean to the nearer end of a normal distribution, at most.
+
+Farther off, the values keep to that end within 1e-10 of its distance, which ten digits do not tell apart.
+"""
+Method = Literal["random", "sobol", "latin-hypercube", "saltelli"]
+_ONE_UNIT = "write all numbers of it with the same unit"
+
+
+class Range(Model):
+    """Numbers from the first to the last, by a step or as many as counted."""
+
+    first: WrittenAmount = Field(description="First number, with its unit.")
+    last: WrittenAmount = Field(description="Last number; reached where a step lands on it.")
+    step: WrittenAmount | None = Field(default=None, description="Difference between neighbours.")
+    count: Annotated[int, Field(ge=1, le=1_000_000, strict=True)] | None = Field(
+        default=None, description="How many numbers, equally far apart, both ends included."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield two ways or no way to divide the range, mixed units, and steps that lead nowhere."""
+        if (self.step is None) == (self.count is None):
+            yield Inconsistency((), "give either 'step' or 'count'", "count: 11, or step: 0.01")
+            return
+        given = [self.first, self.last, *([self.step] if self.step else [])]
+        if common_unit(given) is None:
+            yield Inconsistency(("last",), "the numbers of a range have different units", _ONE_UNIT)
+        elif self.step is not None and not 0 <= self._steps() < MOST_POINTS:
+            yield Inconsistency(
+                ("step",), f"steps of {self.step} do not lead from {self.first} to {self.last}"
+            )
+
+    def _steps(self) -> float:
+        assert self.step is not None
+        if self.step.number == 0:
+            return -1.0
+        return float((self.last.number - self.first.number) / self.step.number)
+
+
+class Normal(Model):
+    """A normal distribution, cut off at both ends."""
+
+    mean: WrittenAmount = Field(description="Mean before the ends are cut off.")
+    deviation: WrittenAmount = Field(description="Standard deviation before the ends are cut off.")
+    lower: WrittenAmount = Field(description="Smallest value.")
+    upper: WrittenAmount = Field(description="Largest value.")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield mixed units, no spread, ends in the wrong order."""
+        if common_unit([self.mean, self.deviation, self.lower, self.upper]) is None:
+            yield Inconsistency(("mean",), "the numbers of a distribution have different units", _ONE_UNIT)
+        elif self.deviation.number <= 0:
+            yield Inconsistency(("deviation",), f"{self.deviation} is not above zero")
+        elif self.lower.number >= self.upper.number:
+            yield Inconsistency(("upper",), f"{self.upper} does not lie above {self.lower}")
+        else:
+            yield from self._ends_too_far_off()
+
+    def _ends_too_far_off(self) -> Iterator[Inconsistency]:
+        farthest = FARTHEST_END * self.deviation.number
+        above, below = self.lower.number - self.mean.number, self.mean.number - self.upper.number
+        hint = "nothing but this value would be drawn; move it or the mean, or widen the deviation"
+        for key, end, side, distance in (
+            ("lower", self.lower, "above", above),
+            ("upper", self.upper, "below", below),
+        ):
+            if distance > farthest:
+                message = f"{end} lies more than {FARTHEST_END} deviations {side} the mean"
+                yield Inconsistency((key,), message, hint)
+
+
+def _numbers(words: str, *names: str) -> BeforeValidator:
+    """Return a check that a list has an entry for each of the names, which have no keys to be told by."""
+
+    def check(given: object) -> object:
+        if isinstance(given, list | tuple) and len(given) == len(names):
+            return given
+        found = f"{len(given)}" if isinstance(given, list | tuple) else "no list"
+        message = f"expected {words}, [{', '.join(names)}], found {found}"
+        raise PydanticCustomError("numbers", "{message}", {"message": message})
+
+    return BeforeValidator(check)
+
+
+_TWO_BOUNDS: Final = _numbers("two bounds", "lowest", "highest")
+_THREE_VALUES: Final = _numbers("three values", "lowest", "likeliest", "highest")
+
+
+class Distribution(Model):
+    """How the values of one parameter are spread: one of five ways."""
+
+    uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
+        default=None,
+        description="Smallest and largest value; everything between is equally likely.",
+        examples=[[0.08, 0.16]],
+    )
+    log_uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
+        default=None,
+        alias="log-uniform",
+        description="Smallest and largest value, above zero; the logarithm is uniform.",
+        examples=[["0.8e-8 m3/(s Pa)", "1.6e-8 m3/(s Pa)"]],
+    )
+    triangular: Annotated[tuple[WrittenAmount, WrittenAmount, WrittenAmount], _THREE_VALUES] | None = Field(
+        default=None,
+        description="Smallest, likeliest and largest value; the density is a triangle.",
+        examples=[["80 %", "100 %", "100 %"]],
+    )
+    normal: Normal | None = Field(
+        default=None,
+        description="Normal, cut off at both ends; what lies beyond them is not drawn.",
+        examples=[{"mean": "32 t", "deviation": "0.5 t", "lower": "30 t", "upper": "34 t"}],
+    )
+    choice: tuple[Any, ...] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=10_000,
+        description="Values that the key accepts, each as likely as the others.",
+        examples=[["one-caliper", "four-caliper"]],
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, given: Any) -> Any:
+        if isinstance(given, dict | cls):
+            return given
+        hint = f"accepted: {', '.join(cls._forms())}; such as {{uniform: [0.08, 0.16]}}"
+        context = {"message": "expected a distribution by its name", "hint": hint}
+        raise PydanticCustomError("distribution", "{message}", context)
+
+    @classmethod
+    def _forms(cls) -> list[str]:
+        return [field.alias or name for name, field in cls.model_fields.items()]
+
+    @property
+    def form(self) -> str:
+        """Which of the five it is."""
+        return next(name for name, given in self if given is not None)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield no way or several ways at once, mixed units, ends in the wrong order."""
+        if sum(given is not None for _, given in self) != 1:
+            yield Inconsistency((), "give exactly one distribution", f"accepted: {', '.join(self._forms())}")
+            return
+        amounts = self.uniform or self.log_uniform or self.triangular
+        if amounts is None:
+            return
+        key = "log-uniform" if self.log_uniform else self.form
+        numbers = [amount.number for amount in amounts]
+        if common_unit(amounts) is None:
+            yield Inconsistency((key,), "the numbers of a distribution have different units", _ONE_UNIT)
+        elif numbers != sorted(numbers) or numbers[0] == numbers[-1]:
+            yield Inconsistency((key,), f"the values must rise from {amounts[0]} to {amounts[-1]}")
+        elif self.log_uniform and numbers[0] <= 0:
+            yield Inconsistency((key,), f"{amounts[0]} has no logarithm")
+
+
+class Sample(Model):
+    """Points drawn from the distributions of several parameters."""
+
+    method: Method = Field(
+        default="random",
+        description="random; sobol and latin-hypercube fill space more evenly; saltelli for sensitivities.",
+    )
+    size: int = Field(
+        ge=1,
+        le=MOST_POINTS,
+        strict=True,
+        description="How many points; saltelli makes (parameters + 2) cases of each.",
+    )
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the draws.")
+    parameters: dict[str, Distribution] = Field(
+        min_length=1, max_length=64, description="Distributions by dotted key."
+    )
+
+    @property
+    def cases(self) -> int:
+        """How many cases the sample makes."""
+        return self.size * (len(self.parameters) + 2) if self.method == "saltelli" else self.size
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield sizes that leave a low-discrepancy sequence unbalanced."""
+        if self.method in ("sobol", "saltelli") and self.size & (self.size - 1):
+            below = 1 << (self.size.bit_length() - 1)
+            yield Inconsistency(
+                ("size",),
+                f"{self.size} points of a Sobol sequence are unbalanced",
+                f"take a power of two: {below} or {2 * below}",
+            )
+
+
+class SweepFile(Model):
+    """A sweep: one scenario, run with many values of some of its parameters.
+
+    The cases are all combinations of `grid`, `ranges`, the rows of `zip` and the points of `sample`.
+    """
+
+    schema_id: Literal["uictest/sweep/1"] = Field(
+        alias="schema", description="What the file holds and in which version: uictest/sweep/1."
+    )
+    name: Slug = Field(description="Name of the sweep; its results go into a folder of this name.")
+    title: str = Field(
+        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+    )
+    description: str = Field(
+        default="",
+        max_length=5000,
+        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
+        description="What the sweep is for.",
+    )
+    scenario: str = Field(description="Relative path of the scenario that is swept.")
+    case: str | None = Field(
+        default=None, description="Id of the case to start from, where the scenario has several."
+    )
+    grid: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
+        default=None,
+        description="Lists of values by dotted key; every combination is run, first key slowest.",
+    )
+    ranges: dict[str, Range] | None = Field(
+        default=None, description="Ranges of numbers by dotted key, combined like lists of `grid`."
+    )
+    zip: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
+        default=None, description="Lists of equal length by dotted key; values at the same place go together."
+    )
+    sample: Sample | None = Field(default=None, description="Values drawn from distributions.")

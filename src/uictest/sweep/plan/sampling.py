@@ -1,0 +1,82 @@
+"""Points of the unit cube, each a function of seed and number: no draw depends on those before it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from uictest.sweep.plan.model import Method
+
+Points = NDArray[np.float64]
+_BLOCK = 1024
+"""Points of one random stream: each block has a generator of its own, so any point is a few draws away."""
+
+
+def points(method: Method, size: int, dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
+    """Return the points of a sample with the given numbers (from 0), shape (numbers, dimensions).
+
+    `size` counts points; for `saltelli` each of them makes (dimensions + 2) rows: see :func:`_saltelli`.
+    """
+    if method == "saltelli":
+        return _saltelli(dimensions, seed, numbers)
+    if method == "sobol":
+        return _sobol(dimensions, seed, numbers)
+    if method == "latin-hypercube":
+        return _latin_hypercube(size, dimensions, seed)[numbers]
+    return _random(dimensions, seed, numbers)
+
+
+def _random(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
+    blocks, within = numbers // _BLOCK, numbers % _BLOCK
+    drawn = np.empty((numbers.size, dimensions))
+    for block in np.unique(blocks):
+        rows = blocks == block
+        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, int(block)])))
+        drawn[rows] = generator.random((_BLOCK, dimensions))[within[rows]]
+    return drawn
+
+
+def _sobol(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
+    first, last = int(numbers.min()), int(numbers.max())
+    return _sobol_stretch(dimensions, seed, first, last + 1 - first)[numbers - first]
+
+
+def _sobol_stretch(dimensions: int, seed: int, first: int, count: int) -> Points:
+    from scipy.stats import qmc
+
+    engine: Any = qmc.Sobol(dimensions, scramble=True, rng=seed)
+    if first == 0:
+        # Drawing a number of first points that is no power of two would be warned of; the whole is one.
+        count = 1 << (count - 1).bit_length()
+    else:
+        engine.fast_forward(first)
+    drawn: Points = engine.random(count)
+    return drawn
+
+
+@lru_cache(maxsize=1)
+def _latin_hypercube(size: int, dimensions: int, seed: int) -> Points:
+    """Every stratum of every parameter once: the design exists only as a whole."""
+    from scipy.stats import qmc
+
+    design: Points = qmc.LatinHypercube(dimensions, rng=seed).random(size)
+    return design
+
+
+def _saltelli(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
+    """Rows of Saltelli's scheme: per base point one of A, one of B, one of A for each parameter taken from B.
+
+    A and B are the halves of one Sobol sequence in twice the dimensions.
+    """
+    rows = dimensions + 2
+    both = _sobol(2 * dimensions, seed, numbers // rows)
+    role = numbers % rows
+    drawn = np.where((role == 1)[:, None], both[:, dimensions:], both[:, :dimensions])
+    for parameter in range(dimensions):
+        swapped = role == parameter + 2
+        drawn[swapped, parameter] = both[swapped, dimensions + parameter]
+    return drawn

@@ -1,0 +1,112 @@
+"""What the results of a sweep depend on: where two manifests agree, so do the results."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any, Final
+
+from uictest.evaluation import EffectiveParts
+from uictest.report import named_parts
+from uictest.sweep.running.selection import Selection
+
+SCHEMA: Final = "uictest/sweep-manifest/1"
+_ROOMS: Final = ("physics", "controllers", "measures", "lanes", "rig", "evaluation", "scenario", "sweep")
+_PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
+_LIBRARY: Final = "library:"
+_OPTIONS: Final = {"selected": "-k", "set": "--set", "seed": "--seed", "device": "--device"}
+"""What the user knows the entries as that come from the command line."""
+
+
+def sweep_manifest(
+    selection: Selection, *, expression: str | None, overrides: Sequence[str], seed: int | None
+) -> dict[str, Any]:
+    """Return the manifest of a sweep; it holds nothing of the machine.
+
+    Files are named as seen from the sweep file, so that it is the same from every working folder; but `file`,
+    which people and GitHub look up, is named as the user did.
+    """
+    plan = selection.plan
+    folder = Path(plan.file).parent
+    return {
+        "schema": SCHEMA,
+        "sweep": plan.name,
+        "title": plan.title,
+        "file": plan.file,
+        "scenario": _seen_from(folder, plan.base.path.as_posix()),
+        "case": plan.base.id,
+        "cases": selection.size,
+        "cases_in_a_part": selection.part_size,
+        "selected": expression,
+        "set": list(overrides),
+        "seed": seed,
+        "device": selection.device,
+        "parameters": list(plan.keys),
+        "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
+        "inputs": {_seen_from(folder, name): digest for name, digest in plan.inputs.items()},
+        "versions": _versions(),
+        "program": program_digest(),
+    }
+
+
+def differences(
+    one: Mapping[str, Any], other: Mapping[str, Any], whose: tuple[str, str] = ("before", "now")
+) -> Iterator[str]:
+    """Yield in words what sets two manifests apart; `whose` says after a value which of them has it.
+
+    How the sweep file is named is not among it: what the file holds decides.
+    """
+    for name in dict.fromkeys((*one, *other)):
+        first, second = one.get(name), other.get(name)
+        if first == second or name == "file":
+            continue
+        if isinstance(first, Mapping) and isinstance(second, Mapping):
+            yield f"{name}: {', '.join(_changed(first, second))}"
+        elif name == "program":
+            yield "the program itself"
+        else:
+            said = _OPTIONS.get(name, name.replace("_", " "))
+            yield f"{said}: {_words(first)} {whose[0]}, {_words(second)} {whose[1]}"
+
+
+def _changed(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
+    return [key for key in dict.fromkeys((*one, *other)) if one.get(key) != other.get(key)]
+
+
+def _words(value: Any) -> str:
+    if value is None or value in ("", []):
+        return "none"
+    if not isinstance(value, list):
+        return str(value)
+    *others, last = map(str, value)
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def _seen_from(folder: Path, name: str) -> str:
+    if name.startswith(_LIBRARY):
+        return name
+    try:
+        return Path(os.path.relpath(name, folder)).as_posix()
+    except ValueError:  # on another drive
+        return name
+
+
+@cache
+def program_digest() -> str:
+    """Return a digest of the sources that decide what a case comes to."""
+    digest = hashlib.sha256()
+    package = Path(__file__).parents[2]
+    for room in _ROOMS:
+        for source in sorted((package / room).rglob("*.py")):
+            digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _versions() -> dict[str, str]:
+    python = ".".join(platform.python_version_tuple()[:2])
+    return {"python": python} | {name: metadata.version(name) for name in _PACKAGES}

@@ -1,0 +1,108 @@
+"""Rows of a sweep: one per case, as an Arrow table whose columns are known from the plan."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, narrowest_margin
+from uictest.sweep.plan.plan import Listed, Plan, is_numeric
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+    from uictest.sweep.running.assembling import Block
+
+WHEELSETS: Final = 4
+_OWN: Final = ("expect", "outcome", "reason")
+
+
+def text_column(key: str) -> str:
+    """Return the name of the column with a parameter as written."""
+    return f"parameters.{key}"
+
+
+def number_column(key: str) -> str:
+    """Return the name of the column with a parameter in SI units."""
+    return f"values.{key}"
+
+
+def figure_names() -> list[str]:
+    """Return the columns of figures: those of the stop, then those of each wheelset."""
+    return [
+        *_names(CaseMeasures),
+        *(each for name in _names(CaseWheelsetMeasures) for each in wheelset_columns(name)),
+    ]
+
+
+def wheelset_columns(name: str) -> tuple[str, ...]:
+    """Return the columns of a figure of wheelsets, leading first."""
+    return tuple(f"{name}_{k}" for k in _numbers())
+
+
+def numeric_keys(plan: Plan) -> list[str]:
+    """Return the parameters whose values are numbers."""
+    found: list[str] = []
+    for group in plan.groups:
+        for place, key in enumerate(group.keys):
+            if isinstance(group, Listed):
+                values: Sequence[Any] = [row[place] for row in group.rows]
+            else:
+                values = group.draws[place].choices
+            if is_numeric(values):
+                found.append(key)
+    return found
+
+
+def schema(plan: Plan) -> pa.Schema:
+    """Return names and types of the columns, in order."""
+    import pyarrow as pa
+
+    text, number = pa.string(), pa.float64()
+    return pa.schema(
+        [
+            ("index", pa.int64()),
+            ("id", text),
+            *((text_column(key), text) for key in plan.keys),
+            *((number_column(key), number) for key in numeric_keys(plan)),
+            *((name, text) for name in _OWN),
+            ("met", pa.bool_()),
+            ("narrowest_margin", number),
+            ("narrowest_criterion", text),
+            *((name, number) for name in figure_names()),
+        ]
+    )
+
+
+def rows(plan: Plan, block: Block, results: Sequence[CaseResult]) -> pa.Table:
+    """Return the rows of a block; a figure that was not reached is null."""
+    import pyarrow as pa
+
+    columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
+    for key, values in block.settings.items():
+        columns[text_column(key)] = [value.text for value in values]
+    for key in numeric_keys(plan):
+        columns[number_column(key)] = [value.number for value in block.settings[key]]
+    for name in (*_OWN, "met"):
+        columns[name] = [getattr(result, name) for result in results]
+    margins = zip(*map(narrowest_margin, results), strict=True)
+    columns["narrowest_margin"], columns["narrowest_criterion"] = margins
+    columns.update(zip(figure_names(), zip(*map(_figures, results), strict=True), strict=True))
+    arrays = [pa.array(columns[each.name], each.type, from_pandas=True) for each in schema(plan)]
+    return pa.table(arrays, schema=schema(plan))
+
+
+def _figures(result: CaseResult) -> Iterator[float | None]:
+    for name in _names(CaseMeasures):
+        yield getattr(result.measures, name, None)
+    for name in _names(CaseWheelsetMeasures):
+        yield from (getattr(wheelset, name, None) for wheelset in result.wheelsets or (None,) * WHEELSETS)
+
+
+def _names(figures: Any) -> list[str]:
+    return [field.name for field in dataclasses.fields(figures)]
+
+
+def _numbers() -> range:
+    return range(1, WHEELSETS + 1)

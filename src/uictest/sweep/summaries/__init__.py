@@ -1,0 +1,1 @@
+"""What the rows of a sweep amount to: counts, maps, trends, sensitivities, frontiers."""

@@ -1,0 +1,112 @@
+"""How the figures of a sweep are distributed: histograms by outcome, in two passes over the parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.evaluation import unit_of
+from uictest.sweep.running.table import wheelset_columns
+from uictest.sweep.summaries.tally import OUTCOMES
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+_BINS: Final = 30
+_MOST_WHOLE: Final = 40
+"""Values up to which a count of something gets a bin for each whole number."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure to look at: the largest of some columns of the rows, times a scale."""
+
+    name: str
+    unit: str
+    columns: tuple[str, ...]
+    scale: float = 1.0
+
+    def of(self, table: pa.Table) -> NDArray[np.float64]:
+        """Return the figure of each row; NaN where it was not reached."""
+        columns = [
+            np.array(table.column(name).to_numpy(zero_copy_only=False), float) for name in self.columns
+        ]
+        largest: NDArray[np.float64] = np.fmax.reduce(columns) * self.scale
+        return largest
+
+
+USUAL: Final = (
+    Figure("braking distance", "m", ("braking_distance_m",)),
+    Figure("braking time", "s", ("braking_time_s",)),
+    Figure("largest slide", "%", wheelset_columns("maximum_slide"), 100.0),
+    Figure("most valve actuations of a wheelset", "1", wheelset_columns("valve_actuations")),
+    Figure("initial adhesion", "g", ("initial_adhesion_g",)),
+)
+
+
+def figures_to_show(measures: Sequence[str]) -> list[Figure]:
+    """Return the usual figures and those columns of the rows that were asked for besides."""
+    usual = {name for figure in USUAL for name in figure.columns}
+    return [*USUAL, *(Figure(name, unit_of(name), (name,)) for name in measures if name not in usual)]
+
+
+@dataclass
+class MeasureHistogram:
+    """Cases of a figure by bin and outcome; every part is first spanned, then counted."""
+
+    figure: Figure
+    minimum: float = np.inf
+    maximum: float = -np.inf
+    cases: int = 0
+    _sum: float = 0.0
+    _whole: bool = True
+    _edges: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    _counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 0), np.int64))
+
+    def span(self, table: pa.Table) -> None:
+        """Find out how far the figure reaches."""
+        values = self.figure.of(table)
+        values = values[np.isfinite(values)]
+        if values.size:
+            self.minimum = min(self.minimum, float(values.min()))
+            self.maximum = max(self.maximum, float(values.max()))
+            self.cases += values.size
+            self._sum += float(values.sum())
+            self._whole &= bool(np.all(values == np.round(values)))
+
+    def begin(self) -> None:
+        """Cut the span into bins. There must be a case."""
+        span = self.maximum - self.minimum
+        if self._whole and span <= _MOST_WHOLE:
+            self._edges = np.arange(self.minimum, self.maximum + 2.0) - 0.5
+        else:
+            margin = 0.0 if span else max(abs(self.minimum), 1.0) * 1e-3
+            self._edges = np.linspace(self.minimum - margin, self.maximum + margin, _BINS + 1)
+        self._counts = np.zeros((len(OUTCOMES), self._edges.size - 1), np.int64)
+
+    def take(self, table: pa.Table) -> None:
+        """Count the rows of a part."""
+        values = self.figure.of(table)
+        outcomes = np.array(table.column("outcome").to_pylist())
+        for place, outcome in enumerate(OUTCOMES):
+            found = values[(outcomes == outcome) & np.isfinite(values)]
+            self._counts[place] += np.histogram(found, self._edges)[0]
+
+    def form(self) -> dict[str, Any]:
+        """Return the JSON form."""
+        counts = zip(OUTCOMES, self._counts.tolist(), strict=True)
+        return {
+            "measure": self.figure.name,
+            "unit": self.figure.unit,
+            "columns": list(self.figure.columns),
+            "cases": self.cases,
+            "minimum": self.minimum,
+            "mean": self._sum / self.cases,
+            "maximum": self.maximum,
+            "edges": self._edges.tolist(),
+            "counts": {outcome: row for outcome, row in counts if any(row)},
+        }

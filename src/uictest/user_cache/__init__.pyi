@@ -1,0 +1,1 @@
+from .files import read as read, write as write

@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import uictest.evaluation
+import uictest.rig
+from uictest.campaign import RecordingRequest, run_case
+from uictest.evaluation import CaseResult
+
+MakeCase = Callable[..., Any]
+
+
+class Rig:
+    """Stands in for the rig and the judgement: remembers how it was asked to record."""
+
+    def __init__(self, outcome: str) -> None:
+        self.outcome = outcome
+        self.asked: list[float | None] = []
+
+    def simulate(self, case: Any, record_every: float | None = None) -> Any:
+        self.asked.append(record_every)
+        recording = None if record_every is None else f"every {record_every} s"
+        return SimpleNamespace(measures=None, wheelset_measures=None, recording=recording)
+
+    def evaluate(self, case: Any, measures: Any, wheelsets: Any, duration: float) -> CaseResult:
+        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
+    def make(outcome: str) -> Rig:
+        rig = Rig(outcome)
+        monkeypatch.setattr(uictest.rig, "simulate", rig.simulate)
+        monkeypatch.setattr(uictest.evaluation, "evaluate_simulated", rig.evaluate)
+        return rig
+
+    return make
+
+
+@pytest.mark.parametrize(
+    ("wish", "outcome", "asked", "recording"),
+    [
+        (RecordingRequest("none"), "fail", [None], None),
+        (RecordingRequest("all", every=0.02), "pass", [0.02], "every 0.02 s"),
+        (RecordingRequest("failed"), "pass", [None], None),
+        (RecordingRequest("failed", every=0.02), "fail", [None, 0.02], "every 0.02 s"),
+    ],
+)
+def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
+    make_case: MakeCase,
+    make_rig: Callable[[str], Rig],
+    wish: RecordingRequest,
+    outcome: str,
+    asked: list[float | None],
+    recording: str | None,
+) -> None:
+    rig = make_rig(outcome)
+    examined = run_case(make_case("dry"), wish)
+    assert rig.asked == asked
+    assert examined.recording == recording
+    assert examined.result.outcome == outcome
+
+
+def test_a_crash_of_one_case_is_its_result(
+    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def crash(case: Any, record_every: float | None = None) -> Any:
+        raise ZeroDivisionError("no wheel load")
+
+    make_rig("pass")
+    monkeypatch.setattr(uictest.rig, "simulate", crash)
+    examined = run_case(make_case("dry"), RecordingRequest())
+    result = examined.result
+    assert (result.id, result.outcome, result.reason) == ("dry", "error", "ZeroDivisionError: no wheel load")
+    assert not result.met
+    assert "in crash" in examined.traceback

@@ -1,0 +1,246 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.recording.formats import BrokenOffError, writer_of
+
+Call = Callable[..., Any]
+STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
+
+
+def _recording(end: float = 10.5, **changes: Any) -> Recording:
+    """A train of rolling wheels that stops from 10 m/s within ten seconds."""
+    time = np.arange(0.0, end, 0.01)
+    speed = np.maximum(10.0 - time, 0.0)
+    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
+    units = {name: "s" if name == "time" else "m/s" for name in channels}
+    return Recording(channels, units, {"brake_command_time": "0 s"})
+
+
+@pytest.fixture
+def stop(workplace: Path) -> Path:
+    path = workplace / "Stop 1.csv"
+    writer_of("csv")(_recording(), path)
+    return path
+
+
+def test_a_stop_is_judged_and_reported_as_by_run(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, *STATED)
+    assert answer.code == 0
+    assert answer.out.startswith("met stop-1 outcome=pass")
+    assert "trigger: at 0 s, stated by the file; raster: 10 ms" in answer.err
+    assert "distance: integrated from speed" in answer.err
+    files = {path.name for path in Path("reports/latest/").iterdir()}
+    assert {"results.json", "junit.xml", "summary.csv", "manifest.json", "criteria.csv"} <= files
+    manifest = json.loads(Path("reports/latest/manifest.json").read_text())
+    assert {"Stop 1.csv", "library:channel_maps/uictest.yaml"} <= manifest["inputs"].keys()
+
+
+def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path) -> None:
+    document = json.loads(call("evaluate", stop, *STATED, "--format", "json", "--low-pass", "5 Hz").out)
+    [case] = document["cases"] if "cases" in document else document["results"]
+    assert case["criteria"][0]["definition"]["filter"].startswith("low-pass 5 Hz")
+    assert case["measures"]["energy_residual"] is None
+    assert case["wheelsets"][0]["valve_actuations"] is None
+
+
+def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_recorded(
+    call: Call, workplace: Path
+) -> None:
+    time = _recording()["time"]
+    slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * _recording()["speed"]
+    writer_of("csv")(_recording(wheel_speed_2=slid), workplace / "slid.csv")
+    stated = (*STATED[2:-1], "uictest-slide.yaml", "--rail", "wet")
+    (workplace / "uictest-slide.yaml").write_text(
+        "schema: uictest/criteria/1\nname: slide\ncriteria:\n"
+        "  - {id: adhesion, layer: validity, measure: initial_adhesion, upper: 0.2 g,"
+        " definition: {first_phase_duration: {value: 2 s, range: [1 s, 3 s]}}}\n"
+    )
+    answer = call("evaluate", "slid.csv", *stated, "--record", "all")
+    assert answer.code == 0
+    call("report", "reports/latest", "--format", "html", "-o", "again")
+    for page in (Path("reports/latest/index.html"), Path("again/index.html")):
+        html = page.read_text()
+        assert "first phase, 2 s" in html
+        assert "limit 0.2 g" in html
+        assert "Recorded stop" in html
+        assert "one-caliper" not in html
+
+
+def test_a_scenario_states_everything(call: Call, stop: Path, scenario: Callable[..., Path]) -> None:
+    path = scenario("a", "rail: {condition: wet}\n")
+    assert call("evaluate", stop, "--scenario", path).code == 0
+
+
+def test_a_scenario_of_several_cases_needs_a_choice(
+    call: Call, stop: Path, scenario: Callable[..., Path]
+) -> None:
+    path = scenario("a", "matrix: {brake.command: [80 %, 90 %]}\n")
+    answer = call("evaluate", stop, "--scenario", path)
+    assert answer.code == 4
+    assert "has 2 cases" in answer.err
+    assert call("evaluate", stop, "--scenario", path, "-k", "command=80").code == 0
+
+
+def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace: Path) -> None:
+    locked = np.where(np.arange(1050) < 200, _recording()["speed"], 0.0)
+    writer_of("parquet")(_recording(wheel_speed_3=locked), workplace / "locked.parquet")
+    answer = call("evaluate", "locked.parquet", *STATED)
+    assert answer.code == 1
+    assert "locked-wheels" in answer.err + answer.out or "MISSED" in answer.out
+    assert Path("reports/latest/recordings/locked.parquet").exists()
+
+
+@pytest.mark.parametrize("end", [8.0, 2.0, 0.02])
+def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
+    call: Call, workplace: Path, end: float
+) -> None:
+    writer_of("csv")(_recording(end), workplace / "cut.csv")
+    answer = call("evaluate", "cut.csv", *STATED)
+    assert answer.code == 1
+    assert answer.out.startswith("MISSED cut outcome=inconclusive expect=pass")
+    assert "standstill (requirement) inconclusive: no standstill; the record ends after" in answer.out
+    assert "locked-wheels (requirement) inconclusive" in answer.out
+    assert answer.err.splitlines()[-1].startswith("uictest: 1 case: 1 missed (1 inconclusive); reports in")
+
+
+def test_a_record_without_wheel_speeds_is_inconclusive_and_exits_1(call: Call, workplace: Path) -> None:
+    whole = _recording()
+    speed_only = {name: whole[name] for name in ("time", "speed")}
+    recording = Recording(speed_only, {"time": "s", "speed": "m/s"}, whole.metadata)
+    writer_of("csv")(recording, workplace / "speed.csv")
+    answer = call("evaluate", "speed.csv", *STATED)
+    assert answer.code == 1
+    assert "outcome=inconclusive" in answer.out
+    assert "locked-wheels (requirement) inconclusive: not recorded: wheel_speed_1" in answer.out
+
+
+def test_an_unusable_record_is_an_error_that_names_the_defect(call: Call, workplace: Path) -> None:
+    lines = ["time [s],speed [m/s]", "0,10", "1,9", "1,8", "0.5,7"]
+    (workplace / "bad.csv").write_text("\n".join(lines) + "\n")
+    answer = call("evaluate", "bad.csv", *STATED)
+    assert answer.code == 3
+    assert "time-backwards" in answer.out
+    assert "time-duplicate" in answer.err
+
+
+def test_unstated_circumstances_are_asked_for(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, "--rail", "dry")
+    assert answer.code == 4
+    assert "--position, --wsp, --criteria" in answer.err
+    assert not Path("reports").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["missing.csv", *STATED],
+        ["Stop 1.csv", *STATED, "--map", "nothing"],
+        ["Stop 1.csv", *STATED, "--map", "missing.yaml"],
+        ["Stop 1.csv", *STATED, "--trigger", "sometime"],
+        ["Stop 1.csv", *STATED, "--trigger", "12"],
+        ["Stop 1.csv", *STATED, "--trigger", "pressure"],
+        ["Stop 1.csv", *STATED, "--raster", "0 ms"],
+        ["Stop 1.csv", *STATED, "--low-pass", "nan Hz"],
+        ["Stop 1.csv", *STATED, "--rail", "icy"],
+        ["Stop 1.csv", *STATED, "--set", "rail.friction=0.1,0.2"],
+        ["Stop 1.csv", "--scenario", "missing.yaml"],
+        ["."],
+    ],
+)
+def test_what_cannot_be_used_exits_4_with_a_message(call: Call, stop: Path, arguments: list[str]) -> None:
+    answer = call("evaluate", *arguments)
+    assert (answer.code, answer.out) == (4, "")
+    assert answer.err
+    assert "Traceback" not in answer.err
+    assert not Path("reports").exists()
+
+
+def test_list_shows_channels_and_the_preset_that_fits(call: Call, stop: Path) -> None:
+    answer = call("evaluate", stop, "--list")
+    assert answer.code == 0
+    assert "speed\tm/s\t1050\t0 .. 10" in answer.out
+    assert answer.out.splitlines()[-1] == "the preset uictest fits (--map uictest)"
+
+
+def test_list_proposes_a_map_where_no_preset_fits(call: Call, workplace: Path) -> None:
+    (workplace / "run.csv").write_text("t [s],vZug\n0,10\n1,9\n")
+    assert "schema: uictest/channel-map/1" in call("evaluate", "run.csv", "--list").out
+
+
+def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call: Call, workplace: Path) -> None:
+    header = "Zeit [s],vZug [km/h],Achse1 [km/h],Achse2 [km/h],Achse3 [km/h],Achse4 [km/h]"
+    (workplace / "run.csv").write_text(f"{header}\n0,10,10,10,10,10\n1,9,9,9,9,9\n")
+    out = call("evaluate", "run.csv", "--list").out
+    assert "the preset common-names fits in part" in out
+    assert "not assigned: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4; needed for" in out
+    assert 'not used: "Achse1", "Achse2", "Achse3", "Achse4"' in out
+    assert 'speed: "vZug"' in out
+
+
+def test_a_proposed_map_reads_the_file_it_was_proposed_for(call: Call, workplace: Path) -> None:
+    units = ";".join(["s", *["km/h"] * 5, "°C"])
+    rows = [";".join([f"{k / 10:.1f}", *[f"{36 - 3.6 * k / 10:.2f}"] * 5, "20"]) for k in range(101)]
+    names = "Zeit;vZug;v1;v2;v3;v4;T"
+    text = "\n".join(["Prüfzug", names, units, *rows]).replace(".", ",")
+    (workplace / "zug.csv").write_bytes(text.encode("cp1252"))
+    (workplace / "table.yaml").write_text(
+        "schema: uictest/channel-map/1\nname: table\nextends: common-names\n"
+        'csv: {encoding: cp1252, delimiter: ";", decimal: ",", header_line: 2}\n'
+    )
+    lines = call("evaluate", "zug.csv", "--map", "table.yaml", "--list").out.splitlines()
+    (workplace / "own.yaml").write_text("\n".join(lines[lines.index("schema: uictest/channel-map/1") :]))
+    answer = call("evaluate", "zug.csv", "--map", "own.yaml", "--trigger", "start", *STATED)
+    assert (answer.code, "braking_time_s=10 " in answer.out) == (0, True), answer.err
+
+
+def test_list_says_how_a_table_of_another_dialect_is_declared(call: Call, workplace: Path) -> None:
+    (workplace / "run.csv").write_text("t [s];v [km/h]\n0,0;10,5\n1,0;9,5\n")
+    answer = call("evaluate", "run.csv", "--list")
+    assert (answer.code, answer.out) == (4, "")
+    assert 'set csv: {delimiter: ";", decimal: ","} in a channel map' in answer.err
+
+
+def test_a_channel_map_with_a_dialect(call: Call, workplace: Path) -> None:
+    lines = [
+        "Zeit;vZug",
+        "s;km/h",
+        *(f"{k / 10:.1f};{max(36.0 - 3.6 * k / 10, 0.0):.2f}" for k in range(110)),
+    ]
+    (workplace / "zug.csv").write_text("\n".join(line.replace(".", ",") for line in lines) + "\n")
+    (workplace / "map.yaml").write_text(
+        "schema: uictest/channel-map/1\nname: zug\nextends: common-names\n"
+        'csv: {delimiter: ";", decimal: ",", header_line: 1, unit_line: 2}\npreparation: {trigger: start}\n'
+    )
+    answer = call("evaluate", "zug.csv", "--map", "map.yaml", *STATED)
+    assert answer.code == 1  # without wheel speeds there is no verdict on locked wheels
+    assert "braking_time_s=10" in answer.out
+    assert "the record begins with it; raster: 100 ms" in answer.err
+
+
+def test_files_of_one_name_get_different_ids(call: Call, stop: Path, workplace: Path) -> None:
+    (workplace / "other").mkdir()
+    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
+    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
+    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
+
+
+def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
+    call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def broken_off(path: Path, dialect: object = None) -> None:
+        raise BrokenOffError(28, f"No space left on device to read {path}", "/small")
+
+    monkeypatch.setattr("uictest.field_data.file.read_contents", broken_off)
+    (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")
+    answer = call("evaluate", "stop.csv", *STATED)
+    assert answer.code == 3
+    assert "/small: No space left on device to read stop.csv" in answer.err
+    assert "damaged" not in answer.err

@@ -1,0 +1,113 @@
+from __future__ import annotations
+
+import builtins
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest import rig, studies
+from uictest.studies import FoundValue, StopRunner, Study, StudyFindings, StudyQuantity
+
+Call = Callable[..., Any]
+
+
+def study(name: str, value: float) -> Study:
+    """A study that finds one value, which must be at least 1."""
+    quantity = StudyQuantity("value", "value found", "m", "1 m", lower=1.0, reason="ours")
+
+    def draw(figure: Any) -> None:
+        figure.subplots().plot([0.0, value])
+
+    findings = StudyFindings(
+        {"value": FoundValue(value)},
+        {"data": {"value_m": [value]}},
+        {"figure": draw},
+    )
+    return Study(name, f"Study {name}", "1 m", (quantity,), lambda stop_runner: findings)
+
+
+@pytest.fixture(autouse=True)
+def catalogue(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two studies, of which the second misses its band."""
+    chosen = {each.name: each for each in (study("sound", 2.0), study("amiss", 0.5))}
+    monkeypatch.setattr(studies, "STUDIES", chosen)
+    monkeypatch.setattr(rig, "is_warm", lambda: True)
+
+
+def test_studies_are_listed(call: Call) -> None:
+    assert call("reproduce", "--list").out == "sound  Study sound\namiss  Study amiss\n"
+    assert [each["name"] for each in json.loads(call("reproduce", "--list", "--format", "json").out)] == [
+        "sound",
+        "amiss",
+    ]
+
+
+def test_exit_0_only_where_every_band_holds(call: Call) -> None:
+    assert call("reproduce", "sound").code == 0
+    assert call("reproduce").code == 1
+
+
+def test_source_stands_beside_here(call: Call) -> None:
+    assert (
+        "holds   value found: source 1 m; here 2.0 m; band >= 1 m (ours)\n" in call("reproduce", "sound").out
+    )
+
+
+def test_quiet_shows_only_what_misses(call: Call) -> None:
+    answer = call("reproduce", "-q")
+    assert "amiss" in answer.out
+    assert "sound" not in answer.out
+    assert answer.err == ""
+
+
+def test_json_stands_alone_on_stdout(call: Call) -> None:
+    document = json.loads(call("reproduce", "--format", "json").out)
+    assert [each["verdict"] for each in document["studies"]] == ["holds", "misses"]
+
+
+def test_an_unknown_study_is_a_usage_error_with_a_hint(call: Call) -> None:
+    answer = call("reproduce", "soud")
+    assert answer.code == 4
+    assert "did you mean 'sound'" in answer.err
+
+
+def test_data_and_figures_lie_by_study(call: Call) -> None:
+    pytest.importorskip("matplotlib")
+    call("reproduce", "sound", "-o", "there")
+    assert {path.name for path in Path("there", "sound").iterdir()} == {
+        "data.csv",
+        "figure.svg",
+        "figure.png",
+    }
+
+
+def test_without_matplotlib_the_study_runs_and_says_what_to_install(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    imported = builtins.__import__
+
+    def refuse(name: str, *rest: Any) -> Any:
+        if name.startswith("matplotlib"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+        return imported(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", refuse)
+    answer = call("reproduce", "sound", "-o", "there")
+    assert answer.code == 0
+    assert "pip install 'uictest[figures]'" in answer.err
+    assert {path.name for path in Path("there", "sound").iterdir()} == {"data.csv"}
+
+
+def test_a_study_that_fails_is_an_error_and_no_missed_band(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(stop_runner: StopRunner) -> StudyFindings:
+        raise ZeroDivisionError("no wheel load")
+
+    monkeypatch.setitem(studies.STUDIES, "sound", Study("sound", "", "", (), fail))
+    answer = call("reproduce")
+    assert answer.code == 3
+    assert "ZeroDivisionError" in answer.err

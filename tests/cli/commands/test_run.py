@@ -1,0 +1,325 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from uictest import campaign, report, rig
+from uictest.cli.commands import run as run_module
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+pytestmark = pytest.mark.usefixtures("made_up")
+
+
+def _reports() -> list[str]:
+    return sorted(path.name for path in Path("reports").iterdir()) if Path("reports").exists() else []
+
+
+def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, scenario: Write) -> None:
+    scenario("a")
+    scenario("b")
+    answer = call("run")
+    assert answer.code == 0
+    assert [line.split()[:2] for line in answer.out.splitlines()] == [["met", "a"], ["met", "b"]]
+    assert "2 cases: 2 met" in answer.err
+    files = sorted(path.name for path in Path("reports/latest/").iterdir())
+    assert files == [
+        "criteria.csv",
+        "index.html",
+        "junit.xml",
+        "manifest.json",
+        "results.json",
+        "summary.csv",
+        "wheelsets.csv",
+    ]
+
+
+def test_a_missed_case_exits_1_and_an_error_3(call: Call, scenario: Write) -> None:
+    scenario("a", "tags: [fail]\n")
+    assert call("run").code == 1
+    scenario("b", "tags: [error]\n")
+    answer = call("run")
+    assert answer.code == 3
+    assert "ERROR b outcome=error expect=pass reason=ZeroDivisionError: no wheel load" in answer.out
+
+
+def test_an_expected_failure_is_met(call: Call, scenario: Write) -> None:
+    scenario("a", "tags: [fail]\nexpect: fail\n")
+    assert call("run").code == 0
+
+
+def test_nothing_selected_exits_5_and_writes_nothing(call: Call, scenario: Write) -> None:
+    scenario("a", "tags: [wet]\n")
+    answer = call("run", "-k", "snow")
+    assert (answer.code, answer.out) == (5, "")
+    assert "among 1 case; their tags: wet" in answer.err
+    assert _reports() == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--no-such-option"],
+        ["-k", "a and"],
+        ["-m", "(wet"],
+        ["-n", "0"],
+        ["-n", "many"],
+        ["--maxfail", "0"],
+        ["--seed", "-1"],
+        ["--seed", "4294967296"],
+        ["--format", "xml"],
+        ["--record", "some"],
+        ["--record-rate", "0"],
+        ["--record-rate", "nan"],
+        ["--color", "green"],
+        ["--durations", "-1"],
+        ["--set", "no-equals-sign"],
+        ["--set", "rail.frictoin=0.1"],
+        ["missing.yaml"],
+    ],
+)
+def test_a_usage_error_exits_4_with_one_message_and_nothing_written(
+    call: Call, scenario: Write, arguments: list[str]
+) -> None:
+    scenario("a")
+    answer = call("run", *arguments)
+    assert (answer.code, answer.out) == (4, "")
+    assert answer.err
+    assert "Traceback" not in answer.err
+    assert _reports() == []
+
+
+def test_without_a_folder_of_scenarios_the_way_to_one_is_shown(call: Call) -> None:
+    answer = call("run")
+    assert answer.code == 4
+    assert "uictest init" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "ids"),
+    [
+        (["-k", "a or c"], ["a", "c"]),
+        (["-m", "wet"], ["b", "c"]),
+        (["-k", "not a", "-m", "wet and not long"], ["b"]),
+        (["scenarios/b.yaml", "scenarios/a.yaml"], ["b", "a"]),
+    ],
+)
+def test_selection(
+    call: Call, scenario: Write, made_up: list[str], arguments: list[str], ids: list[str]
+) -> None:
+    scenario("a")
+    scenario("b", "tags: [wet]\n")
+    scenario("c", "tags: [wet, long]\n")
+    assert call("run", *arguments).code == 0
+    assert sorted(made_up) == sorted(ids)
+
+
+def test_dry_run_lists_and_does_nothing(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a", "matrix:\n  brake.command: [80 %, 90 %]\n")
+    answer = call("run", "--dry-run")
+    assert (answer.code, answer.out) == (0, "a[command=80]\na[command=90]\n")
+    assert made_up == _reports() == []
+
+
+def test_set_sweeps_and_parameters_reach_the_summary(call: Call, scenario: Write) -> None:
+    scenario("a")
+    assert call("run", "--set", "brake.command=80 %,90 %").code == 0
+    header, *rows = Path("reports/latest/summary.csv").read_text().splitlines()
+    assert "parameters.brake.command" in header
+    assert len(rows) == 2
+
+
+def test_json_is_the_document_and_nothing_else(call: Call, scenario: Write) -> None:
+    scenario("a")
+    answer = call("run", "--format", "json")
+    assert answer.out == Path("reports/latest/results.json").read_text()
+    document = json.loads(answer.out)
+    assert (document["schema"], document["complete"]) == ("uictest/result/1", True)
+
+
+def test_github_annotates_what_is_not_met(call: Call, scenario: Write) -> None:
+    scenario("a")
+    scenario("b", "tags: [fail]\n")
+    lines = call("run", "--format", "github").out.splitlines()
+    assert [line.split()[0] for line in lines] == ["met", "MISSED", "::error"]
+    assert lines[2].startswith("::error file=scenarios/b.yaml,title=MISSED b::")
+
+
+@pytest.mark.parametrize(
+    ("file", "said"), [("no/junit.xml", "no/junit.xml: there is no folder no"), (".", ". is a folder")]
+)
+def test_junit_with_no_place_is_refused_before_the_first_case(
+    call: Call, scenario: Write, made_up: list[str], file: str, said: str
+) -> None:
+    scenario()
+    answer = call("run", "--junitxml", file)
+    assert answer.code == 4
+    assert f"--junitxml: {said}" in answer.err
+    assert not made_up
+
+
+@pytest.mark.parametrize("file", ["out/junit.xml", "out/latest/other.xml"])
+def test_junit_may_go_into_the_folder_of_the_run(
+    call: Call, scenario: Write, made_up: list[str], file: str
+) -> None:
+    scenario()
+    assert call("run", "-o", "out", "--junitxml", file).code == 0
+    assert Path(file).exists()
+
+
+def test_junit_is_written_where_it_is_wanted_and_in_the_reports(call: Call, scenario: Write) -> None:
+    scenario("a", "tags: [fail]\n")
+    call("run", "--junitxml", "junit.xml", "-o", "out")
+    root = ElementTree.parse("junit.xml").getroot()
+    assert root.find("testsuite/testcase/failure") is not None
+    assert Path("out/latest/junit.xml").read_text() == Path("junit.xml").read_text()
+
+
+@pytest.mark.parametrize("option", [["-x"], ["--maxfail", "1"]])
+def test_the_first_missed_case_ends_the_run(call: Call, scenario: Write, option: list[str]) -> None:
+    for name in "abc":
+        scenario(name, "tags: [fail]\n")
+    answer = call("run", *option)
+    assert answer.code == 1
+    assert answer.out.count("MISSED") == 1
+    assert "2 not run" in answer.err
+    assert json.loads(Path("reports/latest/results.json").read_text())["complete"] is False
+
+
+def test_lf_selects_what_failed_last(call: Call, scenario: Write, made_up: list[str]) -> None:
+    scenario("a")
+    scenario("b", "tags: [fail]\n")
+    call("run", "-q")
+    made_up.clear()
+    assert call("run", "--lf").code == 1
+    assert made_up == ["b"]
+    scenario("b")
+    assert call("run", "--lf").code == 0
+    made_up.clear()
+    assert "all are selected" in call("run", "--lf").err
+    assert sorted(made_up) == ["a", "b"]
+
+
+def test_lf_without_an_earlier_run_takes_all(call: Call, scenario: Write) -> None:
+    scenario("a")
+    answer = call("run", "--lf")
+    assert answer.code == 0
+    assert "no earlier run" in answer.err
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"schema": "other"}', '{"schema": "uictest/result/1"}'])
+def test_lf_with_results_that_cannot_be_read_exits_4(call: Call, scenario: Write, content: str) -> None:
+    scenario("a")
+    call("run")
+    Path("reports/latest/results.json").write_text(content)
+    answer = call("run", "--lf")
+    assert answer.code == 4
+    assert "results.json" in answer.err
+
+
+def test_quiet_shows_only_what_is_not_met(call: Call, scenario: Write) -> None:
+    scenario("a")
+    scenario("b", "tags: [fail]\n")
+    answer = call("run", "-q")
+    assert [line.split()[0] for line in answer.out.splitlines()] == ["MISSED"]
+    assert answer.err == ""
+
+
+def test_the_first_run_of_an_installation_says_that_it_compiles(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario("a")
+    assert "compiling" not in call("run").err
+    monkeypatch.setattr(rig, "is_warm", lambda: False)
+    assert "compiling the rig (once per installation, ten to forty seconds)..." in call("run").err
+    assert "compiling" not in call("run", "-q").err
+
+
+def test_durations_name_the_slowest(call: Call, scenario: Write) -> None:
+    scenario("a")
+    scenario("b")
+    assert "the slowest 1 of 2 cases" in call("run", "--durations", "1").err
+    assert "the slowest 2 of 2 cases" in call("run", "--durations", "0").err
+
+
+def test_colour_is_off_unless_wanted(call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    scenario("a")
+    assert "\x1b" not in call("run").out
+    assert "\x1b[32mmet\x1b[0m a" in call("run", "--color", "always").out
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert "\x1b" not in call("run").out
+
+
+def test_the_manifest_holds_command_seed_and_inputs(call: Call, scenario: Write) -> None:
+    path = scenario("a")
+    call("run", path.absolute(), "--seed", "7")
+    manifest = json.loads(Path("reports/latest/manifest.json").read_text())
+    assert manifest["command"] == ["uictest", "run", "scenarios/a.yaml", "--seed", "7"]
+    assert manifest["seed"] == 7
+    assert "scenarios/a.yaml" in manifest["inputs"]
+    assert str(Path.cwd()) not in json.dumps(manifest)
+
+
+def test_results_do_not_depend_on_threads_or_on_when(call: Call, scenario: Write) -> None:
+    scenario("a", "matrix:\n  rail.friction: [0.1, 0.2, 0.3]\n")
+    texts = []
+    for jobs in ("1", "2", "auto"):
+        call("run", "-n", jobs, "-o", jobs)
+        texts.append([Path(jobs, "latest", name).read_text() for name in ("summary.csv", "wheelsets.csv")])
+    assert texts[0] == texts[1] == texts[2]
+
+
+def test_an_unwritable_output_folder_exits_3_before_anything_runs(
+    call: Call, scenario: Write, made_up: list[str]
+) -> None:
+    scenario("a")
+    Path("file").write_text("")
+    answer = call("run", "-o", "file/reports")
+    assert (answer.code, answer.out) == (3, "")
+    assert "file" in answer.err
+    assert "Not a directory" in answer.err
+    assert made_up == []
+
+
+def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise RuntimeError("a \x1b[31mbug")
+
+    scenario("a")
+    monkeypatch.setattr(run_module, "_inputs", broken)
+    answer = call("run")
+    assert answer.code == 3
+    assert answer.err.splitlines() == [
+        r"uictest: internal error: RuntimeError: a \x1b[31mbug (-v shows where)"
+    ]
+    assert "Traceback" in call("run", "-v").err
+
+
+def test_an_interrupt_before_the_first_case_is_finished_exits_2_and_writes_nothing(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario("a")
+    monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
+    answer = call("run", "--format", "json")
+    assert (answer.code, answer.out) == (2, "")
+    assert "interrupted" in answer.err
+    assert _reports() == []
+
+
+def test_an_interrupt_outside_the_simulation_exits_2(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    scenario("a")
+    monkeypatch.setattr(report, "write_reports", interrupted)
+    assert call("run").code == 2
+    assert _reports() == []

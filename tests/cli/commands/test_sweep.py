@@ -1,0 +1,440 @@
+"""`uictest sweep`: the same files whatever happened on the way, and an exit code for everything."""
+
+from __future__ import annotations
+
+import errno
+import json
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from uictest import rig, sweep as room
+from uictest.sweep.running.chunk import ChunkRunner
+
+from ..conftest import HANGING, Start
+
+Call = Callable[..., Any]
+TEXT = """\
+schema: uictest/sweep/1
+name: study
+scenario: scenarios/stop.yaml
+grid:
+  rail.friction: [0.06, 0.09, 0.12]
+sample: {size: 32, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
+"""
+FILE = "study.sweep.yaml"
+
+
+@pytest.fixture
+def study(scenario: Callable[..., Path]) -> Path:
+    """A sweep of 96 stops from 15 km/h in six parts."""
+    scenario("stop", "rail: {condition: wet}\n")
+    path = Path("scenarios/stop.yaml")
+    path.write_text(path.read_text().replace("30 km/h", "15 km/h"))
+    Path(FILE).write_text(TEXT)
+    return Path(FILE)
+
+
+def contents(folder: str | Path = "reports/study") -> dict[str, bytes]:
+    """Every file of a result by its name."""
+    root = Path(folder)
+    return {
+        path.relative_to(root).as_posix(): path.read_bytes() for path in root.rglob("*") if path.is_file()
+    }
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The numbers of cases that were simulated, part by part."""
+    sizes: list[int] = []
+    part = ChunkRunner.part
+
+    def counting(self: ChunkRunner, indices: Any) -> bytes:
+        sizes.append(len(indices))
+        return part(self, indices)
+
+    monkeypatch.setattr(ChunkRunner, "part", counting)
+    return sizes
+
+
+def test_results_are_the_same_for_any_number_of_threads(call: Call, study: Path) -> None:
+    assert call("sweep", study, "-n", "1", "-o", "one").code == 0
+    assert call("sweep", study, "-n", "3", "-o", "three").code == 0
+    one = contents("one/study")
+    assert one == contents("three/study")
+    assert {"manifest.json", "summary.csv", "summary.parquet", "rates.csv", "sweep.json", "junit.xml"} <= set(
+        one
+    )
+    assert sum(name.startswith("parts/") for name in one) == 6
+
+
+def test_a_finished_sweep_is_not_done_again(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    before = contents()
+    counted.clear()
+    answer = call("sweep", study)
+    assert (answer.code, counted) == (0, [])
+    assert "96 of 96 cases are finished already" in answer.err
+    assert contents() == before
+
+
+def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study, "-o", "whole")
+    for number in (1, 2, 3):
+        answer = call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
+        assert answer.code == 0
+        assert f"share {number} of 3 is finished" in answer.err
+    counted.clear()
+    shares = [word for number in (1, 2, 3) for word in ("--merge", f"share{number}/study")]
+    assert call("sweep", study, "-o", "merged", *shares).code == 0
+    assert counted == []
+    assert contents("merged/study") == contents("whole/study")
+    assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
+
+
+def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:
+    call("sweep", study, "--shard", "1/2")
+    assert "holds a sweep that is not finished" in call("report", "reports/study").err
+
+
+def test_a_share_without_a_part_says_so_and_can_be_merged(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    answer = call("sweep", study, "--shard", "77/100", "-o", "share77")
+    assert (answer.code, counted) == (0, [])
+    assert "share 77 of 100 has no cases: they are dealt in 6 parts" in answer.err
+    assert "is finished" not in answer.err
+    assert "0 parts from share77/study" in call("sweep", study, "--merge", "share77/study").err
+
+
+def test_what_no_share_brings_is_told_before_it_is_worked_out(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    for number in (1, 2):
+        call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
+    damaged = min(Path("share2/study/parts").iterdir())
+    damaged.write_bytes(b"")
+    counted.clear()
+    shares = ("--merge", "share1/study", "--merge", "share2/study")
+    answer = call("sweep", study, "-q", *shares)
+    assert (answer.code, counted) == (0, [16, 16, 16])
+    assert f"{damaged} is damaged and left behind" in answer.err
+    assert "48 of 96 cases are in no share: they are worked out here" in answer.err
+    assert "in no share" not in call("sweep", study, *shares).err
+
+
+def test_a_share_made_from_another_working_folder_is_taken(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("below").mkdir()
+    with monkeypatch.context() as patch:
+        patch.chdir("below")
+        assert call("sweep", f"../{study}", "--shard", "1/2", "-o", "share1").code == 0
+    call("sweep", study, "--shard", "2/2", "-o", "share2")
+    shares = ("--merge", "below/share1/study", "--merge", "share2/study")
+    assert call("sweep", study, "-o", "merged", *shares).code == 0
+    call("sweep", study, "-o", "whole")
+    assert contents("merged/study") == contents("whole/study")
+
+
+def test_changed_inputs_are_refused_until_told_otherwise(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "seed: 5\n")
+    answer = call("sweep", study)
+    assert answer.code == 4
+    assert "inputs: scenarios/stop.yaml" in answer.err
+    counted.clear()
+    assert call("sweep", study, "--restart").code == 0
+    assert sum(counted) == 96
+
+
+def test_a_damaged_part_is_found_and_done_again(call: Call, study: Path, counted: list[int]) -> None:
+    call("sweep", study)
+    before = contents()
+    damaged = sorted(Path("reports/study/parts").iterdir())[2]
+    damaged.write_bytes(damaged.read_bytes()[:-100])
+    counted.clear()
+    answer = call("sweep", study)
+    assert (answer.code, counted) == (0, [16])
+    assert "is damaged; its part is worked out again" in answer.err
+    assert contents() == before
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), 3, "No space left on device"),
+        (
+            KeyboardInterrupt(),
+            2,
+            "uictest: interrupted\nuictest: finished parts are kept in reports/study, the same",
+        ),
+    ],
+)
+def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: Any, code: int, said: str
+) -> None:
+    call("sweep", study, "-o", "whole")
+    write = room.Store.write
+
+    def breaks(self: room.Store, number: int, content: bytes) -> None:
+        if number == 3:
+            raise error
+        write(self, number, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(room.Store, "write", breaks)
+        answer = call("sweep", study, "-n", "1")
+    assert answer.code == code
+    assert said in answer.err
+    kept = {path: path.stat().st_mtime_ns for path in Path("reports/study/parts").iterdir()}
+    assert len(kept) == 3
+    assert not Path("reports/study/summary.csv").exists()
+    assert call("sweep", study).code == 0
+    assert all(path.stat().st_mtime_ns == written for path, written in kept.items())
+    assert contents() == contents("whole/study")
+
+
+def test_ctrl_c_while_the_findings_are_written_keeps_the_parts(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*arguments: Any) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(room, "write_findings", interrupted)
+        answer = call("sweep", study)
+    assert answer.code == 2
+    assert "uictest: interrupted\nuictest: finished parts are kept in reports/study, the same" in answer.err
+    assert "96 of 96 cases are finished already" in call("sweep", study).err
+
+
+def part_files(folder: str) -> list[Path]:
+    """The parts that are complete: one that is being written has a dot before its name."""
+    return list(Path(folder, "study", "parts").glob("[0-9]*"))
+
+
+def killed_at_random(start: Start, times: int) -> int:
+    """Start the sweep and kill it a random while after its next part, several times; how often it ran yet."""
+    moments = random.Random(4)
+    killed = 0
+    for _ in range(times):
+        before = len(part_files("broken"))
+        process = start("sweep", FILE, "-n", "2", "-q", "-o", "broken")
+        while len(part_files("broken")) == before and process.poll() is None:
+            time.sleep(0.001)
+        time.sleep(moments.uniform(0.0, 0.05))
+        process.send_signal(signal.SIGKILL)
+        killed += process.wait() == -signal.SIGKILL
+    return killed
+
+
+@pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
+def test_killed_and_resumed_gives_the_same_bytes(call: Call, start: Start, study: Path, times: int) -> None:
+    Path(FILE).write_text(TEXT.replace("size: 32", f"size: {32 * times}"))
+    assert call("sweep", study, "-o", "whole").code == 0
+    # After the first of many parts the sweep cannot be over within the while that it is given.
+    assert killed_at_random(start, times) > 0
+    assert call("sweep", study, "-o", "broken").code == 0
+    assert contents("broken/study") == contents("whole/study")
+
+
+@pytest.mark.skipif("sys.platform == 'win32'")
+@pytest.mark.parametrize("cancelled", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_a_cancelled_job_are_2_and_resumable(
+    start: Start, study: Path, cancelled: signal.Signals
+) -> None:
+    # Minutes of work: it cannot be over before the signal, however late that is sent.
+    Path(FILE).write_text(TEXT.replace("size: 32", "size: 65536"))
+    process = start("sweep", FILE, stderr=subprocess.PIPE)
+    while not part_files("reports") and process.poll() is None:
+        time.sleep(0.02)
+    process.send_signal(cancelled)
+    _, err = process.communicate(timeout=HANGING)
+    assert process.returncode == 2
+    assert "the same command goes on" in err
+
+
+def test_a_case_in_error_is_a_row_and_3(call: Call, study: Path) -> None:
+    Path(FILE).write_text(
+        TEXT.split("grid")[0]
+        + "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
+    )
+    assert call("sweep", study).code == 3
+    document = json.loads(Path("reports/study/sweep.json").read_text())
+    assert document["outcomes"]["error"] == 1
+    assert "does not divide" in document["missed"][0]["reason"]
+
+
+def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "expect: fail\n")
+    answer = call("sweep", study, "-x", "-n", "1")
+    assert answer.code == 1
+    stopped, kept = answer.err.splitlines()[-2:]
+    first = "study[friction=0.06,sample=0]: pass, another outcome was expected"
+    assert stopped == f"uictest: stopped at --maxfail: 16 cases not met, the first: {first}"
+    assert kept == "uictest: finished parts are kept in reports/study, the same command without it goes on"
+    assert len(list(Path("reports/study/parts").iterdir())) == 1
+    assert call("sweep", study, "--junitxml", "junit.xml").code == 1
+    assert 'failures="3"' in Path("junit.xml").read_text()
+
+
+def test_cases_that_no_criterion_applies_to_are_told(call: Call, study: Path) -> None:
+    done = call("sweep", study, "--set", "criteria=[uic-541-05-appendix-b]", "-k", "friction=0.12")
+    assert done.code == 0
+    assert "32 cases (32 not judged): 32 met" in done.err
+    assert "32 of 32  100.0 % (32 not judged)" in done.out
+    assert "note: 32 cases not judged, since no criterion applies" in done.out
+
+
+def test_quiet_shows_what_is_missed_and_nothing_else(call: Call, study: Path) -> None:
+    answer = call("sweep", study, "-q")
+    assert (answer.code, answer.out, answer.err) == (0, "", "")
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text() + "expect: fail\n")
+    answer = call("sweep", study, "-q", "--restart")
+    first, *_, last = answer.out.splitlines()
+    assert (answer.code, answer.err) == (1, "")
+    assert first == "pass  study[friction=0.06,sample=0]  another outcome was expected"
+    assert last == "and 86 more, see summary.csv"
+
+
+def test_junit_with_no_place_is_refused_before_the_first_case(
+    call: Call, study: Path, counted: list[int]
+) -> None:
+    for file, said in (("no/junit.xml", "there is no folder no"), ("scenarios", "scenarios is a folder")):
+        answer = call("sweep", study, "--junitxml", file)
+        assert answer.code == 4
+        assert said in answer.err
+    assert not counted
+    assert call("sweep", study, "-k", "friction=0.09", "--junitxml", "reports/junit.xml").code == 0
+
+
+def test_nothing_is_said_to_be_kept_where_nothing_is(call: Call, study: Path) -> None:
+    Path("reports").write_text("")
+    answer = call("sweep", study)
+    assert answer.code == 3
+    assert answer.err == "uictest: reports/study: Not a directory (-v shows where)\n"
+
+
+def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
+    Path(FILE).write_text(
+        TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"
+    )
+    scenario = Path("scenarios/stop.yaml")
+    scenario.write_text(scenario.read_text().replace("15 km/h", "40 km/h") + "rig: {wsp: bypassed}\n")
+    answer = call("sweep", study, "--frontier", "rail.friction", "--tolerance", "0.02")
+    assert "frontier along rail.friction" in answer.out
+    lines = Path("reports/study/frontier.csv").read_text().splitlines()
+    assert lines[0] == "brake.command,from,to,met_at_from,flips,note"
+    assert lines[1].startswith("100 %,0.")
+
+
+def test_list_and_dry_run_show_ids_and_run_nothing(call: Call, study: Path) -> None:
+    ids = call("sweep", study, "--dry-run", "-k", "friction=0.09").out.splitlines()
+    assert ids == [f"study[friction=0.09,sample={k}]" for k in range(32)]
+    assert call("list", study).out.splitlines()[:2] == [
+        "study[friction=0.06,sample=0]",
+        "study[friction=0.06,sample=1]",
+    ]
+    assert not Path("reports").exists()
+    assert call("sweep", study, "-k", "nothing").code == 5
+    assert call("list", study, "-k", "nothing").code == 5
+
+
+@pytest.mark.parametrize("command", [["sweep", "--dry-run"], ["list", FILE]])
+def test_a_list_ends_when_its_reader_leaves(program: Path, study: Path, command: list[str]) -> None:
+    study.write_text(TEXT.replace("size: 32", "size: 16777216"))
+    process = subprocess.Popen([program, *command, study], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"study[friction=0.06,sample=0]\n"
+    process.stdout.close()
+    assert process.wait(timeout=HANGING) == 0
+    assert process.stderr is not None
+    assert process.stderr.read() == b""
+    process.stderr.close()
+
+
+def test_stdout_is_the_document_alone(call: Call, study: Path) -> None:
+    answer = call("sweep", study, "-k", "friction=0.09", "--format", "json")
+    assert json.loads(answer.out)["cases"] == 32
+    assert answer.out == Path("reports/study/sweep.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--shard", "3/2"], "is not a share"),
+        (["--frontier", "initial_speed"], "needs two values or more"),
+        (["--frontier", "rail.friction", "--tolerance", "x"], "is not a number"),
+        (["--map", "rail.friction,brake"], "name two parameters of rail.friction, brake.command"),
+        (["--measure", "braking_distance"], "did you mean 'braking_distance_m'?"),
+        (["--device", "gpu"], "is not one of 'cpu', 'cuda'"),
+        (["-k", "("], "expected a word"),
+        (["--set", "rail.frictoin=1"], "did you mean 'friction'?"),
+    ],
+)
+def test_usage(call: Call, study: Path, options: list[str], said: str) -> None:
+    answer = call("sweep", study, *options)
+    assert answer.code == 4
+    assert said in answer.err
+
+
+def fake_cuda(monkeypatch: pytest.MonkeyPatch, context: Callable[[], None]) -> None:
+    cuda = SimpleNamespace(CudaSupportError=ImportError, current_context=context)
+    monkeypatch.setitem(vars(rig), "cuda", cuda)
+    monkeypatch.setitem(vars(rig), "run_on_gpu", lambda parameters, rail: None)
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (
+            "Error at driver init: \n\nCUDA driver library cannot be found.\nIf you are sure\n:",
+            "CUDA driver library cannot be found",
+        ),
+        ("Error at driver init: CUDA_ERROR_NO_DEVICE (100)", "CUDA_ERROR_NO_DEVICE (100)"),
+    ],
+)
+def test_without_a_gpu_the_processor_is_named_and_not_hindered(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: str, reason: str
+) -> None:
+    def context() -> None:
+        raise ImportError(error)
+
+    fake_cuda(monkeypatch, context)
+    answer = call("sweep", study, "--device", "cuda")
+    assert answer.code == 4
+    assert answer.err == (
+        f"uictest: no CUDA device found ({reason}); leave --device out to use the processor\n"
+    )
+    assert call("sweep", study, "-k", "friction=0.09").code == 0
+
+
+def test_without_numba_cuda_the_extra_is_named(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "uictest.rig.backends.cuda", None)  # type: ignore[arg-type]
+    answer = call("sweep", study, "--device", "cuda")
+    assert answer.code == 4
+    assert answer.err == "uictest: --device cuda needs the extra: pip install 'uictest[cuda]'\n"
+
+
+def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None:
+    good = Path("scenarios", FILE)
+    good.write_text(TEXT.replace("scenarios/", ""))
+    assert "1 scenario with 1 case and 1 sweep, no error" in call("check").err
+    good.write_text(TEXT.replace("scenarios/", "").replace("0.06", "6"))
+    answer = call("check")
+    assert answer.code == 4
+    assert f"scenarios/{FILE}:5:19: rail.friction: 6 is out of range" in answer.err

@@ -1,0 +1,80 @@
+"""Simulated stops as recordings, and what a measurement makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
+from uictest.recording import TIME, Recording
+from uictest.rig import SimulatedStop, simulate
+from uictest.scenario import Case
+
+STATEMENTS = (
+    "rail.condition=wet",
+    "rail.friction=0.08",
+    "brake.position=R",
+    "rig.wsp=active",
+    "criteria=[uictest-stop, uic-541-05-appendix-b]",
+)
+Change = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+@cache
+def _case() -> Case:
+    return replace(stated_case("slides-40", 40.0 / 3.6, STATEMENTS), path=Path("stop"))
+
+
+@cache
+def _stop(rate: float) -> SimulatedStop:
+    return simulate(_case(), record_every=1.0 / rate)
+
+
+@pytest.fixture
+def case() -> Case:
+    """A stop from 40 km/h on a rail so wet that every wheelset slides."""
+    return _case()
+
+
+@pytest.fixture
+def simulated() -> Callable[[float], SimulatedStop]:
+    """The stop, recorded at a rate in Hz."""
+    return _stop
+
+
+@pytest.fixture
+def recording() -> Recording:
+    """The stop's recording at 100 Hz."""
+    recording = _stop(100.0).recording
+    assert recording is not None
+    return recording
+
+
+@pytest.fixture
+def channels(recording: Recording) -> dict[str, RawChannel]:
+    """Every channel of the recording, free to be damaged."""
+    time = np.array(recording[TIME])
+    return {
+        name: RawChannel(name, name, time, np.array(samples, dtype=np.float64))
+        for name, samples in recording.channels.items()
+        if name != TIME
+    }
+
+
+@pytest.fixture
+def prepared(recording: Recording) -> Callable[..., RecordedStop]:
+    """Prepare channels with the facts of the recording, or others."""
+
+    def make(
+        channels: Mapping[str, RawChannel], facts: Mapping[str, str] | None = None, **choices: Any
+    ) -> RecordedStop:
+        wanted = Preparation.model_validate(choices)
+        return prepare(channels, recording.metadata if facts is None else facts, wanted)
+
+    return make

@@ -1,0 +1,190 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.field_data import MapError, fitting_preset, listing, load_map, presets, proposed_map, select
+from uictest.field_data.channels import UNITS
+from uictest.field_data.units import factor
+from uictest.recording.contents import Contents, Group
+from uictest.scenario import ScenarioErrors
+
+HEAD = "schema: uictest/channel-map/1\nname: mine\n"
+TIME = np.array([0.0, 1.0, 2.0])
+
+
+def _map(folder: Path, text: str, name: str = "mine.yaml") -> str:
+    path = folder / name
+    path.write_text(HEAD + text)
+    return str(path)
+
+
+def _contents(**channels: tuple[list[object], str]) -> Contents:
+    arrays = {name: np.array(samples) for name, (samples, _) in channels.items()}
+    return Contents((Group("", arrays, {name: unit for name, (_, unit) in channels.items() if unit}),))
+
+
+def test_presets_load_and_every_channel_is_canonical() -> None:
+    assert presets() == ("common-names", "uictest")
+    for name in presets():
+        loaded, inputs = load_map(name)
+        assert loaded.sources().keys() <= UNITS.keys()
+        assert next(iter(inputs)) == f"library:channel_maps/{name}.yaml"
+    assert load_map("uictest")[0].sources().keys() == UNITS.keys()
+
+
+def test_scale_offset_sign_and_unit(tmp_path: Path) -> None:
+    text = """channels:
+  time: {source: t, unit: ms}
+  speed: {source: [nothing, v], unit: km/h}
+  tank_pressure_1: {source: p, unit: bar, scale: 2, offset: -1}
+  clamping_force_1: {source: F, sign: -1}
+"""
+    contents = _contents(
+        t=([0.0, 1.0, 2.0], "s"),
+        v=([36.0, 18.0, 0.0], ""),
+        p=([1.0, 2.0, 3.0], "V"),
+        F=([-1.0, 0.0, 1.0], "kN"),
+    )
+    channels = select(contents, load_map(_map(tmp_path, text))[0])
+    np.testing.assert_allclose(channels["speed"].time, [0.0, 1e-3, 2e-3])
+    np.testing.assert_allclose(channels["speed"].samples, [10.0, 5.0, 0.0])
+    np.testing.assert_allclose(channels["tank_pressure_1"].samples, [1e5, 3e5, 5e5])
+    np.testing.assert_allclose(channels["clamping_force_1"].samples, [1000.0, 0.0, -1000.0])
+
+
+def test_wheelsets_are_spelled_out_and_a_child_changes_its_parent(tmp_path: Path) -> None:
+    _map(tmp_path, 'channels:\n  "wheel_speed_{n}": "axle{n}"\n', "base.yaml")
+    text = "extends: base.yaml\nchannels:\n  wheel_speed_3: {source: other, unit: km/h}\n"
+    sources = load_map(_map(tmp_path, text))[0].sources()
+    assert sources["wheel_speed_2"].source == ("axle2",)
+    assert sources["wheel_speed_3"].source == ("other",)
+
+
+def test_states_by_name(tmp_path: Path) -> None:
+    text = "channels: {time: t, speed: v, valve_command_1: {source: MV, states: {Lüften: 2, Halten: 1}}}\n"
+    channel_map = load_map(_map(tmp_path, text))[0]
+    contents = _contents(
+        t=([0, 1, 2, 3], "s"), v=([1.0] * 4, "m/s"), MV=(["fill", "Lüften", "Halten", "1"], "")
+    )
+    np.testing.assert_array_equal(select(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1])
+    contents = _contents(t=([0, 1], "s"), v=([1.0] * 2, "m/s"), MV=(["fill", "auf"], ""))
+    with pytest.raises(MapError, match="'auf'; name them in 'states'"):
+        select(contents, channel_map)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("channels: {sped: v}\n", "did you mean 'speed'"),
+        ("channels: {speed: {source: v, unit: bar}}\n", "'bar' is no unit of speed"),
+        ("channels: {speed: {source: v, factor: 2}}\n", "unknown key 'factor'"),
+        ("channels: {speed: {source: v, sign: 2}}\n", "sign"),
+        ("channels: {speed: {source: v, scale: .inf}}\n", "scale"),
+        ("channels: {speed: v}\npreparation: {raster: 10}\n", "has no unit"),
+        ("extends: mine.yaml\nchannels: {speed: v}\n", "circle"),
+        ("extends: nothing\nchannels: {speed: v}\n", "no channel map 'nothing'"),
+        ("channels: {speed: !!python/name:os.system v}\n", "tag"),
+        ("channels: &a {speed: *a}\n", ""),
+    ],
+)
+def test_a_wrong_map_is_refused_at_its_place(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load_map(_map(tmp_path, text))
+    assert message in str(caught.value)
+    assert "mine.yaml:" in str(caught.value)
+
+
+def test_a_name_that_is_no_map() -> None:
+    with pytest.raises(KeyError):
+        load_map("nothing")
+
+
+def test_what_does_not_fit_the_file_is_told(tmp_path: Path) -> None:
+    plain = load_map("uictest")[0]
+    with pytest.raises(MapError, match=r"no channel for 'speed'.*'sped'"):
+        select(_contents(time=([0.0, 1.0], "s"), sped=([1.0, 1.0], "m/s")), plain)
+    with pytest.raises(MapError, match="does not say the unit of 'speed'"):
+        select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "")), plain)
+    with pytest.raises(MapError, match="is in 'furlong', accepted"):
+        select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "furlong")), plain)
+    with pytest.raises(MapError, match="has no time axis"):
+        select(_contents(speed=([1.0, 1.0], "m/s")), plain)
+
+
+def test_one_name_in_two_groups_must_be_told_apart(tmp_path: Path) -> None:
+    groups = tuple(Group(g, {"speed": TIME}, {"speed": "m/s"}, TIME) for g in ("fast", "slow"))
+    with pytest.raises(MapError, match="in several groups"):
+        select(Contents(groups), load_map("uictest")[0])
+    chosen = load_map(_map(tmp_path, "channels: {speed: slow/speed}\n"))[0]
+    assert select(Contents(groups), chosen)["speed"].source == "speed"
+
+
+def test_a_proposed_map_is_a_map_and_fits(tmp_path: Path) -> None:
+    contents = _contents(
+        Zeit=([0.0, 1.0], "s"),
+        vZug=([10.0, 9.0], "km/h"),
+        way=([0.0, 3.0], "m"),
+        pR=([8.0, 7.9], ""),
+        **{'odd "name"\x1b': ([1.0, 2.0], "V")},
+    )
+    path = tmp_path / "proposed.yaml"
+    path.write_text(proposed_map(contents))
+    channels = select(contents, load_map(str(path))[0])
+    assert {"speed", "distance", "reservoir_pressure"} == channels.keys()
+    assert "check it" in proposed_map(contents)
+    assert list(listing(contents))[1] == ("vZug", "km/h", "2", "9 .. 10")
+
+
+def test_a_unit_alone_proposes_where_only_one_channel_has_it() -> None:
+    contents = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"))
+    assert 'speed: "b"' in proposed_map(contents)
+    contents = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"), c=([1.0, 1.0], "km/h"))
+    assert "speed:" not in proposed_map(contents)
+
+
+@pytest.mark.parametrize(
+    ("unit", "si", "size"),
+    [("km/h", "m/s", 1 / 3.6), ("KM/H", "m/s", 1 / 3.6), ("mbar", "Pa", 100.0), ("kNm", "N m", 1000.0)],
+)
+def test_units(unit: str, si: str, size: float) -> None:
+    assert factor(unit, si) == pytest.approx(size)
+
+
+def test_a_unit_of_another_kind_or_in_doubt_is_none() -> None:
+    assert factor("bar", "m/s") is None
+    assert factor("mPa", "Pa") is None
+
+
+def test_a_preset_that_fits_is_named() -> None:
+    own = _contents(time=([0.0, 1.0], "s"), speed=([10.0, 9.0], "m/s"), slide_1=([0.0, 0.1], ""))
+    assert fitting_preset(own) == "uictest"
+    common = _contents(Zeit=([0.0, 1.0], "s"), vZug=([10.0, 9.0], "km/h"))
+    assert fitting_preset(common) == "common-names"
+    without_unit = _contents(Zeit=([0.0, 1.0], "s"), vZug=([10.0, 9.0], ""))
+    assert fitting_preset(without_unit) is None
+    by_unit_alone = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"))
+    assert fitting_preset(by_unit_alone) is None
+    assert fitting_preset(_contents(x=([0.0, 1.0], "V"))) is None
+
+
+@pytest.mark.parametrize(
+    ("section", "message"),
+    [
+        ("encoding: cp12521", "unknown encoding 'cp12521'"),
+        ("encoding: base64", "unknown encoding 'base64'"),
+        ('decimal: ",", thousands: ","', "',' is the decimal sign already"),
+    ],
+)
+def test_a_wrong_dialect_is_refused_in_the_map(tmp_path: Path, section: str, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load_map(_map(tmp_path, f"channels: {{speed: v}}\ncsv: {{{section}}}\n"))
+    assert message in str(caught.value)
+    assert "mine.yaml:4:" in str(caught.value)
+
+
+def test_a_name_in_the_unit_of_another_quantity_is_not_proposed() -> None:
+    contents = _contents(T=([20.0, 21.0], "°C"), Zeit=([0.0, 1.0], "s"), v=([10.0, 9.0], "km/h"))
+    assert 'time: "Zeit"' in proposed_map(contents)

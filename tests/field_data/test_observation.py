@@ -1,0 +1,136 @@
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.evaluation import evaluate
+from uictest.field_data import judge_recording, judge_stop, load_map, prepare, select, stated_case
+from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
+from uictest.recording.formats.reader import read_here
+from uictest.rig import SimulatedStop
+from uictest.scenario import Case
+
+OURS = ("rail.condition=wet", "brake.position=R", "rig.wsp=active", "criteria=[uictest-stop]")
+BALANCES = ("energy-balance", "air-balance")
+
+# What sampling can lose, per sampling interval T: a time is known to T, a distance to v T at the place it is
+# taken, an extreme to what the signal does within T, a duration to T at each of its ends.
+RESOLUTION: dict[str, Callable[[float], float]] = {
+    "braking_time_s": lambda interval: 0.1 * interval,
+    "braking_distance_m": lambda interval: 0.1 * interval,
+    "mean_deceleration_mps2": lambda interval: 0.01 * interval,
+    "initial_adhesion_g": lambda interval: 0.05 * interval,
+    "minimum_deceleration_mps2": lambda interval: 1.0 * interval,
+    "maximum_deceleration_mps2": lambda interval: 1.0 * interval,
+    "reservoir_minimum_bar": lambda interval: 0.1 * interval,
+}
+LOCKED = 10.0
+"""Sampling intervals by which the time in a handful of locks may be off."""
+
+
+@pytest.mark.parametrize("rate", [2000.0, 100.0, 20.0])
+@pytest.mark.parametrize("name", FORMATS)
+def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one(
+    name: str, rate: float, case: Case, simulated: Callable[[float], SimulatedStop], tmp_path: Path
+) -> None:
+    stop = simulated(rate)
+    path = tmp_path / f"stop{SUFFIXES[name]}"
+    assert stop.recording is not None
+    writer_of(name)(stop.recording, path)
+    contents = read_here(name, path, Dialect())
+    channel_map, _ = load_map("uictest")
+    measured = prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
+    wanted, found = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, measured)
+    assert measured.defects == ()
+    assert found.outcome == wanted.outcome
+    verdicts = [(v.id, v.verdict) for v in found.criteria if v.id not in BALANCES]
+    assert verdicts == [(v.id, v.verdict) for v in wanted.criteria if v.id not in BALANCES]
+    _compare(found, wanted, max(1.0 / rate, 0.01))
+
+
+def _compare(found: Any, wanted: Any, interval: float) -> None:
+    for figure, resolution in RESOLUTION.items():
+        expected = getattr(wanted.measures, figure)
+        assert getattr(found.measures, figure) == pytest.approx(
+            expected, abs=resolution(interval) + 1e-3 * abs(expected) * (interval > 0.01), nan_ok=True
+        ), figure
+    for one, other in zip(found.wheelsets, wanted.wheelsets, strict=True):
+        assert one.locked_time_s == pytest.approx(other.locked_time_s, abs=LOCKED * (interval - 0.01) + 1e-6)
+        assert one.valve_actuations == pytest.approx(other.valve_actuations, abs=0 if interval == 0.01 else 2)
+        assert one.maximum_slide == pytest.approx(other.maximum_slide, abs=2.0 * (interval - 0.01) + 1e-6)
+
+
+def test_what_a_record_lacks_is_inconclusive_and_what_no_train_has_not_applicable(
+    case: Case, channels: Any, prepared: Any
+) -> None:
+    result = judge_stop(case, prepared({"speed": channels["speed"]}))
+    verdicts = {each.id: each for each in result.criteria}
+    assert result.outcome == "inconclusive"
+    for name in BALANCES:
+        assert verdicts[name].verdict == "not_applicable"
+    assert verdicts["standstill"].verdict == "pass"
+    locked = verdicts["locked-wheels"]
+    assert (locked.verdict, locked.reason) == (
+        "inconclusive",
+        "not recorded: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4",
+    )
+    assert result.measures is not None
+    assert result.measures.braking_time_s > 0.0
+    assert all(wheelset.valve_actuations != wheelset.valve_actuations for wheelset in result.wheelsets)
+
+
+@pytest.mark.parametrize("kept", ["all", "speeds and pressures", "speeds"])
+def test_a_sound_record_of_a_good_stop_passes_by_our_own_criteria(
+    kept: str, channels: Any, prepared: Any
+) -> None:
+    pattern = {
+        "all": ".*",
+        "speeds and pressures": r"(wheel_)?speed.*|.*pressure.*",
+        "speeds": "(wheel_)?speed.*",
+    }
+    chosen = {name: each for name, each in channels.items() if re.fullmatch(pattern[kept], name)}
+    case = stated_case("good", 40.0 / 3.6, OURS)
+    assert judge_stop(case, prepared(chosen)).outcome == "pass"
+
+
+def test_the_recording_of_a_judged_stop_says_when_a_wheelset_first_slid(
+    case: Case, simulated: Callable[[float], SimulatedStop], channels: Any, prepared: Any
+) -> None:
+    wanted = simulated(100.0).measures.sliding_time
+    _, recording = judge_recording(case, prepared(channels))
+    assert float(recording.metadata["sliding_time"]) == pytest.approx(wanted)
+    assert recording.metadata["brake_command_time"] == "0 s"
+
+
+def test_a_record_that_begins_late_says_neither_when_the_command_was_given_nor_what_slid_first(
+    case: Case, channels: Any, prepared: Any
+) -> None:
+    late = {
+        name: replace(each, time=each.time[200:], samples=each.samples[200:])
+        for name, each in channels.items()
+    }
+    stop = prepared(late, trigger_time="1 s")
+    assert stop.trigger.late
+    assert dict(judge_recording(case, stop)[1].metadata) == {"case": case.id}
+
+
+def test_the_preparation_stands_in_every_verdict(case: Case, channels: Any, prepared: Any) -> None:
+    result = judge_stop(case, prepared(channels, low_pass="10 Hz", raster="20 ms"))
+    for verdict in result.criteria:
+        assert verdict.definition["trigger"] == "at 0 s, stated by the file"
+        assert verdict.definition["filter"] == "low-pass 10 Hz"
+        assert verdict.definition["raster"].startswith("20 ms")
+        assert verdict.definition["distance"] == "recorded"
+
+
+def test_a_distance_that_is_not_recorded_is_integrated(channels: Any, prepared: Any) -> None:
+    wanted = prepared(channels).standstill
+    del channels["distance"]
+    found = prepared(channels)
+    assert found.choices["distance"] == "integrated from speed"
+    assert found.standstill == pytest.approx(wanted, rel=1e-4)

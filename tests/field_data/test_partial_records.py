@@ -1,0 +1,205 @@
+"""Parts of a record: what they decide is what the whole record decides."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.evaluation.measure_readers import read
+from uictest.field_data import judge_stop, stated_case
+from uictest.field_data.observation import observe
+from uictest.scenario import Case
+from uictest.scenario.parts.criteria import Criteria, Criterion
+from uictest.scenario.parts.measure_catalogue import MEASURES
+from uictest.units import KINDS
+
+Channels = dict[str, Any]
+ROUNDING = 1e-9
+DEFINITION = {"first_phase_duration": 3.0, "low_speed_cutoff": 10.0 / 3.6}
+_WORDS = {
+    "first_phase_duration": {"value": "3 s", "range": ["3 s", "3 s"]},
+    "low_speed_cutoff": {"value": "10 km/h", "range": ["10 km/h", "10 km/h"]},
+}
+
+
+def _keep(channels: Channels, kept: np.ndarray) -> Channels:
+    time = channels["speed"].time
+    return {
+        name: replace(channel, time=time[kept], samples=channel.samples[kept])
+        for name, channel in channels.items()
+    }
+
+
+def _of_part(part: str, channels: Channels) -> Channels:
+    time = channels["speed"].time
+    name, _, number = part.partition(" ")
+    at = float(number)
+    kept = {
+        "until": time <= at,
+        "from": time >= at,
+        "without": (time < at) | (time > at + 0.5),
+    }[name]
+    return _keep(channels, kept)
+
+
+def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
+    observed = observe(stop, case.scenario.measures)
+    records = observed.measures, observed.wheelset_measures
+    return {name: read(name, *records, DEFINITION).values for name in MEASURES}
+
+
+def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(
+    channels: Channels, case: Case, prepared: Any
+) -> None:
+    """A measure whose channels nobody states would be judged on whatever is there."""
+    late = observe(prepared(_of_part("from 3", channels)), case.scenario.measures)
+    of_a_train = {name for name, measure in MEASURES.items() if not measure.of_simulation}
+    assert late.coverage.missing.keys() == of_a_train - {"standstill"}
+
+
+def test_what_can_only_grow_never_falls_while_a_stop_goes_on(
+    case: Case, channels: Channels, prepared: Any
+) -> None:
+    ends = (0.5, 2.0, 4.0, 6.0, 9.0, 12.0, 15.0, 30.0)
+    stages = [_values(prepared(_of_part(f"until {end}", channels)), case) for end in ends]
+    for name, measure in MEASURES.items():
+        reached = [np.array(values[name]) for values in stages if values[name]]
+        for before, after in pairwise(reached):
+            steps = (after - before)[~np.isnan(after - before)]
+            if measure.course == "settles":
+                assert (np.abs(steps) < ROUNDING).all(), name
+            else:
+                assert ((steps if measure.course == "grows" else -steps) > -ROUNDING).all(), name
+
+
+@pytest.fixture
+def by_every_measure(case: Case, channels: Channels, prepared: Any) -> Case:
+    """The case, judged by lower and upper bounds on each measure: around its value and far from it."""
+    values = _values(prepared(channels), case)
+    criteria = tuple(
+        _criterion(name, side, share, share * values[name][0])
+        for name in MEASURES
+        if not math.isnan(values[name][0])
+        for side in ("lower", "upper")
+        for share in (0.1, 0.9, 1.1, 3.0)
+    )
+    profile = Criteria(name="every-measure", criteria=criteria)
+    return replace(case, scenario=case.scenario.model_copy(update={"criteria": (profile,)}))
+
+
+def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
+    measure = MEASURES[name]
+    unit = next(iter(KINDS[measure.kind].units.values()), None)
+    fields: dict[str, Any] = {"id": f"{name.replace('_', '-')}-{side}-{share}", "layer": "requirement"}
+    fields[side] = bound if unit is None else f"{bound / float(unit.factor):.12f} {unit.symbol}"
+    if measure.of_wheelsets:
+        fields["wheelsets"] = {"at_least": "half"}
+    definition = {word: _WORDS[word] for word in measure.definitions}
+    return Criterion.model_validate({"measure": name, **fields, "definition": definition})
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        *("until 0.01", "until 2", "until 6", "until 12", "until 17.5"),
+        *("from 0.5", "from 3", "from 9", "from 15"),
+        *("without 0.2", "without 2", "without 7", "without 15"),
+    ],
+)
+def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
+    part: str, by_every_measure: Case, channels: Channels, prepared: Any
+) -> None:
+    whole = judge_stop(by_every_measure, prepared(channels))
+    some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
+    assert whole.outcome == "fail"
+    assert len(whole.criteria) > 100
+    assert some.outcome in ("fail", "inconclusive")
+    wrong = [
+        (early.id, early.verdict, early.reason)
+        for early, late in zip(some.criteria, whole.criteria, strict=True)
+        if early.verdict not in (late.verdict, "inconclusive")
+    ]
+    assert wrong == []
+    decided = {each.verdict for each in some.criteria}
+    assert "inconclusive" in decided
+
+
+@pytest.mark.parametrize("part", ["until 12", "from 1", "without 9"])
+def test_what_a_part_shows_for_certain_is_decided(
+    part: str, by_every_measure: Case, channels: Channels, prepared: Any
+) -> None:
+    some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
+    verdicts = {each.id: each.verdict for each in some.criteria}
+    for name in ("sliding-duration", "valve-actuations", "maximum-clamping-force"):
+        assert verdicts[f"{name}-lower-0.1"] == "pass"
+        assert verdicts[f"{name}-upper-0.1"] == "fail"
+        assert verdicts[f"{name}-upper-3.0"] == "inconclusive"
+
+
+def test_a_valve_that_vents_before_and_after_a_gap_did_not_open_twice(
+    case: Case, channels: Channels, prepared: Any
+) -> None:
+    command = channels["valve_command_1"]
+    vents = np.zeros_like(command.samples)
+    vents[100:200] = 2.0
+    vents[150:160] = np.nan
+    channels["valve_command_1"] = replace(command, samples=vents)
+    observed = observe(prepared(channels), case.scenario.measures)
+    assert observed.wheelset_measures[0].valve_actuations == 1.0
+
+
+def test_locks_on_either_side_of_a_gap_are_not_one(case: Case, channels: Channels, prepared: Any) -> None:
+    time = channels["speed"].time
+    wheel = channels["wheel_speed_1"]
+    samples = np.where((time > 1.0) & (time < 2.6), 0.0, channels["speed"].samples)
+    channels["wheel_speed_1"] = replace(wheel, samples=samples)
+    broken = _keep(channels, (time < 1.6) | (time > 2.0))
+    observed = observe(prepared(broken), case.scenario.measures)
+    assert observed.wheelset_measures[0].longest_lock == pytest.approx(0.6, abs=0.03)
+
+
+def test_a_record_without_a_released_brake_shows_no_offsets(channels: Channels, prepared: Any) -> None:
+    for begin in (0.5, 1.0, 3.0):
+        stop = prepared(_of_part(f"from {begin}", channels))
+        assert [defect.kind for defect in stop.defects] == ["starts-late"]
+
+
+def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Channels, prepared: Any) -> None:
+    statements = (
+        "rail.condition=dry",
+        "brake.position=R",
+        "rig.wsp=active",
+        "criteria=[uic-541-05-appendix-b]",
+    )
+    result = judge_stop(stated_case("late", 40.0 / 3.6, statements), prepared(_of_part("from 2", channels)))
+    verdicts = {each.id: (each.verdict, each.reason) for each in result.criteria}
+    assert verdicts["braking-distance"] == (
+        "inconclusive",
+        "the record begins after the brake command: no initial speed",
+    )
+    assert result.outcome == "inconclusive"
+
+
+@pytest.mark.parametrize("coarse", ["speed", "wheel_speed_3"])
+def test_samples_far_apart_do_not_show_that_no_wheelset_locked(
+    case: Case, channels: Channels, prepared: Any, coarse: str
+) -> None:
+    every = slice(None, None, 50)
+    dense = channels[coarse]
+    sparse = replace(dense, time=dense.time[every], samples=dense.samples[every])
+    stop = prepared({**channels, coarse: sparse})
+    result = judge_stop(case, stop)
+    verdicts = {each.id: each for each in result.criteria}
+
+    assert [str(each) for each in stop.defects if each.kind == "coarse"] == [
+        f"coarse: {coarse} is sampled every 0.5 s; at most 0.25 s shows all that happens"
+    ]
+    assert verdicts["locked-wheels"].verdict == "inconclusive"
+    assert "samples are 0.5 s apart" in verdicts["locked-wheels"].reason
+    assert verdicts["standstill"].verdict == "pass"
+    assert result.outcome == "inconclusive"

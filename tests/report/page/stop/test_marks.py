@@ -1,0 +1,172 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import AppliedDefinition, Verdict
+from uictest.recording import Recording
+from uictest.report.page.stop.mark import Mark
+from uictest.report.page.stop.marks import DRAWN, marks_of
+from uictest.report.traces.trace import Trace, trace_of
+from uictest.scenario.parts.measure_catalogue import MEASURES
+
+MakeVerdict = Callable[..., Verdict]
+MakeRecording = Callable[..., Recording]
+Marks = Callable[..., list[Mark]]
+
+MOVING = {"moving_speed": 10 / 3.6}
+LOCKING = {**MOVING, "locked_speed": 0.1}
+FILTERING = {**MOVING, "deceleration_filter": 0.5, "developed_time": 2.0}
+
+
+@pytest.fixture
+def trace(make_recording: MakeRecording) -> Trace:
+    """A stop at 1 m/s2 whose wheelsets slide from 5 to 15 s; the third is locked from 20 to 22 s."""
+    recording = make_recording(sliding_time="5.0")
+    time = recording["time"]
+    recording["wheel_speed_3"][(time >= 20.0) & (time < 22.0)] = 0.0
+    return trace_of(recording)
+
+
+@pytest.fixture
+def marks(make_verdict: MakeVerdict, trace: Trace) -> Marks:
+    """The marks of that stop, judged by one criterion."""
+
+    def make(measure: str, defined: Mapping[str, float] | None = None, **changes: object) -> list[Mark]:
+        definitions = tuple(
+            AppliedDefinition(name, value, "", "chosen") for name, value in (defined or {}).items()
+        )
+        fields = {"lower": None, "upper": None, "measure": measure, "definitions": definitions}
+        return marks_of([make_verdict(**(fields | changes))], trace)
+
+    return make
+
+
+def test_every_measure_has_its_marks() -> None:
+    assert DRAWN.keys() == MEASURES.keys()
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+def test_a_failing_criterion_is_drawn_whatever_it_measures(marks: Marks, measure: str) -> None:
+    defined = {**LOCKING, **FILTERING, "sliding_slide": 0.05, "sliding_slip": 0.3}
+    defined |= {"first_phase_duration": 3.0, "low_speed_cutoff": 30 / 3.6}
+    unit = MEASURES[measure].unit
+    found = marks(measure, defined, verdict="fail", value=5.0, upper=0.001, unit=unit, margin=-4.0)
+    assert found
+    assert {mark.status for mark in found} == {"fail"}
+    assert any(mark.x0 is not None or mark.y is not None for mark in found)
+
+
+def test_a_locked_wheelset_is_an_interval_in_its_row(marks: Marks) -> None:
+    (mark,) = marks("longest_lock", LOCKING, verdict="fail", upper=1.0, value=2.0, unit="s", id="locked")
+    assert (mark.plot, mark.kind, mark.y) == ("locked", "interval", 3.0)
+    # Ends are known to the 50 ms of which a line keeps the extremes.
+    assert (mark.x0, mark.x1) == (pytest.approx(20.0, abs=0.051), pytest.approx(22.0, abs=0.051))
+    assert mark.label == "locked: 2 s, upper limit 1 s"
+
+
+def test_a_lock_below_the_moving_speed_is_none(marks: Marks) -> None:
+    assert marks("longest_lock", {**LOCKING, "moving_speed": 30.0}, upper=1.0, unit="s") == []
+
+
+def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Marks, trace: Trace) -> None:
+    (mark,) = marks("standstill", verdict="fail", lower=1.0, value=0.0, unit="1", id="standstill")
+    assert (mark.plot, mark.kind, mark.x0) == ("speed", "instant", trace.end)
+    assert mark.label == "standstill: the record ends at 0 km/h"
+    assert marks("standstill", lower=1.0, value=1.0, unit="1") == []
+
+
+def test_the_largest_slide_of_each_wheelset_is_marked_where_it_was_too_small(marks: Marks) -> None:
+    cutoff = {"low_speed_cutoff": 30 / 3.6}
+    limit, *points = marks(
+        "maximum_slide_above_cutoff", cutoff, unit="%", lower=60.0, value=40.0, verdict="fail"
+    )
+    assert limit.kind == "limit"
+    assert [(mark.kind, mark.label) for mark in points] == [
+        ("point", "1: 40 %"),
+        ("point", "2: 40 %"),
+        ("point", "3: 40 %"),
+        ("point", "4: 40 %"),
+    ]
+    assert all(mark.x0 is not None and 5.0 < mark.x0 < 15.0 for mark in points)
+
+
+def test_vents_too_many_are_marked_from_the_first_to_the_last(marks: Marks) -> None:
+    found = marks("valve_actuations", unit="1", upper=0.0, value=1.0, verdict="fail")
+    assert [(mark.plot, mark.y) for mark in found] == [
+        ("valves", 1.0),
+        ("valves", 2.0),
+        ("valves", 3.0),
+        ("valves", 4.0),
+    ]
+    assert found[0].x0 == pytest.approx(5.0, abs=0.02)
+    assert found[0].x1 == pytest.approx(15.0, abs=0.02)
+
+
+def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
+    make_verdict: MakeVerdict,
+) -> None:
+    time = np.linspace(0.0, 30.0, 3001)
+    speed = 33.0 - time + np.where(time > 10.0, np.minimum(0.5 * (time - 10.0), 0.5), 0.0)
+    trace = trace_of(Recording({"time": time, "speed": speed}, {"time": "s", "speed": "m/s"}))
+    definitions = tuple(AppliedDefinition(name, value, "", "chosen") for name, value in FILTERING.items())
+    verdict = make_verdict(
+        measure="minimum_deceleration",
+        unit="m/s2",
+        lower=0.9,
+        upper=None,
+        value=0.57,
+        definitions=definitions,
+    )
+    *_, mark = marks_of([verdict], trace)
+    assert (mark.kind, mark.y) == ("point", pytest.approx(0.57 / 9.80665))
+    assert mark.x0 == pytest.approx(11.0, abs=0.05)
+
+
+def test_failing_criteria_come_first_then_inconclusive_ones(make_verdict: MakeVerdict, trace: Trace) -> None:
+    verdicts = [
+        make_verdict(id=status, verdict=status, measure="braking_distance")
+        for status in ("pass", "not_applicable", "inconclusive", "fail")
+    ]
+    drawn = dict.fromkeys(mark.criterion for mark in marks_of(verdicts, trace))
+    assert list(drawn) == ["fail", "inconclusive", "pass"]
+
+
+def test_the_first_phase_is_a_window_with_its_limit_and_what_was_found(marks: Marks) -> None:
+    found = marks("initial_adhesion", {"first_phase_duration": 3.0}, unit="g", upper=0.08, value=0.06)
+    shown = [(mark.plot, mark.kind, mark.x0, mark.x1, mark.y) for mark in found]
+    assert shown == [
+        ("speed", "window", 5.0, 8.0, None),
+        ("deceleration", "window", 5.0, 8.0, None),
+        ("deceleration", "limit", 5.0, 8.0, 0.08),
+        ("deceleration", "found", 5.0, 8.0, 0.06),
+    ]
+
+
+def test_the_slide_limit_ends_where_slides_no_longer_count(marks: Marks) -> None:
+    (mark,) = marks("maximum_slide_above_cutoff", {"low_speed_cutoff": 30 / 3.6}, unit="%", lower=35.0)
+    assert (mark.plot, mark.kind, mark.y, mark.x0) == ("slide", "limit", 35.0, None)
+    # 120 km/h less 1 m/s2: 30 km/h after 25 s.
+    assert mark.x1 == pytest.approx(25.0, abs=0.06)
+
+
+def test_the_braking_distance_is_a_band_over_the_distance(marks: Marks) -> None:
+    (mark,) = marks("braking_distance", lower=440.0, upper=490.0)
+    assert (mark.plot, mark.kind, mark.x0, mark.x1) == ("over-distance", "band", 440.0, 490.0)
+    assert mark.label == "braking-distance: 440 .. 490 m"
+
+
+def test_a_distance_outside_its_band_is_marked_in_it(marks: Marks) -> None:
+    _, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, verdict="fail")
+    assert (reached.kind, reached.x0, reached.label) == ("instant", 510.0, "510 m")
+
+
+def test_a_deceleration_bound_is_drawn_in_g(marks: Marks) -> None:
+    mark, *_ = marks("minimum_deceleration", unit="m/s2", lower=0.5 * 9.80665)
+    assert mark.y == pytest.approx(0.5)
+
+
+def test_a_criterion_that_does_not_apply_is_not_drawn(marks: Marks) -> None:
+    assert marks("braking_distance", lower=440.0, upper=490.0, verdict="not_applicable") == []

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import base64
+import zlib
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.report.page.script_json import script_json
+from uictest.report.page.stop.packing import packed
+from uictest.report.traces.trace import Curve
+
+
+def _unpacked(content: dict[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Read lines as the page's script does."""
+    data = np.frombuffer(zlib.decompress(base64.b64decode(content["data"])), dtype="u1")
+    numbers = data.reshape(2, -1).T.copy().view("<i2").ravel().astype(float)
+    curves, at = {}, 0
+    for name, line in content["lines"].items():
+        x, y = (np.cumsum(numbers[at + k * line["count"] :][: line["count"]]) for k in (0, 1))
+        at += 2 * line["count"]
+        up = np.where(y == 32767, np.nan, line["y"][0] + line["y"][1] * y)
+        curves[name] = (line["x"][0] + line["x"][1] * x, up)
+    return curves
+
+
+_SERIES = st.lists(st.floats(-1e9, 1e9) | st.just(float("nan")), min_size=1, max_size=50)
+
+
+@given(st.lists(_SERIES, min_size=1, max_size=3))
+def test_lines_come_back_within_a_fifty_thousandth_of_their_range(lines: list[list[float]]) -> None:
+    curves = {
+        str(k): Curve(np.arange(float(len(values))), np.array(values)) for k, values in enumerate(lines)
+    }
+    for name, (x, y) in _unpacked(packed(curves, interval=1.0)).items():
+        series = curves[name].y
+        assert np.array_equal(x, curves[name].x)
+        known = series[np.isfinite(series)]
+        span = float(np.ptp(known)) if len(known) else 0.0
+        assert np.array_equal(np.isnan(y), np.isnan(series))
+        # What is left beside half a step is the arithmetic of large offsets.
+        rounding = 1e-12 * float(np.abs(known).max()) if len(known) else 0.0
+        assert np.all(np.abs(y - series)[np.isfinite(series)] <= 2e-5 * span + rounding)
+
+
+@pytest.mark.parametrize("interval", [0.0, 0.01])
+def test_times_further_apart_than_two_bytes_hold_come_back_as_well(interval: float) -> None:
+    times = np.array([0.0, 0.01, 400.0])
+    ((back, _),) = _unpacked(packed({"a": Curve(times, times)}, interval)).values()
+    assert back == pytest.approx(times, abs=400.0 / 50_000)
+
+
+@pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "&amp;", "\u2028"])
+def test_json_cannot_end_the_element_it_stands_in(text: str) -> None:
+    shown = script_json({"label": text})
+    assert not set("<>&\u2028") & set(shown)

@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording
+from uictest.report.page.stop.bars import state_bars, vents
+from uictest.report.traces.trace import BINS, deceleration, slide, trace_of
+
+MakeRecording = Callable[..., Recording]
+
+
+def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording) -> None:
+    trace = trace_of(make_recording(sliding_time="5.01"))
+    assert trace.curves["speed"].y[0] == pytest.approx(120.0)
+    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert trace.curves["tank_pressure_4"].y.max() == pytest.approx(3.8)
+    assert trace.curves["clamping_force_2"].y.max() == pytest.approx(14.0)
+    assert trace.sliding_time == 5.01
+
+
+@pytest.mark.parametrize("samples", [1, 2, BINS, BINS + 1, 10 * BINS + 7])
+def test_no_more_samples_are_kept_than_a_screen_can_show(samples: int) -> None:
+    time = np.arange(samples) / 100
+    noise = np.random.default_rng(1).normal(size=samples)
+    trace = trace_of(Recording({"time": time, "speed": noise}, {"time": "s", "speed": "m/s"}))
+    assert all(len(curve.x) <= 2 * BINS + 2 for curve in trace.curves.values())
+    assert (trace.start, trace.end) == (time[0], time[-1])
+
+
+def test_a_peak_of_a_single_sample_is_drawn_at_its_time() -> None:
+    time = np.arange(20 * BINS) / 100
+    force = np.zeros_like(time)
+    force[[1234, 5678]] = 9e3, -1e3
+    units = {"time": "s", "clamping_force_1": "N"}
+    curve = trace_of(Recording({"time": time, "clamping_force_1": force}, units)).curves["clamping_force_1"]
+    drawn = dict(zip(curve.x.tolist(), curve.y.tolist(), strict=True))
+    assert (drawn[time[1234]], drawn[time[5678]]) == (9.0, -1.0)
+
+
+def test_every_change_of_a_valve_is_kept_however_long_the_record() -> None:
+    time = np.arange(30 * BINS) / 100
+    command = np.zeros_like(time)
+    command[100::7], command[101::7] = 2, 1  # a vent of one sample, a hold of one, then fill
+    trace = trace_of(
+        Recording({"time": time, "valve_command_2": command}, {"time": "s", "valve_command_2": "1"})
+    )
+    expected = len(command[100::7])
+    assert len(vents(trace, 2)) == expected
+    bars = state_bars(trace)
+    assert [len(bars[kind]) for kind in ("vent", "hold", "fill")] == pytest.approx([expected] * 3, abs=1)
+    assert vents(trace, 2)[0] == (1.0, 1.01, 2)
+    assert vents(trace, 1) == []
+
+
+def test_a_valve_that_was_not_recorded_for_a_while_is_in_no_state_there() -> None:
+    time = np.arange(6.0)
+    command = np.array([2, 2, np.nan, np.nan, 2, 2])
+    trace = trace_of(
+        Recording({"time": time, "valve_command_1": command}, {"time": "s", "valve_command_1": "1"})
+    )
+    assert vents(trace, 1) == [(0.0, 2.0, 1), (4.0, 5.0, 1)]
+
+
+def test_a_recording_of_few_channels_is_drawn_as_far_as_it_goes() -> None:
+    time = np.array([0.0, 1.0, 2.0])
+    trace = trace_of(Recording({"time": time, "slide_3": time / 10}, {"time": "s", "slide_3": "1"}))
+    assert list(trace.curves) == ["slide_3"]
+    assert trace.sliding_time is None
+
+
+def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be(make_recording: MakeRecording) -> None:
+    whole = make_recording()
+    channels = {name: samples for name, samples in whole.channels.items() if not name.startswith("slide")}
+    trace = trace_of(Recording(channels, {name: whole.units[name] for name in channels}))
+    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert trace.derived == ("slide_1", "slide_2", "slide_3", "slide_4", "deceleration")
+    assert trace_of(whole).derived == ("deceleration",)
+
+
+def test_a_slide_is_zero_where_the_train_hardly_runs_and_missing_where_its_speed_is() -> None:
+    derived = slide(np.array([10.0, 0.5, np.nan]), np.array([5.0, 0.0, 1.0]))
+    assert derived == pytest.approx([0.5, 0.0, np.nan], nan_ok=True)
+
+
+def test_the_deceleration_of_a_constant_brake_is_constant_to_the_ends_of_the_record() -> None:
+    time = np.linspace(0.0, 10.0, 1001)
+    assert deceleration(time, 30.0 - 0.5 * 9.80665 * time) == pytest.approx(0.5)
+
+
+def test_what_was_not_measured_leaves_no_deceleration() -> None:
+    time = np.linspace(0.0, 10.0, 101)
+    speed = np.where(time < 5.0, 30.0 - time, np.nan)
+    assert np.isnan(deceleration(time, speed)[-1])

@@ -1,0 +1,149 @@
+"""Plain Python and compiled code give the same bits."""
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.controllers import ALGORITHMS
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.physics.arithmetic import maximum
+from uictest.physics.flow import mass_flow, orifice_law
+from uictest.rig.backends.compiled import translate
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.model.stop import run_stop
+from uictest.rig.model.trace import ROW
+
+QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
+# Each setting takes other ways through the code, within few steps.
+SETTINGS = {
+    "standstill on a dry rail": (
+        ("initial_speed=1.1 km/h", "rail.gradient=20 permille", "simulation.time_step=1 ms"),
+        QUICK_BRAKE,
+    ),
+    "slides, vents and a lock on a slippery rail": (
+        ("initial_speed=20 km/h", "rail.condition=wet", "rail.friction=0.03", "simulation.time_step=1 ms"),
+        {**QUICK_BRAKE, "valve_delay_cycles": 1, "sounding_interval": 0.1, "cycles": 70},
+    ),
+    "four calipers and the slip-band controller": (
+        ("rig.topology=four-caliper", "controller=slip-band", "rail.condition=wet", "rail.friction=0.04"),
+        {**QUICK_BRAKE, "valve_delay_cycles": 0, "lower_slide": 0.02, "upper_slide": 0.05, "cycles": 30},
+    ),
+    "no compensation, WSP bypassed, downhill": (
+        ("rig.compensation=none", "rig.wsp=bypassed", "rail.gradient=-30 permille", "seed=4294967295"),
+        {**QUICK_BRAKE, "cycles": 20},
+    ),
+}
+
+
+def everything(function: Any, parameters: Any, rail: Any, every: int) -> dict[str, bytes]:
+    """Bytes of all records and of the trace after a stop."""
+    layouts = {"car": CAR, "bogies": BOGIE, "wheelsets": WHEELSET}
+    layouts |= {"measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
+    counts = (1, 2, 4, 1, 4)
+    records = {name: np.zeros(n, layout) for n, (name, layout) in zip(counts, layouts.items(), strict=True)}
+    trace = np.zeros((parameters.cycles * parameters.steps_per_cycle + 1 if every else 0, ROW))
+    car, bogies, wheelsets, measures, wheelset_measures = records.values()
+    function(car[0], bogies, wheelsets, parameters, rail, measures[0], wheelset_measures, trace, every)
+    return {name: record.tobytes() for name, record in records.items()} | {"trace": trace.tobytes()}
+
+
+def fields_that_differ(layout: np.dtype[Any], one: bytes, other: bytes) -> list[str]:
+    a, b = (np.frombuffer(data, layout) for data in (one, other))
+    return [name for name in layout.names or () if a[name].tobytes() != b[name].tobytes()]
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> None:
+    """In every field of every record, and in every sample."""
+    overrides, fields = SETTINGS[setting]
+    if "cycles" not in fields:
+        fields = {**fields, "cycles": 200}
+    parameters, rail = rig.parameters(*overrides, **fields)
+    plain = everything(run_stop, parameters, rail, 1)
+    compiled = everything(compiled_stop(), parameters, rail, 1)
+    for name, layout in (
+        ("car", CAR),
+        ("bogies", BOGIE),
+        ("wheelsets", WHEELSET),
+        ("measures", STOP_MEASURES),
+    ):
+        assert fields_that_differ(layout, plain[name], compiled[name]) == []
+    assert plain == compiled
+
+
+def test_the_settings_reach_what_they_say(rig: Any) -> None:
+    """Standstill, venting and locks happen within the short stops that are compared."""
+    ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
+    standstill, slides, band, downhill = ends.values()
+    assert standstill.measures.stopped == 1.0
+    assert slides.wheelset_measures.valve_actuations.all()
+    assert slides.wheelset_measures.locked_time.any()
+    assert band.wheelset_measures.valve_actuations.any()
+    assert downhill.measures.end_speed > 0.0
+    assert len(ALGORITHMS) == 2
+
+
+SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
+
+
+def test_recording_changes_nothing(rig: Any) -> None:
+    """The same bits without a recording and at several rates, one of them no divisor of the cycle."""
+    outcomes = [rig.stop(*SLIDING, every=every) for every in (0, 1, 7, 20)]
+    assert len({outcome.car.tobytes() for outcome in outcomes}) == 1
+    assert len({outcome.wheelsets.tobytes() for outcome in outcomes}) == 1
+    assert (
+        len({outcome.measures.tobytes() + outcome.wheelset_measures.tobytes() for outcome in outcomes}) == 1
+    )
+
+
+def test_a_sparse_trace_is_part_of_a_dense_one(rig: Any) -> None:
+    dense, sparse = (rig.stop(*SLIDING, every=every).trace for every in (1, 7))
+    np.testing.assert_array_equal(dense[::7], sparse)
+
+
+def test_threads_do_not_disturb_each_other(rig: Any) -> None:
+    """The same stop in six places, and others beside it."""
+    parameters = [rig.parameters(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
+    compiled = compiled_stop()
+    with ThreadPoolExecutor(4) as threads:
+        jobs = [threads.submit(everything, compiled, one, rail, 0) for one, rail in parameters * 2]
+        ends = [job.result() for job in jobs]
+    assert ends[0] == ends[2] == ends[4] == ends[5] == ends[7] == ends[9]
+    assert ends[1] == ends[6] != ends[0]
+
+
+def test_seed_and_case_change_the_noise_and_nothing_else_does(rig: Any) -> None:
+    speeds = [
+        rig.columns(*SLIDING, f"seed={seed}", case_key=key)["measured_speed"][1]
+        for seed, key in ((0, 1), (0, 1), (1, 1), (0, 2))
+    ]
+    assert speeds[0].tobytes() == speeds[1].tobytes()
+    assert np.all(speeds[0] != speeds[2])
+    assert np.all(speeds[0] != speeds[3])
+
+
+THROUGH_AN_ORIFICE = (8e5, 1e5, 1e-8, *orifice_law(0.35, 0.995, 293.15))
+
+
+def test_translation_wraps_every_function_of_the_package_and_leaves_the_originals_alone() -> None:
+    wrapped: list[str] = []
+
+    def note(function: Any) -> Any:
+        wrapped.append(function.__name__)
+        return function
+
+    copy = translate(mass_flow, note, {})
+    of_fma = {"fma", "_exact_sum", "_lost", "_upper_half"}
+    assert set(wrapped) == {"mass_flow", "maximum", "minimum", "select", "sqrt"} | of_fma
+    assert copy is not mass_flow
+    assert copy(*THROUGH_AN_ORIFICE) == mass_flow(*THROUGH_AN_ORIFICE)
+    assert mass_flow.__globals__["maximum"] is maximum
+
+
+def test_translation_replaces_what_it_is_told_to_replace() -> None:
+    """With a larger maximum the pressure upstream is larger, and so is the flow."""
+    copy = translate(mass_flow, lambda function: function, {maximum: lambda a, b: 2.0 * max(a, b)})
+    assert copy(*THROUGH_AN_ORIFICE) > mass_flow(*THROUGH_AN_ORIFICE)

@@ -1,0 +1,113 @@
+"""Once per controller cycle: friction under each wheelset, sensor noise and the delay of the valves."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.controllers import decide
+from uictest.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.rig.backends.compiled import translate
+from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.step import step
+
+Benches = Callable[[Any], Any]
+
+
+def scripted(commands: list[int]) -> Any:
+    """The cycle with a controller that gives every wheelset the next of these commands, then fills."""
+    script = iter(commands)
+
+    def follow(car: Any, wheelsets: Any, p: Any) -> None:
+        command = next(script, FILL)
+        for wheelset in wheelsets:
+            wheelset.command = command
+
+    return translate(begin_cycle, lambda function: function, {decide: follow})
+
+
+def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[str, np.ndarray]:
+    """Openings of the first valve after each step."""
+    cycle = scripted(commands)
+    vent, fill = [], []
+    for _ in range(cycles):
+        cycle(bench.car, bench.wheelsets, bench.p, rail)
+        command_valves(bench.car, bench.wheelsets, bench.p)
+        for _ in range(bench.p.steps_per_cycle):
+            step(bench.car, bench.bogies, bench.wheelsets, bench.p)
+            vent.append(bench.wheelsets[0].vent_opening)
+            fill.append(bench.wheelsets[0].fill_opening)
+    return {"vent": np.array(vent), "fill": np.array(fill)}
+
+
+@pytest.mark.parametrize("steps", [1, 19, 20, 21, 127, 128, 240])
+def test_valve_moves_a_whole_delay_after_the_command(rig: Any, bench: Benches, steps: int) -> None:
+    """Exact to the step, whatever part of a controller cycle the delay ends in."""
+    delay = f"brake.system.wsp_valve.switching_delay={steps * 0.5} ms"
+    parameters, rail = rig.parameters(delay, "brake.system.wsp_valve.travel_time=0.5 ms")
+    commanded, until = 3, 9
+    seen = openings(bench(parameters), rail, [FILL] * commanded + [VENT] * (until - commanded), 30)
+    expected = np.zeros(600)
+    expected[commanded * 20 + steps : until * 20 + steps] = 1.0
+    np.testing.assert_array_equal(seen["vent"], expected)
+    np.testing.assert_array_equal(seen["fill"], 1.0 - expected)
+
+
+def test_valve_travels_for_its_travel_time(rig: Any, bench: Benches) -> None:
+    parameters, rail = rig.parameters("brake.system.wsp_valve.travel_time=20 ms")
+    seen = openings(bench(parameters), rail, [FILL] + [HOLD] * 20, 20)
+    moving = (seen["fill"] > 0.0) & (seen["fill"] < 1.0)
+    assert moving.sum() + 1 == pytest.approx(40, abs=1)
+    assert not seen["vent"].any()
+
+
+def test_bypassed_valves_always_fill(rig: Any, bench: Benches) -> None:
+    parameters, rail = rig.parameters("rig.wsp=bypassed")
+    seen = openings(bench(parameters), rail, [VENT] * 20, 20)
+    assert np.all(seen["fill"] == 1.0)
+    assert not seen["vent"].any()
+
+
+def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig: Any, bench: Benches) -> None:
+    """The second wheelset of a bogie is a wheelbase behind, the second bogie the pivots' distance."""
+    parameters, _ = rig.parameters(friction_points=3, friction_times=2)
+    rail = np.array([[0.0, 50.0, 60.0], [0.3, 0.3, 0.05], [0.0, 10.0, 0.0], [1.0, 0.5, 0.0]])
+    wheelbase, pivots = 2.0 * parameters.half_wheelbase, 2.0 * parameters.half_pivot_distance
+    behind = np.array([0.0, wheelbase, pivots, pivots + wheelbase])
+    standing = bench(parameters)
+    for place, time in ((0.0, 0.0), (51.0, 2.0), (58.5, 5.0), (70.0, 20.0), (90.0, 9.0)):
+        standing.car.position, standing.car.time = place, time
+        begin_cycle(standing.car, standing.wheelsets, standing.p, rail)
+        along = np.interp(place - behind, rail[0], rail[1])
+        factor = np.interp(time, [0.0, 10.0], [1.0, 0.5])
+        found = [wheelset.friction for wheelset in standing.wheelsets]
+        np.testing.assert_allclose(found, along * factor, rtol=1e-12)
+
+
+def test_a_step_of_friction_is_met_by_one_wheelset_after_the_other(rig: Any) -> None:
+    friction = (
+        "rail.friction={interpolation: steps, points: [{position: 0 m, friction: 0.3}, "
+        "{position: 40 m, friction: 0.2}]}"
+    )
+    trace = rig.columns("rail.condition=wet", friction, every=20)
+    p = rig.parameters()[0]
+    met = trace["distance"][np.argmax(trace["friction"] < 0.25, axis=0)] - 40.0
+    wheelbase, pivots = 2.0 * p.half_wheelbase, 2.0 * p.half_pivot_distance
+    one_cycle = 80.0 / 3.6 * 0.01
+    np.testing.assert_allclose(met, [0.0, wheelbase, pivots, pivots + wheelbase], atol=2.0 * one_cycle)
+
+
+def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
+    parameters, rail = rig.parameters()
+    rolling = bench(parameters)
+    noise = []
+    for _ in range(400):
+        sense(rolling.car, rolling.wheelsets, rolling.p)
+        begin_cycle(rolling.car, rolling.wheelsets, rolling.p, rail)
+        command_valves(rolling.car, rolling.wheelsets, rolling.p)
+        noise.append([(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets])
+    channels = np.array(noise).reshape(400, 12)
+    np.testing.assert_allclose(np.corrcoef(channels.T), np.eye(12), atol=5.0 / np.sqrt(400))
+    np.testing.assert_allclose(channels[:, 1::3].std(axis=0), parameters.pressure_noise, rtol=0.15)
+    np.testing.assert_allclose(channels[:, 2::3].std(axis=0), parameters.loadcell_noise, rtol=0.15)

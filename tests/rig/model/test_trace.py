@@ -1,0 +1,73 @@
+"""A recording's samples."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.rig.model.trace import CAR_CHANNELS, ROW, SLIDE_SPEED, WHEELSET_CHANNELS
+
+SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
+
+
+def test_a_row_holds_every_channel(rig: Any) -> None:
+    assert len(CAR_CHANNELS) + 4 * len(WHEELSET_CHANNELS) == ROW
+    assert np.isfinite(rig.stop(*SLIDING, every=20).trace).all()
+
+
+@pytest.mark.parametrize("every", [1, 7, 20, 200])
+def test_samples_are_evenly_spaced_from_the_brake_command_on(rig: Any, every: int) -> None:
+    outcome = rig.stop(*SLIDING, every=every)
+    np.testing.assert_array_equal(outcome.trace[:, 0], every * np.arange(len(outcome.trace)) * 5e-4)
+    assert outcome.car.time - outcome.trace[-1, 0] < every * 5e-4
+
+
+def test_channels_agree_with_each_other(rig: Any) -> None:
+    trace = rig.columns(*SLIDING, every=20)
+    p = rig.parameters(*SLIDING)[0]
+    moving = trace["speed"] > SLIDE_SPEED
+    slide = 1.0 - trace["wheel_speed"][moving] / trace["speed"][moving, None]
+    np.testing.assert_allclose(trace["slide"][moving], slide, atol=1e-12)
+    assert not np.any(trace["slide"][~moving])
+    faces = p.calipers_per_wheelset * p.pads_per_caliper
+    torque = faces * p.pad_friction * p.disc_radius * trace["clamping_force"]
+    np.testing.assert_allclose(trace["brake_torque"][1:], torque[1:], rtol=1e-12)
+    assert np.all(trace["adhesion"] <= trace["friction"] + 1e-9)
+    assert set(np.unique(trace["valve_command"])) <= {0.0, 1.0, 2.0}
+    assert np.all(np.diff(trace["distance"][moving]) > 0.0)
+
+
+def test_first_sample_is_as_true_as_the_others(rig: Any) -> None:
+    """At the brake command the wheels roll on the rail that lies there, and the sensors see it."""
+    first = {name: column[0] for name, column in rig.columns(*SLIDING, every=20).items()}
+    assert first["time"] == first["distance"] == 0.0
+    np.testing.assert_allclose(first["friction"], 0.08)
+    np.testing.assert_allclose(first["wheel_speed"], 60.0 / 3.6)
+    np.testing.assert_allclose(first["measured_speed"], 60.0 / 3.6, rtol=5e-3)
+
+
+def test_each_controller_records_its_own_estimate(rig: Any) -> None:
+    """On a good rail both estimates follow the train."""
+    for controller in ("threshold", "slip-band"):
+        trace = rig.columns(f"controller={controller}", every=20)
+        moving = trace["speed"] > 3.0
+        np.testing.assert_allclose(
+            trace["reference_speed"][moving], trace["speed"][moving], rtol=0.01, atol=0.05
+        )
+
+
+def test_naive_estimate_sinks_with_the_wheels_on_a_very_slippery_rail(rig: Any) -> None:
+    """The slip-band controller loses the train's speed and its wheels lock; it is there to show that."""
+    slippery = ("rail.condition=wet", "rail.friction=0.03", "controller=slip-band")
+    trace = rig.columns(*slippery, every=20)
+    after = np.searchsorted(trace["time"], 15.0)
+    assert trace["reference_speed"][after] < 0.2 * trace["speed"][after]
+    assert np.all(trace["wheel_speed"][after] == 0.0)
+
+
+def test_threshold_controller_keeps_the_wheels_turning_on_a_very_slippery_rail(rig: Any) -> None:
+    """It loses sight of the speed as well, but finds it again."""
+    slippery = ("rail.condition=wet", "rail.friction=0.03")
+    threshold = rig.stop(*slippery, every=20).wheelset_measures.longest_lock
+    naive = rig.stop(*slippery, "controller=slip-band", every=20).wheelset_measures.longest_lock
+    assert threshold.max() < 0.1 * naive.min()

@@ -1,0 +1,75 @@
+"""Every shipped case, simulated."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.rig import SimulatedStop, is_warm, simulate
+
+
+@pytest.fixture(name="stops", scope="module")
+def _stops(scenarios: Any) -> dict[str, SimulatedStop]:
+    return {case.id: simulate(case) for case in scenarios}
+
+
+def test_energy_residual_is_below_a_per_mille_in_every_case(stops: dict[str, SimulatedStop]) -> None:
+    assert {
+        name: s.measures.energy_residual
+        for name, s in stops.items()
+        if abs(s.measures.energy_residual) >= 1e-3
+    } == {}
+
+
+def test_air_residual_is_below_1e_9_in_every_case(stops: dict[str, SimulatedStop]) -> None:
+    assert {
+        name: s.measures.air_residual for name, s in stops.items() if abs(s.measures.air_residual) >= 1e-9
+    } == {}
+
+
+def test_every_case_comes_to_a_standstill(stops: dict[str, SimulatedStop]) -> None:
+    assert {name for name, s in stops.items() if s.measures.stopped != 1.0} == set()
+
+
+def test_trailing_wheelsets_slide_first(stops: dict[str, SimulatedStop]) -> None:
+    """In the slide tests, where the rail is the same under all of them."""
+    slide_tests = [name for name in stops if name.startswith("slide-80")]
+    assert len(slide_tests) >= 5
+    assert all(stops[name].measures.sliding_wheelset in (2.0, 4.0) for name in slide_tests)
+
+
+def test_wheels_lock_without_protection(stops: dict[str, SimulatedStop]) -> None:
+    bypassed = stops["wsp-bypassed-80"].wheelset_measures
+    assert np.all(bypassed.locked_time > 10.0)
+    assert not bypassed.valve_actuations.any()
+
+
+def test_dry_rail_lets_nothing_slide(stops: dict[str, SimulatedStop]) -> None:
+    dry = stops["dry-120"]
+    assert np.isnan(dry.measures.sliding_time)
+    assert dry.measures.minimum_deceleration > 0.9
+    assert dry.measures.maximum_deceleration < 1.5
+
+
+def test_compensation_settles_the_valves(stops: dict[str, SimulatedStop]) -> None:
+    """Without it the modules of the one-caliper rig actuate more often than those of four calipers."""
+    none = stops["slide-80[compensation=none]"].wheelset_measures.valve_actuations[1:].sum()
+    four = stops["slide-80-four-caliper"].wheelset_measures.valve_actuations[1:].sum()
+    assert none > 1.2 * four
+
+
+def test_recording_has_every_channel_of_train_and_wheelsets(scenarios: Any) -> None:
+    recording = simulate(scenarios[0], record_every=0.05).recording
+    assert recording is not None
+    time = recording.channels["time"]
+    np.testing.assert_allclose(np.diff(time), 0.05, rtol=1e-9)
+    assert recording.units["clamping_force_4"] == "N"
+    assert all(column.shape == time.shape for column in recording.channels.values())
+
+
+def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
+    assert all(stop.recording is None for stop in stops.values())
+
+
+def test_rig_is_warm_once_it_ran(stops: dict[str, SimulatedStop]) -> None:
+    assert is_warm()

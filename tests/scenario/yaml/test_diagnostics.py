@@ -1,0 +1,57 @@
+"""What a message looks like."""
+
+from pathlib import Path
+
+from uictest.scenario.yaml.diagnostics import ScenarioErrors, diagnose, in_reading_order
+from uictest.scenario.yaml.tree import Document, Place
+from uictest.scenario.yaml.wording import nearest, quoted, suggestion, visible
+
+
+def place(text: str, line: int, column: int, display: str = "a.yaml") -> Place:
+    return Place(Document(display, Path(), text), line, column)
+
+
+def test_a_message_shows_place_line_caret_and_hint() -> None:
+    found = diagnose(place("x\nspeed: 120\n", 2, 8), "'120' has no unit", "speed", "write 120 km/h")
+
+    assert str(found) == (
+        "a.yaml:2:8: speed: '120' has no unit\n    2 | speed: 120\n      |        ^\n      = write 120 km/h"
+    )
+
+
+def test_the_caret_stays_below_what_it_points_at() -> None:
+    for line, column in (("a\t\x1b[2J b: 1", 8), ("\u65e5\u672c b: 1", 4), ("x" * 500 + "b", 501)):
+        excerpt, caret = diagnose(place(line, 1, column), "wrong").excerpt.split("\n")
+        wide = sum(char > "\u2000" for char in excerpt)
+
+        assert excerpt[len(caret) - 1 - wide] == "b"
+
+
+def test_a_file_name_cannot_act_on_the_terminal() -> None:
+    assert str(diagnose(place("", 1, 1, "\x1b[31m\u202e.yaml"), "wrong")).startswith(
+        "\\x1b[31m\\u202e.yaml:1:1:"
+    )
+
+
+def test_the_same_error_is_told_once() -> None:
+    found = diagnose(place("a", 1, 1), "wrong")
+
+    assert ScenarioErrors([found, found]).diagnostics == (found,)
+
+
+def test_reading_order_goes_down_each_file_in_turn() -> None:
+    second, first = diagnose(place("a\nb", 2, 1), "x"), diagnose(place("a\nb", 1, 1), "y")
+    other = diagnose(place("a", 1, 1, "b.yaml"), "z")
+
+    assert in_reading_order([second, other, first]) == [first, second, other]
+
+
+def test_escapes_name_the_character() -> None:
+    assert visible("a\x07\u202eb\U000e0001") == "a\\x07\\u202eb\\U000e0001"
+    assert quoted("x" * 100) == "'" + "x" * 57 + "...'"
+
+
+def test_the_nearest_name_is_found_in_any_case_of_letters() -> None:
+    assert nearest("Intercity-108", ["crh380a", "intercity-180"]) == "intercity-180"
+    assert nearest("zzz", ["crh380a"]) is None
+    assert suggestion("zzz", ["b", "a"]) == "accepted: a, b"

@@ -1,0 +1,187 @@
+"""`--set key=value` and `--seed`."""
+
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.scenario import Case, Diagnostic, ScenarioErrors
+from uictest.scenario.yaml.overrides import parse_overrides
+from uictest.scenario.yaml.tree import as_written
+
+Loaded = Callable[..., list[Case]]
+Refused = Callable[..., tuple[Diagnostic, ...]]
+SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.1, 0.2], seed: [1, 2]}\n"
+
+
+def texts(argument: str) -> list[str]:
+    return [as_written(value) for value in parse_overrides([argument], None)[0].values]
+
+
+def test_one_value_replaces_the_axis_of_its_key(loaded: Loaded, head: str) -> None:
+    cases = loaded(head + SWEPT, "rail.friction=0.15")
+
+    assert [case.id for case in cases] == ["stop[seed=1]", "stop[seed=2]"]
+    assert {case.scenario.rail.friction for case in cases} == {0.15}
+
+
+def test_several_values_become_an_axis(loaded: Loaded, head: str) -> None:
+    cases = loaded(head, "rail.friction=0.09,0.10", "brake.command=80 %, 100 %")
+
+    assert [case.id for case in cases] == [
+        "stop[friction=0.09,command=80]",
+        "stop[friction=0.09,command=100]",
+        "stop[friction=0.10,command=80]",
+        "stop[friction=0.10,command=100]",
+    ]
+
+
+def test_an_override_outranks_every_section(loaded: Loaded, head: str) -> None:
+    sections = "zip: {seed: [1, 2], expect: [pass, fail]}\ninclude: [{seed: 3}, {seed: 4, expect: pass}]\n"
+
+    cases = loaded(head + sections + "exclude: [{seed: 1}]\n", "seed=7")
+
+    assert [case.id for case in cases] == ["stop[expect=pass]", "stop[expect=fail]"]
+    assert {case.scenario.seed for case in cases} == {7}
+
+
+def test_a_part_can_be_changed_inside(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head, "vehicle.body.mass=40 t", "brake.system.tank.volume=3 L")
+
+    assert case.scenario.vehicle.body.mass == 40_000.0
+    assert case.scenario.brake.system.tank.volume == pytest.approx(0.003)
+
+
+def test_the_seed_option_replaces_every_seed(loaded: Loaded, head: str) -> None:
+    cases = loaded(head + "matrix: {seed: [1, 2]}\n", seed=5)
+
+    assert [(case.id, case.scenario.seed) for case in cases] == [("stop", 5)]
+
+
+@pytest.mark.parametrize(
+    ("argument", "values"),
+    [
+        ("a=range(0.09,0.12,0.01)", ["0.09", "0.10", "0.11", "0.12"]),
+        ("a=range(80 %, 100 %, 10 %)", ["80 %", "90 %", "100 %"]),
+        ("a=range(3,1,-1)", ["3", "2", "1"]),
+        ("a=range(0,1,0.4)", ["0.0", "0.4", "0.8"]),
+        ("a=0.03,range(1,2,1)", ["0.03", "1", "2"]),
+        ("a={points: [{position: 0 m, friction: 0.1}]}", ["{points: [{position: 0 m, friction: 0.1}]}"]),
+        ("a='x,y',z", ["x,y", "z"]),
+        ("a=b=c", ["b=c"]),
+    ],
+)
+def test_values_are_split_at_commas_outside_brackets(argument: str, values: list[str]) -> None:
+    assert texts(argument) == values
+
+
+@given(st.integers(-1000, 1000), st.integers(0, 50), st.integers(1, 100))
+def test_a_range_is_exact_and_includes_its_end(first: int, steps: int, step: int) -> None:
+    values = texts(f"a=range({first / 100:.2f},{(first + steps * step) / 100:.2f},{step / 100:.2f})")
+
+    assert values == [f"{(first + number * step) / 100:.2f}" for number in range(steps + 1)]
+
+
+@pytest.mark.parametrize(
+    ("argument", "column", "message"),
+    [
+        ("rail.friction", 1, "not a key and a value"),
+        ("=1", 1, "not a key and a value"),
+        ("a=", 3, "an empty value"),
+        ("a=1,,2", 5, "an empty value"),
+        ("a=range(1,2)", 3, "not a range"),
+        ("a=range(1,2,0)", 3, "never leads"),
+        ("a=range(1,2,-1)", 3, "never leads"),
+        ("a=range(1 m,2 s,1 m)", 3, "same unit"),
+        ("a=range(0,1,0.000001)", 3, "1000001 values"),
+        ("a=*x", 3, "alias"),
+        ("a=\x1b[2J", 3, "not allowed"),
+        ("a=\udcff", 3, "not allowed"),
+    ],
+)
+def test_a_malformed_option_is_refused_at_its_place(argument: str, column: int, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        parse_overrides([argument], None)
+
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.line, found.column) == ("--set", 1, column)
+    assert message in found.message
+    assert str(found).replace("\n", "").isprintable()
+
+
+@pytest.mark.parametrize(
+    ("argument", "key", "hint"),
+    [
+        ("rail.frction=0.1", "rail.frction", "'friction'"),
+        ("brake.comand=90 %,80 %", "brake.comand", "'command'"),
+        ("vehicle.body.mas=1 t", "vehicle.body.mas", "'mass'"),
+        ("matrix=1", "matrix", ""),
+    ],
+)
+def test_an_unknown_key_is_told_as_an_error_of_the_option(
+    argument: str, key: str, hint: str, refused: Refused, head: str
+) -> None:
+    (found,) = refused(head, argument)
+
+    assert (found.file, found.key) == ("--set", key)
+    assert hint in found.hint
+
+
+@given(st.text(max_size=30))
+def test_any_option_is_read_or_refused(argument: str) -> None:
+    try:
+        parse_overrides([argument], None)
+    except ScenarioErrors as errors:
+        assert errors.diagnostics
+
+
+WET = "rail: {condition: wet, friction: 0.09}\n"
+WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "override"),
+    [
+        (WET, "rail.condition=dry"),
+        (WET, "rail.condition=wet,dry"),
+        (WET, "rail.condition.friction=0.2"),
+        (WET_SWEPT, "rail.condition=dry"),
+        (WET_SWEPT, "rail.condition=wet,dry"),
+    ],
+)
+def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
+    refused: Callable[..., tuple[Diagnostic, ...]], head: str, more: str, override: str
+) -> None:
+    over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
+
+    (found,) = refused(head + more, override, over_time)
+
+    assert (found.file, found.key) == ("--set", "rail.condition")
+    assert "rail.friction stays '0.09'" in found.message or "stays '[0.09, 0.1]'" in found.message
+
+
+def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(
+    refused: Callable[..., tuple[Diagnostic, ...]], head: str
+) -> None:
+    (found,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
+
+    assert (found.line, found.column, found.key) == (5, 32, "rail.condition")
+
+
+@pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])
+def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
+    loaded: Callable[..., list[Case]], head: str, more: str
+) -> None:
+    own = loaded(head + more, "rail.condition=dry", "rail.friction=null")
+    given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
+
+    assert [case.scenario.rail.highest_friction for case in own] == [0.55]
+    assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
+
+
+def test_other_numbers_of_a_rail_condition_may_change_alone(
+    loaded: Callable[..., list[Case]], head: str
+) -> None:
+    rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
+
+    assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)

@@ -1,0 +1,44 @@
+"""Plain scalars as YAML 1.2 reads them."""
+
+import math
+
+import pytest
+
+from uictest.scenario.yaml.scalars import resolve
+
+
+@pytest.mark.parametrize(
+    "text", ["on", "off", "yes", "no", "y", "12:30", "1_000", "0b11", "2026-01-01", "1e"]
+)
+def test_what_yaml_1_1_would_convert_is_a_text(text: str) -> None:
+    assert resolve(text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1e3", 1000.0),
+        ("1", 1),
+        ("010", 10),
+        ("0o10", 8),
+        ("0xff", 255),
+        ("-.5", -0.5),
+        ("5.", 5.0),
+        ("true", True),
+        ("False", False),
+        ("~", None),
+        ("", None),
+        ("-.inf", -math.inf),
+    ],
+)
+def test_core_schema(text: str, value: object) -> None:
+    assert resolve(text) == value
+    assert type(resolve(text)) is type(value)
+
+
+def test_not_a_number_is_a_number() -> None:
+    assert math.isnan(float(str(resolve(".nan"))))
+
+
+def test_thousands_of_digits_are_no_integer() -> None:
+    assert resolve("9" * 10_000) == math.inf

@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uictest.scenario import Case, load
+from uictest.studies import StopRunner, stop_runner
+from uictest.studies.stop_runner import seeded
+
+SHIPPED = Path(__file__).parents[2] / "scenarios"
+
+
+@pytest.fixture
+def runs(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+    """Let stops come out as their seed; the stops that were run, as id and seed."""
+    done: list[tuple[str, int]] = []
+
+    def stop(case: Case) -> int:
+        done.append((case.id, case.scenario.seed))
+        return case.scenario.seed
+
+    monkeypatch.setattr(stop_runner, "_stop", stop)
+    return done
+
+
+def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
+    bench = StopRunner()
+    cases = bench.cases("wet-80-command")
+    first = bench.repeated(cases[:2], range(3))
+    again = bench.repeated(cases, range(2, 5))
+    assert [[*map(str, each.stops)] for each in first] == [["0", "1", "2"]] * 2
+    assert [[*map(str, each.stops)] for each in again] == [["2", "3", "4"]] * 3
+    assert len(runs) == len(set(runs)) == 6 + 7
+
+
+def test_work_is_returned_in_order() -> None:
+    assert StopRunner(jobs=3).each(lambda number: number**2, range(50)) == [n**2 for n in range(50)]
+
+
+def test_another_seed_changes_nothing_but_the_seed() -> None:
+    case = StopRunner().cases("slide-80")[0]
+    other = seeded(case, 7)
+    assert other.scenario.seed == 7
+    assert other.scenario.model_copy(update={"seed": case.scenario.seed}) == case.scenario
+
+
+@pytest.mark.parametrize(
+    "name", ["slide-80", "slide-80-four-caliper", "wet-80-command", "dry-120", "slip-120"]
+)
+def test_studies_stop_on_the_rail_of_the_shipped_scenario(name: str) -> None:
+    own = StopRunner().cases(name)
+    shipped = load([SHIPPED / f"{name}.yaml"], ["rig.compensation=full"])
+    for mine, theirs in zip(own, shipped, strict=True):
+        for part in ("initial_speed", "brake", "rail", "rig", "vehicle"):
+            assert getattr(mine.scenario, part) == getattr(theirs.scenario, part)

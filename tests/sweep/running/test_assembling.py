@@ -1,0 +1,148 @@
+"""A case of a sweep has the numbers that the scenario with its values has, to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import JUDGED_KEYS
+from uictest.rig.assembly import FRICTION_KEYS, SECTIONS, assemble, friction_laws
+from uictest.scenario import Case, Scenario, load as load_scenarios
+from uictest.scenario.yaml.model import Model
+from uictest.sweep import Plan
+from uictest.sweep.running.assembling import Assembler
+
+from ..conftest import GRID, Load
+
+SWEEPS = {
+    "grid": GRID + "  initial_speed: [20 km/h, 8 m/s]\n",
+    "parts": """\
+grid:
+  vehicle: [intercity-180, crh380a]
+  vehicle.wheelset.radius: [0.43 m, 0.45 m]
+  controller: [threshold, slip-band]
+  rail.friction: [null, 0.2]
+  rail.condition: [dry, wet]
+""",
+    "laws": """\
+grid:
+  rail.friction:
+    - {points: [{position: 0 m, friction: 0.1}, {position: 5 m, friction: 0.3}], interpolation: steps}
+    - 0.07
+  rail.friction_over_time: [{points: [{time: 0 s, factor: 1}, {time: 3 s, factor: 0.5}]}, null]
+zip: {simulation.time_step: [0.5 ms, 0.25 ms], controller.cycle_time: [10 ms, 5 ms], seed: [3, 4]}
+""",
+    "sample": """\
+grid: {rig.compensation: [none, full]}
+sample:
+  method: sobol
+  size: 16
+  parameters:
+    rail.friction: {uniform: [0.05, 0.15]}
+    brake.command: {triangular: [80 %, 90 %, 100 %]}
+    brake.system.wsp_valve.vent_conductance: {log-uniform: [1e-8 m3/(s Pa), 2e-8 m3/(s Pa)]}
+    brake.system.air.temperature: {normal: {mean: 15 degC, deviation: 8 degC, lower: -5 degC, upper: 35 degC}}
+    rig.topology: {choice: [one-caliper, four-caliper]}
+""",
+}
+
+
+def written_out(plan: Plan, index: int) -> Case:
+    """The case as `uictest run --set ...` would load it, with the id that it has in the sweep."""
+    settings = plan.settings(np.array([index]))
+    # A part first, then what lies inside it: an override of a part would take the inside with it.
+    keys = sorted(settings, key=lambda key: key.count("."))
+    texts = [f"{key}={settings[key][0].text}" for key in keys]
+    case = load_scenarios([Path("stop.yaml")], texts)[0]
+    return replace(case, id=plan.ids(np.array([index]))[0])
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) -> None:
+    plan = load(SWEEPS[name])
+    block = Assembler(plan).block(np.arange(plan.size))
+    assert block.refused == [""] * plan.size
+    for place in range(plan.size):
+        record, rail = assemble(written_out(plan, place))
+        assert record.tobytes() == block.parameters[place].tobytes()
+        assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
+
+
+def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:
+    plan = load(SWEEPS["sample"])
+    whole = Assembler(plan).block(np.arange(plan.size))
+    assembler = Assembler(plan)
+    for place in (31, 3, 17):
+        alone = assembler.block(np.array([place]))
+        assert alone.parameters.tobytes() == whole.parameters[[place]].tobytes()
+
+
+def test_what_cannot_be_together_is_refused_case_by_case(load: Load) -> None:
+    plan = load(
+        "grid:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
+    )
+    refused = Assembler(plan).block(np.arange(6)).refused
+    assert [bool(reason) for reason in refused] == [False, False, False, True, False, False]
+    assert refused[3] == "simulation.time_step: 0.4 ms does not divide the controller cycle of 5 ms"
+
+
+class Watched:
+    """A scenario that notes which keys are read."""
+
+    def __init__(self, model: Model, above: str, read: set[str]) -> None:
+        self.__dict__.update(_model=model, _above=above, _read=read)
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._model, name)
+        if name not in type(self._model).model_fields:
+            self._read.add(self._above.rstrip("."))  # a property may read anything of its model
+            return value
+        key = f"{self._above}{name}"
+        if isinstance(value, Model):
+            return Watched(value, f"{key}.", self._read)
+        self._read.add(key)
+        return value
+
+    def __iter__(self) -> Iterator[Any]:
+        self._read.add(self._above.rstrip("."))
+        return iter(self._model)
+
+
+def keys_read(function: Any, scenario: Scenario) -> set[str]:
+    read: set[str] = set()
+    result = function(Watched(scenario, "", read))
+    if isinstance(result, Iterator):
+        list(result)
+    return read
+
+
+SHIPPED = load_scenarios([Path(__file__).parents[3] / "scenarios"])
+
+
+@pytest.mark.parametrize("case", SHIPPED, ids=lambda case: case.id)
+def test_sections_read_nothing_but_what_they_say(case: Case) -> None:
+    for section, keys in (*SECTIONS.items(), (friction_laws, FRICTION_KEYS)):
+        for read in keys_read(section, case.scenario):
+            assert any(read == key or read.startswith(f"{key}.") for key in keys), (section.__name__, read)
+
+
+@pytest.mark.parametrize("case", SHIPPED[:3], ids=lambda case: case.id)
+def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
+    from uictest.evaluation import evaluate
+
+    from ..conftest import formula
+
+    record, rail = assemble(case)
+    measures, wheelsets = formula(np.array([record]), rail[None])
+    read: set[str] = set()
+    watched: Any = Watched(case.scenario, "", read)
+    for stopped in (1.0, 0.0):
+        measures["stopped"] = stopped
+        evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)
+    for key in read:
+        assert any(key == judged or key.startswith(f"{judged}.") for judged in JUDGED_KEYS), key

@@ -1,0 +1,54 @@
+"""What sets the manifests of two sweeps apart, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.sweep import Plan, Selection, load_sweep, sweep_manifest
+from uictest.sweep.running.manifest import differences
+
+Load = Callable[..., Plan]
+
+
+def manifest(plan: Plan) -> dict[str, Any]:
+    return sweep_manifest(Selection(plan), expression=None, overrides=(), seed=None)
+
+
+def test_a_sweep_has_one_manifest_from_every_working_folder(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = manifest(load())
+    Path("below").mkdir()
+    for folder, file in (("below", "../study.sweep.yaml"), ("/", str(Path("study.sweep.yaml").absolute()))):
+        monkeypatch.chdir(folder)
+        there = manifest(load_sweep(Path(file)))
+        assert list(differences(here, there)) == []
+        assert {**there, "file": here["file"]} == here
+        monkeypatch.chdir(Path(file).absolute().parent)
+
+
+def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
+    inputs = {"left/a.csv": "1", "right/a.csv": "2"}
+    exchanged = {"left/a.csv": "2", "right/a.csv": "1"}
+    assert list(differences({"inputs": inputs}, {"inputs": exchanged})) == ["inputs: left/a.csv, right/a.csv"]
+
+
+@pytest.mark.parametrize(
+    ("name", "one", "other", "said"),
+    [
+        ("cases", 10, 16, "cases: 10 before, 16 now"),
+        ("cases_in_a_part", 16, 32, "cases in a part: 16 before, 32 now"),
+        ("seed", None, 7, "--seed: none before, 7 now"),
+        ("selected", "wet and cold", None, "-k: wet and cold before, none now"),
+        ("set", [], ["a=1", "b=2"], "--set: none before, a=1 and b=2 now"),
+        ("parameters", ["a", "b", "c"], ["d"], "parameters: a, b and c before, d now"),
+        ("versions", {"numpy": "1", "scipy": "1"}, {"numpy": "2", "scipy": "1"}, "versions: numpy"),
+        ("program", "1", "2", "the program itself"),
+    ],
+)
+def test_differences_are_said_as_a_reader_says_them(name: str, one: Any, other: Any, said: str) -> None:
+    assert list(differences({name: one}, {name: other})) == [said]
