@@ -7,7 +7,6 @@ import pytest
 
 from uictest.field_data import MapError, fitting_preset, listing, load_map, presets, proposed_map, select
 from uictest.field_data.channels import UNITS
-from uictest.field_data.units import factor
 from uictest.recording.contents import Contents, Group
 from uictest.scenario import ScenarioErrors
 
@@ -143,19 +142,6 @@ def test_a_unit_alone_proposes_where_only_one_channel_has_it() -> None:
     assert 'speed: "b"' in proposed_map(contents)
     contents = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"), c=([1.0, 1.0], "km/h"))
     assert "speed:" not in proposed_map(contents)
-
-
-@pytest.mark.parametrize(
-    ("unit", "si", "size"),
-    [("km/h", "m/s", 1 / 3.6), ("KM/H", "m/s", 1 / 3.6), ("mbar", "Pa", 100.0), ("kNm", "N m", 1000.0)],
-)
-def test_units(unit: str, si: str, size: float) -> None:
-    assert factor(unit, si) == pytest.approx(size)
-
-
-def test_a_unit_of_another_kind_or_in_doubt_is_none() -> None:
-    assert factor("bar", "m/s") is None
-    assert factor("mPa", "Pa") is None
 
 
 def test_a_preset_that_fits_is_named() -> None:

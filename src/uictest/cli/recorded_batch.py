@@ -14,10 +14,11 @@ from uictest.cli.display import Display
 from uictest.cli.recordings import each_file, names_of
 from uictest.cli.streams import message
 from uictest.scenario import yaml
+from uictest.units import KILOMETRE_PER_HOUR
 
 Stated = Callable[[str, float], "scenario.Case"]
 """The case that a stop is judged as: from its name and its initial speed, m/s."""
-_UNKNOWN_SPEED = 120.0 / 3.6
+_UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
 """m/s, for the scenario of a record whose speed cannot be used: its result is an error whatever it says."""
 
 

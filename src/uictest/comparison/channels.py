@@ -7,9 +7,9 @@ from fnmatch import fnmatchcase
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
-from uictest import evaluation
 from uictest.report import PLOT_QUANTITIES
 from uictest.scenario.yaml import nearest
+from uictest.units import SIZES
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -24,7 +24,7 @@ def in_shown_units(recording: Recording) -> Recording:
 
     units = {name: _shown_unit(name, unit) for name, unit in recording.units.items()}
     channels = {
-        name: samples if units[name] == recording.units[name] else samples / evaluation.UNITS[units[name]]
+        name: samples if units[name] == recording.units[name] else samples / SIZES[units[name]]
         for name, samples in recording.channels.items()
     }
     return Recording(channels, units, recording.metadata)

@@ -19,7 +19,6 @@ from .result import (
     unit_of as unit_of,
 )
 from .simulated import evaluate_simulated as evaluate_simulated
-from .units import UNITS as UNITS
 from .verdict import (
     AppliedDefinition as AppliedDefinition,
     Sensitivity as Sensitivity,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from uictest import scenario
 from uictest.evaluation.conditions import TestConditions
-from uictest.evaluation.units import in_unit, text
+from uictest.units import in_unit, value_text
 
 
 def why_not_applicable(
@@ -40,7 +40,10 @@ def _outside(what: str, found: float, wanted: scenario.Nominal | None, unit: str
     if wanted is None or _within(found, wanted):
         return ""
     is_, nominal, tolerance = (in_unit(number, unit) for number in (found, wanted.value, wanted.tolerance))
-    return f"{what} is {text(is_, unit)}, the criterion is for {nominal:.4g} +- {text(tolerance, unit)}"
+    return (
+        f"{what} is {value_text(is_, unit)}, the criterion is for {nominal:.4g}"
+        f" +- {value_text(tolerance, unit)}"
+    )
 
 
 def _within(found: float, wanted: scenario.Nominal) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from uictest.evaluation.records import StopMeasures, Wheelsets
-from uictest.evaluation.units import text
+from uictest.units import in_unit, value_text
 
 if TYPE_CHECKING:
     from uictest.scenario import Scenario
@@ -72,8 +72,12 @@ def why_cut_off(scenario: Scenario, measures: StopMeasures, coverage: Coverage |
     """Return why a stop was not observed to standstill; empty where it was."""
     if measures.stopped:
         return ""
-    speed = "an unknown speed" if math.isnan(measures.end_speed) else text(measures.end_speed * 3.6, "km/h")
+    speed = (
+        "an unknown speed"
+        if math.isnan(measures.end_speed)
+        else value_text(in_unit(measures.end_speed, "km/h"), "km/h")
+    )
     if coverage is not None:
-        return f"the record ends after {text(measures.end_time, 's')} with the train at {speed}"
+        return f"the record ends after {value_text(measures.end_time, 's')} with the train at {speed}"
     limit = scenario.simulation.maximum_duration.text
     return f"the simulation ended after {limit} at {speed}; raise `simulation.maximum_duration`"

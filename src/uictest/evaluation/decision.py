@@ -10,8 +10,8 @@ from uictest import scenario
 from uictest.evaluation.bounds import Bounds, deciding
 from uictest.evaluation.coverage import MissingData, ObservedStop
 from uictest.evaluation.measure_readers import read
-from uictest.evaluation.units import in_unit, text, tidy, with_unit
 from uictest.evaluation.verdict import Status
+from uictest.units import in_unit, to_12_digits, value_text, with_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ def decide(
 def bounds_of(criterion: scenario.Criterion) -> Bounds:
     """Return the bounds of a criterion in the unit of its measure."""
     lower, upper = (
-        None if bound is None else tidy(in_unit(bound, criterion.unit))
+        None if bound is None else to_12_digits(in_unit(bound, criterion.unit))
         for bound in (criterion.lower, criterion.upper)
     )
     return Bounds(lower, upper, criterion.strict)
@@ -99,7 +99,8 @@ def _of_intervals(
         verdict, value = "fail", deciding(breaking, bounds, needed - possible)
         count = f"{len(breaking)} {wheelsets} miss {demand}, {needed} must keep it"
     shown = [
-        text(value, "1") if _known(value, gap) else "-" for value, gap in zip(values, missing, strict=True)
+        value_text(value, "1") if _known(value, gap) else "-"
+        for value, gap in zip(values, missing, strict=True)
     ]
     reasons = _listed([gap for gap in missing if gap])
     if set(shown) == {"-"}:
@@ -131,11 +132,11 @@ def _why(values: list[float], value: float, bounds: Bounds, needed: int, unit: s
     if len(values) == 1:
         return "" if bounds.hold(value) else _broken(value, bounds, demand, unit)
     kept = sum(bounds.hold(each) for each in values)
-    listed = with_unit(", ".join(text(each, "1") for each in values), unit)
+    listed = with_unit(", ".join(value_text(each, "1") for each in values), unit)
     return f"{kept} of {len(values)} wheelsets keep {demand}, {needed} needed: {listed}"
 
 
 def _broken(value: float, bounds: Bounds, demand: str, unit: str) -> str:
     if not math.isfinite(value):
         return f"{value} never keeps {demand}"
-    return f"{text(value, unit)} misses {demand} by {text(-bounds.margin(value), unit)}"
+    return f"{value_text(value, unit)} misses {demand} by {value_text(-bounds.margin(value), unit)}"

@@ -13,7 +13,7 @@ from uictest.evaluation.measure_value import MeasureValue
 from uictest.evaluation.records import StopMeasures, WheelsetMeasures
 from uictest.evaluation.result import CaseMeasures, CaseWheelsetMeasures, whole
 from uictest.evaluation.stopping import mean_deceleration
-from uictest.evaluation.units import in_unit, normal_volume
+from uictest.units import in_unit, normal_volume
 
 
 def figures_of(measures: StopMeasures, first_phase_duration: float) -> CaseMeasures:

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from uictest import scenario
 from uictest.evaluation.decision import bounds_of
-from uictest.evaluation.units import in_unit, text, with_unit
 from uictest.evaluation.verdict import AppliedDefinition
 from uictest.scenario import yaml
+from uictest.units import in_unit, value_text, with_unit
 
 
 def meaning_of(
@@ -55,7 +55,7 @@ def applied_definitions(
 
 def _parameter(parameter: scenario.Parameter, sources: Mapping[str, yaml.Source]) -> str:
     value, lower, upper = (
-        text(in_unit(number, parameter.unit), parameter.unit)
+        value_text(in_unit(number, parameter.unit), parameter.unit)
         for number in (parameter.value, *parameter.range)
     )
     return f"{value} ({_mark(parameter.value, sources)}; range {lower} .. {upper})"

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from uictest.evaluation import adhesion, slide, stopping
 from uictest.evaluation.measure_value import MeasureValue, unsupported, value
 from uictest.evaluation.records import StopMeasures, Wheelsets
-from uictest.evaluation.units import normal_volume
+from uictest.units import normal_volume
 
 Definition = Mapping[str, float]
 """Definition parameter -> its SI value."""

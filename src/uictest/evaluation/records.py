@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
-SLIDE_CLASS = 10.0 / 3.6
+from uictest.units import KILOMETRE_PER_HOUR
+
+SLIDE_CLASS = 10.0 * KILOMETRE_PER_HOUR
 """m/s: `maximum_slide_above[k]` counts while the train runs faster than k of these (10 km/h each)."""
 
 SECONDS_AFTER_SLIDING = 11

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from itertools import groupby, pairwise
 
 from uictest.evaluation.decision import Decision
-from uictest.evaluation.units import in_unit
 from uictest.evaluation.verdict import Sensitivity, Status, VerdictInterval
+from uictest.units import in_unit
 
 RESOLUTION = 1e-7
 """In the unit of the definition: how closely a flip is located."""

@@ -11,7 +11,6 @@ from pydantic import BeforeValidator, Field
 from uictest import library
 from uictest.field_data.channels import UNITS, WHEELSETS
 from uictest.field_data.preparation import Preparation
-from uictest.field_data.units import accepted, factor
 from uictest.recording.formats import Dialect
 from uictest.scenario import Files, Roots, is_path
 from uictest.scenario.yaml import (
@@ -27,6 +26,7 @@ from uictest.scenario.yaml import (
     suggestion,
     validated,
 )
+from uictest.units import recorded_spellings, recorded_unit_size
 
 SCHEMA: Final = "uictest/channel-map/1"
 DEFAULT: Final = "uictest"
@@ -102,11 +102,11 @@ class ChannelMap(Model):
                 yield Inconsistency(
                     ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
                 )
-            elif source.unit and factor(source.unit, UNITS[of_first]) is None:
+            elif source.unit and recorded_unit_size(source.unit, UNITS[of_first]) is None:
                 yield Inconsistency(
                     ("channels", name, "unit"),
                     f"{quoted(source.unit)} is no unit of {name}",
-                    "accepted: " + ", ".join(accepted(UNITS[of_first])),
+                    "accepted: " + ", ".join(recorded_spellings(UNITS[of_first])),
                 )
 
     @property

@@ -6,6 +6,7 @@ import numpy as np
 
 from uictest.field_data.raw import MapError, RawChannel
 from uictest.field_data.standstill import first_lasting_fall
+from uictest.units import KILOMETRE_PER_HOUR
 
 _LEAST, _LARGEST = 0.01, 20.0
 """m/s2: less than a train loses that rolls out, and twice the acceleration of gravity; chosen."""
@@ -23,8 +24,9 @@ def refuse_implausible_deceleration(speed: RawChannel, begin: float) -> None:
     duration = float(since[halved])
     if _LEAST <= 0.5 * samples[0] / duration <= _LARGEST:
         return
+    initial_speed = samples[0] / KILOMETRE_PER_HOUR
     raise MapError(
-        f"the train slows from {3.6 * samples[0]:.4g} to {1.8 * samples[0]:.4g} km/h in {duration:.4g} s, at"
+        f"the train slows from {initial_speed:.4g} to {0.5 * initial_speed:.4g} km/h in {duration:.4g} s, at"
         f" {0.5 * samples[0] / duration:.4g} m/s2; {_LEAST} to {_LARGEST} m/s2 are plausible: check the units"
         " of time and speed"
     )

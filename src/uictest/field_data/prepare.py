@@ -29,6 +29,7 @@ from uictest.field_data.time_axis import (
 from uictest.field_data.trigger import FoundTrigger, find_trigger
 from uictest.field_data.wheel_speeds import speed_defects
 from uictest.recording import TIME, Recording
+from uictest.units import KILOMETRE_PER_HOUR
 
 _SLACK = 1e-6
 
@@ -152,7 +153,7 @@ def _cut_off(speed: RawChannel, trigger: FoundTrigger, rest: Standstill | None) 
     if rest is None:
         known = np.isfinite(speed.samples)
         last = speed.samples[known][-1] if known.any() else np.nan
-        text = f"ends at {speed.time[-1]:.6g} s with the train at {3.6 * last:.4g} km/h"
+        text = f"ends at {speed.time[-1]:.6g} s with the train at {last / KILOMETRE_PER_HOUR:.4g} km/h"
         yield Defect("ends-before-standstill", "the record", text)
 
 

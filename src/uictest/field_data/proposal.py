@@ -11,9 +11,9 @@ import numpy as np
 from uictest.field_data.channel_map import DEFAULT, load_map
 from uictest.field_data.channels import UNITS, of_wheelsets
 from uictest.field_data.support import measures_of
-from uictest.field_data.units import factor
 from uictest.recording import Contents, Group, Samples
 from uictest.recording.formats import Dialect
+from uictest.units import recorded_unit_size
 
 _COMMON = "common-names"
 _ESSENTIAL = ("speed", *of_wheelsets("wheel_speed"))
@@ -113,7 +113,7 @@ def _by_unit(contents: Contents, taken: set[str]) -> Iterator[tuple[str, str]]:
             name
             for group in contents.groups
             for name, unit in group.units.items()
-            if name not in taken and factor(unit, UNITS[canonical]) is not None
+            if name not in taken and recorded_unit_size(unit, UNITS[canonical]) is not None
         ]
         if len(fitting) == 1:
             yield canonical, fitting[0]
@@ -133,7 +133,7 @@ def _group_of(name: str, contents: Contents) -> Group | None:
 
 def _has_unit(group: Group | None, canonical: str, name: str) -> bool:
     unit = "" if group is None else group.units.get(name, "")
-    return UNITS[canonical] == "1" or factor(unit, UNITS[canonical]) is not None
+    return UNITS[canonical] == "1" or recorded_unit_size(unit, UNITS[canonical]) is not None
 
 
 def _span(samples: Samples) -> str:

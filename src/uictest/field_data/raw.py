@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from uictest.field_data.channel_map import ChannelMap, Source
 from uictest.field_data.channels import UNITS
-from uictest.field_data.units import accepted, factor
 from uictest.recording import (
     STATES,
     TIME,
@@ -25,6 +24,7 @@ from uictest.recording import (
     state_kind,
 )
 from uictest.scenario.yaml import quoted, suggestion
+from uictest.units import recorded_spellings, recorded_unit_size
 
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:([., '])\d{3}(?:\1\d{3})+(?:[.,]\d+)?|([., '])\d{3}[.,]\d+)")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
@@ -132,7 +132,7 @@ def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
 
 def _implausible(name: str, converted: Array, unit: str) -> Implausible | None:
     si = UNITS[name]
-    sizes = {**{each: float(size) for each, size in accepted(si).items()}, unit: factor(unit, si) or 1.0}
+    sizes = {**recorded_spellings(si), unit: recorded_unit_size(unit, si) or 1.0}
     if name == TIME:
         return implausible_time(converted, unit, sizes)
     return implausible_unit(converted, si, unit, sizes)
@@ -154,10 +154,10 @@ def _size(name: str, unit: str, original: str) -> float:
         raise MapError(
             f"{name}: the file does not say the unit of {quoted(original)}: write it in the channel map"
         )
-    size = factor(unit, si)
+    size = recorded_unit_size(unit, si)
     if size is None:
         raise MapError(
-            f"{name}: {quoted(original)} is in {quoted(unit)}, accepted: {', '.join(accepted(si))};"
+            f"{name}: {quoted(original)} is in {quoted(unit)}, accepted: {', '.join(recorded_spellings(si))};"
             " write the unit in the channel map"
         )
     return size

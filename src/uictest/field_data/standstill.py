@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from uictest.field_data.raw import Array
+from uictest.units import KILOMETRE_PER_HOUR
 
 _WINDOW = 0.5
 """s: the deceleration over this time before is taken to last until standstill; chosen."""
@@ -71,5 +72,5 @@ def _run_out(time: Array, speed: Array, last: int) -> Standstill | None:
         return None
     rest = float(speed[last]) / deceleration
     beyond = 0.5 * float(speed[last]) * rest
-    text = f"run out from {3.6 * float(speed[last]):.2f} km/h over {rest:.3f} s"
+    text = f"run out from {float(speed[last]) / KILOMETRE_PER_HOUR:.2f} km/h over {rest:.3f} s"
     return Standstill(float(time[last]) + rest, beyond, float(time[last]), text)

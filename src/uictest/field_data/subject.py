@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from uictest import report
 from uictest.field_data.channels import UNITS, WHEELSETS
+from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from uictest.field_data.prepare import RecordedStop
@@ -33,7 +34,7 @@ def recorded_subject(case: Case, stop: RecordedStop | None) -> report.CaseDescri
 
 def _conditions(scenario: Scenario, stop: RecordedStop | None) -> Iterator[tuple[str, str]]:
     if stop is not None:
-        yield "initial speed", f"{3.6 * stop.recording['speed'][0]:.4g} km/h, recorded"
+        yield "initial speed", f"{stop.recording['speed'][0] / KILOMETRE_PER_HOUR:.4g} km/h, recorded"
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     yield "brake position", brake.position + _unless_stated("position" in brake.model_fields_set)
     yield "brake command", brake.command.text + _unless_stated("command" in brake.model_fields_set)

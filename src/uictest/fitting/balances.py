@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from uictest.fitting.creep import wheelset_creep
 from uictest.fitting.samples import Samples
-from uictest.fitting.wheel_loads import STANDARD_GRAVITY
+from uictest.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from uictest.scenario import Scenario

@@ -9,6 +9,7 @@ import numpy as np
 from uictest.field_data import RecordedStop, of_wheelsets
 from uictest.recording import TIME, Recording
 from uictest.rig import SimulatedStop
+from uictest.units import KILOMETRE_PER_HOUR
 
 _COMPARED = ("speed", *of_wheelsets("wheel_speed"))
 
@@ -25,10 +26,11 @@ class Agreement:
 
     def __str__(self) -> str:
         """Return the comparison for a reader."""
+        speed = self.speed_difference / KILOMETRE_PER_HOUR
         return (
             f"recorded stop {self.recorded_time:.2f} s, {self.recorded_distance:.1f} m;"
             f" simulated {self.simulated_time:.2f} s, {self.simulated_distance:.1f} m;"
-            f" train speeds differ by {3.6 * self.speed_difference:.2f} km/h (root mean square)"
+            f" train speeds differ by {speed:.2f} km/h (root mean square)"
         )
 
 

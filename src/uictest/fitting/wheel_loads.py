@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import scenario
+from uictest.units import STANDARD_GRAVITY
 
-STANDARD_GRAVITY = 9.80665
-"""m/s2 (ISO 80000-3)."""
 _WHEELS = 8
 Array = NDArray[np.float64]
 

@@ -7,7 +7,11 @@ from .caliper import (
 )
 from .cylinder import memory as memory, output as output
 from .disc_brake import torque as torque
-from .flow import mass_flow as mass_flow, orifice_law as orifice_law
+from .flow import (
+    REFERENCE_DENSITY as REFERENCE_DENSITY,
+    mass_flow as mass_flow,
+    orifice_law as orifice_law,
+)
 from .hysteresis import force_after as force_after, line as line, phase_share as phase_share
 from .noise import bell as bell, threefry as threefry
 from .polach import (

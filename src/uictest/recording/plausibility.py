@@ -10,6 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.units import BAR, KILOMETRE_PER_HOUR
+
 Array = NDArray[np.float64]
 
 
@@ -33,8 +35,8 @@ class Limit:
 # brakes work below 12 bar, a caliper clamps with some ten kN.
 LARGEST: Final = MappingProxyType(
     {
-        "m/s": Limit(1000.0 / 3.6, "1000 km/h"),
-        "Pa": Limit(100e5, "100 bar"),
+        "m/s": Limit(1000.0 * KILOMETRE_PER_HOUR, "1000 km/h"),
+        "Pa": Limit(100.0 * BAR, "100 bar"),
         "N": Limit(1e7, "10 MN"),
         "N m": Limit(1e6, "1000 kN m"),
         "m": Limit(1e10, "10 million km"),

@@ -14,9 +14,8 @@ from uictest.physics import orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled
 from uictest.rig.model.records import PARAMETERS
 from uictest.scenario import Case, Scenario
+from uictest.units import STANDARD_GRAVITY
 
-STANDARD_GRAVITY = 9.80665
-"""Standard acceleration of free fall, m/s2 (ISO 80000-3)."""
 _ALWAYS = 1.0
 
 Value = tuple[str, float]

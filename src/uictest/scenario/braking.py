@@ -7,8 +7,7 @@ from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.criteria import WHEELSETS
 from uictest.scenario.parts.vehicle import Vehicle
-
-STANDARD_GRAVITY = 9.80665
+from uictest.units import STANDARD_GRAVITY
 
 
 def stopping_time_at_least(speed: float, friction: float, gradient: float, vehicle: Vehicle) -> float:

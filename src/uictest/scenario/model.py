@@ -8,7 +8,6 @@ from pydantic import Discriminator, Field, Tag
 
 from uictest.physics import LONGEST_DELAY_CYCLES
 from uictest.scenario.braking import (
-    STANDARD_GRAVITY,
     braking_force,
     largest_clamping_force,
     stopping_time_at_least,
@@ -35,6 +34,7 @@ from uictest.scenario.yaml import (
     quoted,
     suggestion,
 )
+from uictest.units import STANDARD_GRAVITY
 
 SCENARIO_SCHEMA = "uictest/scenario/1"
 SMALLEST_SUM_AT_REST = 1e-12

@@ -10,8 +10,8 @@ from uictest.studies.figures.appendix_b import draw
 from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import seeded
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import KILOMETRE_PER_HOUR, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -104,13 +104,13 @@ def _value(verdicts: list[evaluation.Verdict], criterion: str) -> float:
 
 def _table(recording: Recording) -> Table:
     columns: dict[str, list[float]] = {
-        "time_s": shown(recording["time"], 1.0, 3),
-        "distance_m": shown(recording["distance"], 1.0, 3),
-        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+        "time_s": column(recording["time"], 1.0, 3),
+        "distance_m": column(recording["distance"], 1.0, 3),
+        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
     }
     for n in (1, 2, 3, 4):
-        columns[f"wheel_speed_{n}_kmh"] = shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
-        columns[f"slide_{n}"] = shown(recording[f"slide_{n}"], 1.0, 4)
+        columns[f"wheel_speed_{n}_kmh"] = column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+        columns[f"slide_{n}"] = column(recording[f"slide_{n}"], 1.0, 4)
     return columns
 
 

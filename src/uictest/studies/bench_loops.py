@@ -9,8 +9,8 @@ from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import lines_of
 from uictest.studies.quantity import FoundValue, StudyQuantity
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import BAR, KILONEWTON, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -60,10 +60,10 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 def _table(recording: Recording) -> Table:
     part = slice(None, None, _EVERY)
     return {
-        "time_s": shown(recording["time"][part], 1.0, 3),
-        "demanded_pressure_bar": shown(recording["demanded_pressure"][part], BAR, 4),
-        "measured_pressure_1_bar": shown(recording["measured_pressure_1"][part], BAR, 4),
-        "clamping_force_1_kn": shown(recording["clamping_force_1"][part], KILONEWTON, 4),
+        "time_s": column(recording["time"][part], 1.0, 3),
+        "demanded_pressure_bar": column(recording["demanded_pressure"][part], BAR, 4),
+        "measured_pressure_1_bar": column(recording["measured_pressure_1"][part], BAR, 4),
+        "clamping_force_1_kn": column(recording["clamping_force_1"][part], KILONEWTON, 4),
     }
 
 

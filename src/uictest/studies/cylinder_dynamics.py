@@ -11,8 +11,8 @@ from uictest.studies.figures.cylinder_dynamics import draw
 from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import seeded
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import BAR, PERCENT, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import BAR, PERCENT
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -91,10 +91,10 @@ def largest_errors(recording: Recording, top: float) -> tuple[float, float]:
 def _table(recording: Recording) -> Table:
     part = slice(None, None, _EVERY)
     return {
-        "time_s": shown(recording["time"][part], 1.0, 3),
-        "cylinder_pressure_1_bar": shown(recording["tank_pressure_1"][part], BAR, 4),
-        "tank_pressure_2_bar": shown(recording["tank_pressure_2"][part], BAR, 4),
-        "compensated_pressure_2_bar": shown(recording["cylinder_pressure_2"][part], BAR, 4),
+        "time_s": column(recording["time"][part], 1.0, 3),
+        "cylinder_pressure_1_bar": column(recording["tank_pressure_1"][part], BAR, 4),
+        "tank_pressure_2_bar": column(recording["tank_pressure_2"][part], BAR, 4),
+        "compensated_pressure_2_bar": column(recording["cylinder_pressure_2"][part], BAR, 4),
     }
 
 

@@ -14,8 +14,8 @@ from uictest import rig
 from uictest.scenario import Case, FrictionProfile
 from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import KILOMETRE_PER_HOUR, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -189,11 +189,11 @@ def _table(
 
 def _stop_table(recording: Recording) -> Table:
     return {
-        "time_s": shown(recording["time"], 1.0, 3),
-        "distance_m": shown(recording["distance"], 1.0, 3),
-        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+        "time_s": column(recording["time"], 1.0, 3),
+        "distance_m": column(recording["distance"], 1.0, 3),
+        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
         **{
-            f"wheel_speed_{n}_kmh": shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+            f"wheel_speed_{n}_kmh": column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
             for n in (1, 2, 3, 4)
         },
     }

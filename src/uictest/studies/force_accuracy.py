@@ -11,8 +11,8 @@ from uictest.studies.figures.force_accuracy import draw
 from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import seeded
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import KILONEWTON, PERCENT, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import KILONEWTON, PERCENT
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -83,8 +83,8 @@ def largest_error(recording: Recording, channel: str) -> float:
 def _table(recording: Recording) -> Table:
     part = slice(None, None, _EVERY)
     columns = {"clamping_force_1": "clamping_force_1"} | {name: name for name in CHANNELS.values()}
-    return {"time_s": shown(recording["time"][part], 1.0, 3)} | {
-        f"{name}_kn": shown(recording[channel][part], KILONEWTON, 4) for name, channel in columns.items()
+    return {"time_s": column(recording["time"][part], 1.0, 3)} | {
+        f"{name}_kn": column(recording[channel][part], KILONEWTON, 4) for name, channel in columns.items()
     }
 
 

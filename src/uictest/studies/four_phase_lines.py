@@ -12,8 +12,8 @@ from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.phases import TITLES, lines_of, on_phases
 from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.replay import CYCLE, replayed
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -91,9 +91,9 @@ def _samples_table(recording: Recording) -> Table:
     for phase, mask in on_phases(recording).items():
         names[mask] = phase
     return {
-        "time_s": shown(recording["time"][part], 1.0, 3),
-        "measured_pressure_1_bar": shown(recording["measured_pressure_1"][part], BAR, 4),
-        "clamping_force_1_kn": shown(recording["clamping_force_1"][part], KILONEWTON, 4),
+        "time_s": column(recording["time"][part], 1.0, 3),
+        "measured_pressure_1_bar": column(recording["measured_pressure_1"][part], BAR, 4),
+        "clamping_force_1_kn": column(recording["clamping_force_1"][part], KILONEWTON, 4),
         "phase": names[part].tolist(),
     }
 

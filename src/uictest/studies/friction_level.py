@@ -9,7 +9,7 @@ from uictest.studies.figures.levels import draw
 from uictest.studies.quantity import FoundValue, StudyQuantity
 from uictest.studies.slopes import loops, slope_spread, slopes_table
 from uictest.studies.study import Study, StudyFindings
-from uictest.studies.units import PERCENT
+from uictest.units import PERCENT
 
 if TYPE_CHECKING:
     from uictest.studies.stop_runner import StopRunner

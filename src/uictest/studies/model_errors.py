@@ -12,7 +12,7 @@ from uictest import scenario
 from uictest.studies.neighbourhood import SETTINGS, WITHOUT_CALIPER, Point
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import seeded
-from uictest.studies.units import PERCENT
+from uictest.units import PERCENT
 
 if TYPE_CHECKING:
     from uictest.recording import Recording

@@ -13,7 +13,7 @@ from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
 from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
 from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import LITRE, PERCENT, STANDARD_AIR
+from uictest.units import PERCENT, in_unit, normal_volume
 
 if TYPE_CHECKING:
     from uictest.rig import SimulatedStop
@@ -144,7 +144,7 @@ def _value(stop: SimulatedStop, key: str, wheelset: int) -> float:
         value = float(stop.wheelset_measures[wheelset - 1][key])
         return value / PERCENT if key == "maximum_slide" else value
     value = float(stop.measures[key])
-    return value / STANDARD_AIR / LITRE if key == "air_consumed" else value
+    return in_unit(normal_volume(value), "NL") if key == "air_consumed" else value
 
 
 def _table(found: Sequence[RigDifference]) -> Table:

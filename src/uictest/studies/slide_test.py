@@ -11,8 +11,8 @@ from uictest import rig
 from uictest.studies.figures.slide_test import draw
 from uictest.studies.quantity import FoundValue, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
-from uictest.studies.study import Study, StudyFindings, Table
-from uictest.studies.units import BAR, KILOMETRE_PER_HOUR, shown
+from uictest.studies.study import Study, StudyFindings, Table, column
+from uictest.units import BAR, KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -103,14 +103,14 @@ def unlikeness(recording: Recording) -> float:
 
 def _table(recording: Recording) -> Table:
     columns: dict[str, list[float]] = {
-        "time_s": shown(recording["time"], 1.0, 3),
-        "distance_m": shown(recording["distance"], 1.0, 3),
-        "speed_kmh": shown(recording["speed"], KILOMETRE_PER_HOUR, 3),
+        "time_s": column(recording["time"], 1.0, 3),
+        "distance_m": column(recording["distance"], 1.0, 3),
+        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
     }
     for n in WHEELSETS:
-        columns[f"wheel_speed_{n}_kmh"] = shown(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+        columns[f"wheel_speed_{n}_kmh"] = column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
     for n in WHEELSETS:
-        columns[f"tank_pressure_{n}_bar"] = shown(recording[f"tank_pressure_{n}"], BAR, 4)
+        columns[f"tank_pressure_{n}_bar"] = column(recording[f"tank_pressure_{n}"], BAR, 4)
     return columns
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from uictest import identification, scenario
 from uictest.studies.phases import TITLES, lines_of
 from uictest.studies.replay import CYCLE, replayed
-from uictest.studies.units import KILONEWTON, KILONEWTON_PER_BAR
+from uictest.units import KILONEWTON, KILONEWTON_PER_BAR
 
 if TYPE_CHECKING:
     from uictest.recording import Recording

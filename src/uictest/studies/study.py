@@ -6,6 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from uictest.studies.quantity import BandStatus, FoundValue, PaperComparison, StudyQuantity
 
 if TYPE_CHECKING:
@@ -84,3 +87,9 @@ def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
     if missing:
         raise KeyError(f"{study.name} finds no figure for {', '.join(missing)}")
     return StudyResult(study, findings)
+
+
+def column(samples: NDArray[Any], unit: float, digits: int) -> list[float]:
+    """Return samples, SI, in a unit of that size, rounded for the column of a table."""
+    rounded: list[float] = np.round(samples / unit, digits).tolist()
+    return rounded

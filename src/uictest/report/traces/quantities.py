@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from uictest.units import BAR, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
+
 WHEELSETS = (1, 2, 3, 4)
-KMH = 1.0 / 3.6
-"""m/s"""
-GRAVITY = 9.80665
-"""m/s2, exact by definition."""
 ORDINARY_CREEP = 10.0
 """%: the axis of the slide reaches at least so far, so that a wheel that only creeps is seen to; chosen."""
 
@@ -25,15 +23,15 @@ class PlotQuantity:
 
 PLOT_QUANTITIES = {
     "distance": PlotQuantity("distance", "m"),
-    "speed": PlotQuantity("train", "km/h", KMH),
-    "reference_speed": PlotQuantity("reference", "km/h", KMH),
-    "wheel_speed": PlotQuantity("wheelset", "km/h", KMH, of_wheelsets=True),
-    "slide": PlotQuantity("slide", "%", 0.01, of_wheelsets=True),
-    "reservoir_pressure": PlotQuantity("reservoir", "bar", 1e5),
-    "brake_line_pressure": PlotQuantity("brake line", "bar", 1e5),
-    "tank_pressure": PlotQuantity("tank", "bar", 1e5, of_wheelsets=True),
-    "cylinder_pressure": PlotQuantity("cylinder", "bar", 1e5, of_wheelsets=True),
-    "clamping_force": PlotQuantity("clamping force", "kN", 1e3, of_wheelsets=True),
+    "speed": PlotQuantity("train", "km/h", KILOMETRE_PER_HOUR),
+    "reference_speed": PlotQuantity("reference", "km/h", KILOMETRE_PER_HOUR),
+    "wheel_speed": PlotQuantity("wheelset", "km/h", KILOMETRE_PER_HOUR, of_wheelsets=True),
+    "slide": PlotQuantity("slide", "%", PERCENT, of_wheelsets=True),
+    "reservoir_pressure": PlotQuantity("reservoir", "bar", BAR),
+    "brake_line_pressure": PlotQuantity("brake line", "bar", BAR),
+    "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True),
+    "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True),
+    "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True),
     "deceleration": PlotQuantity("deceleration", "g"),
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True),
     "valve_command": PlotQuantity("valve", "1", of_wheelsets=True),

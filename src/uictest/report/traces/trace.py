@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report.traces.extremes import thinned
-from uictest.report.traces.quantities import GRAVITY, LOOPS, PLOT_QUANTITIES, WHEELSETS, loop_lines, names_of
+from uictest.report.traces.quantities import LOOPS, PLOT_QUANTITIES, WHEELSETS, loop_lines, names_of
+from uictest.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
@@ -104,7 +105,7 @@ def deceleration(time: Series, speed: Series) -> Series:
     before = np.maximum(time - DECELERATION_WINDOW / 2, time[0])
     after = np.minimum(time + DECELERATION_WINDOW / 2, time[-1])
     change = np.interp(before, time, speed) - np.interp(after, time, speed)
-    return np.asarray(change / (after - before) / GRAVITY, dtype=np.float64)
+    return np.asarray(change / (after - before) / STANDARD_GRAVITY, dtype=np.float64)
 
 
 def slide(speed: Series, wheel_speed: Series) -> Series:

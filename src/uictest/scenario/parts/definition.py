@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar
 from pydantic import BeforeValidator, Field
 
 from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, kind
+from uictest.units import KILOMETRE_PER_HOUR, in_unit
 
 
 def _marked_throughout(given: object) -> object:
@@ -62,7 +63,7 @@ class LowSpeedCutoff(Model):
     """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
 
     unit: ClassVar[str] = "km/h"
-    step: ClassVar[float | None] = 10.0 / 3.6
+    step: ClassVar[float | None] = 10.0 * KILOMETRE_PER_HOUR
 
     value: _Cutoff = Field(description="Cut-off used.")
     range: tuple[_Cutoff, _Cutoff] = Field(description="Lowest and highest cut-off the words could mean.")
@@ -77,7 +78,7 @@ class LowSpeedCutoff(Model):
             (("range", 0), self.range[0]),
             (("range", 1), self.range[1]),
         ):
-            if round(cutoff * 3.6, 6) % 10.0:
+            if round(in_unit(cutoff, "km/h"), 6) % 10.0:
                 yield Inconsistency(
                     key, f"{cutoff.text} is no multiple of 10 km/h", "slides are kept in such classes"
                 )

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Final, Self
 
 from uictest.scenario.yaml.wording import nearest, quoted
-from uictest.units import KINDS, SPELLINGS, Kind
+from uictest.units import KINDS, Kind
 
 SCENARIO_SOURCE: Final = "scenario"
 """Source of a number that a user wrote in a scenario."""
@@ -138,7 +138,9 @@ def _hint_for_bare(text: str, number: Fraction, kind: Kind, accepts: Accepts) ->
 def _hint_for_unit(symbol: str, kind: Kind) -> str:
     accepted = "accepted: " + ", ".join(kind.units)
     plain = _plain(symbol)
-    alike = [each for each in kind.units if plain in map(_plain, (each, *SPELLINGS.get(each, ())))]
+    alike = [
+        unit.symbol for unit in kind.units.values() if plain in map(_plain, (unit.symbol, *unit.misspellings))
+    ]
     guesses = alike or [each for each in (nearest(symbol, kind.units),) if each]
     return f"did you mean {' or '.join(map(quoted, guesses))}? {accepted}" if guesses else accepted
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from uictest import recording
 from uictest.studies.figures.style import BAND, INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
-from uictest.studies.units import KILOMETRE_PER_HOUR, PERCENT
+from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

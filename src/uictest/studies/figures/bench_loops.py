@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from uictest import identification
 from uictest.studies.figures.style import BLUE, INK, MUTED, WIDTH, from_zero
-from uictest.studies.units import BAR, KILONEWTON
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.studies.figures.style import BAND, BLUE, INK, ORANGE, WIDTH, from_zero, title_and_legend
-from uictest.studies.units import BAR, PERCENT
+from uictest.units import BAR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

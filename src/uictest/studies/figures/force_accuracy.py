@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from uictest.studies.figures.style import BAND, BLUE, INK, ORANGE, WIDTH, from_zero, title_and_legend
-from uictest.studies.units import KILONEWTON, PERCENT
+from uictest.units import KILONEWTON, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,7 +9,7 @@ import numpy as np
 
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from uictest.studies.phases import TITLES
-from uictest.studies.units import BAR, KILONEWTON
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.studies.figures.style import BLUE, INK, ORANGE, WIDTH, from_zero
-from uictest.studies.units import BAR
+from uictest.units import BAR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

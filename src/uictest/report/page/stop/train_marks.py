@@ -10,8 +10,8 @@ import numpy as np
 from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.mark import Mark, instant, limit_marks, point
-from uictest.report.traces.quantities import GRAVITY, KMH
 from uictest.report.wording import limits, number, quantity, value_and_limits
+from uictest.units import KILOMETRE_PER_HOUR, STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import Curve, Series, Trace
@@ -29,10 +29,10 @@ def braking_time(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
 
 def mean_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the mean deceleration, and the mean over the whole stop."""
-    yield from limit_marks(verdict, "deceleration", scale=GRAVITY)
+    yield from limit_marks(verdict, "deceleration", scale=STANDARD_GRAVITY)
     if verdict.value is not None:
         label = f"mean {quantity(verdict.value, verdict.unit)}"
-        yield Mark("deceleration", "found", label, y=verdict.value / GRAVITY)
+        yield Mark("deceleration", "found", label, y=verdict.value / STANDARD_GRAVITY)
 
 
 def standstill(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
@@ -104,21 +104,23 @@ def _sum_at_the_end(verdict: evaluation.Verdict, trace: Trace, plot: str) -> Ite
 def _extreme_deceleration(
     verdict: evaluation.Verdict, trace: Trace, since: float, sign: float
 ) -> Iterator[Mark]:
-    yield from limit_marks(verdict, "deceleration", scale=GRAVITY)
+    yield from limit_marks(verdict, "deceleration", scale=STANDARD_GRAVITY)
     curve, time_constant = trace.curves.get("speed"), verdict.defined("deceleration_filter")
     if curve is None or time_constant is None or verdict.value is None:
         return
-    slowest = (verdict.defined("moving_speed") or 0.0) / KMH
+    slowest = (verdict.defined("moving_speed") or 0.0) / KILOMETRE_PER_HOUR
     counts = (curve.y >= slowest) & (curve.x >= since)
     if counts.any():
         filtered = np.where(counts, sign * _filtered(curve, time_constant), -np.inf)
         label = quantity(verdict.value, verdict.unit)
-        yield point("deceleration", float(curve.x[np.nanargmax(filtered)]), verdict.value / GRAVITY, label)
+        yield point(
+            "deceleration", float(curve.x[np.nanargmax(filtered)]), verdict.value / STANDARD_GRAVITY, label
+        )
 
 
 def _filtered(curve: Curve, time_constant: float) -> Series:
     """Return the deceleration of a speed (km/h) after the low-pass of the measures, m/s2."""
-    intervals, changes = np.diff(curve.x), -np.diff(curve.y * KMH)
+    intervals, changes = np.diff(curve.x), -np.diff(curve.y * KILOMETRE_PER_HOUR)
     filtered = np.zeros_like(curve.x)
     for k, (interval, change) in enumerate(zip(intervals.tolist(), changes.tolist(), strict=True)):
         share = interval / (interval + time_constant)

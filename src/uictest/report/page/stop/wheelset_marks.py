@@ -12,8 +12,9 @@ from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.mark import Mark, limit_marks, misses, point
-from uictest.report.traces.quantities import KMH, WHEELSETS
+from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import quantity, value_and_limits
+from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import Curve, Trace
@@ -25,7 +26,7 @@ Samples = NDArray[np.float64]
 def maximum_slide(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds down to the cut-off and, unless it passed, each wheelset's largest slide above it."""
     cutoff, speed = verdict.defined("low_speed_cutoff"), trace.curves.get("speed")
-    until = None if cutoff is None or speed is None else _slower_than(cutoff / KMH, speed)
+    until = None if cutoff is None or speed is None else _slower_than(cutoff / KILOMETRE_PER_HOUR, speed)
     yield from limit_marks(verdict, "slide", x1=until)
     yield from _largest(verdict, trace, "slide", "slide", trace.end if until is None else until)
 
@@ -60,7 +61,7 @@ def locks(verdict: evaluation.Verdict, trace: Trace, n: int) -> list[Interval]:
     if pair is None or locked is None or moving is None:
         return []
     time, speed, wheel_speed = pair
-    return _runs(time, (speed > moving / KMH) & (wheel_speed < locked / KMH))
+    return _runs(time, (speed > moving / KILOMETRE_PER_HOUR) & (wheel_speed < locked / KILOMETRE_PER_HOUR))
 
 
 def slides(verdict: evaluation.Verdict, trace: Trace, n: int) -> list[Interval]:
@@ -71,7 +72,12 @@ def slides(verdict: evaluation.Verdict, trace: Trace, n: int) -> list[Interval]:
         return []
     time, speed, wheel_speed = pair
     behind = speed - wheel_speed
-    return _runs(time, (speed > moving / KMH) & (behind > share * speed) & (behind > slip / KMH))
+    return _runs(
+        time,
+        (speed > moving / KILOMETRE_PER_HOUR)
+        & (behind > share * speed)
+        & (behind > slip / KILOMETRE_PER_HOUR),
+    )
 
 
 def _speeds(trace: Trace, n: int) -> tuple[Samples, Samples, Samples] | None:
