@@ -194,7 +194,7 @@ def test_the_criterion_that_failed_is_named_and_drawn_first(
         lower=None, margin=-3.0, definitions=definitions,
     )  # fmt: skip
     result = make_result(outcome="fail", criteria=(make_verdict(measure="braking_distance"), lock))
-    content = make_content(result, traces={result.id: trace_of(recording)})
+    content = make_content(result, traces={result.id: trace_of(recording, result.criteria)})
     browser.get(_written(tmp_path, content).as_uri())
     _wait(browser, _PLOTTED)
     criteria = "return [...document.querySelectorAll('table.criteria tbody th')].map(h => h.firstChild.data)"

@@ -32,15 +32,16 @@ class Drawing:
     def take(self, examined: CaseRun) -> None:
         """Keep what is drawn of a case."""
         if self._on_the_way and examined.recording is not None:
-            self.traces[examined.result.id] = report.trace_of(examined.recording)
+            self.traces[examined.result.id] = report.trace_of(examined.recording, examined.result.criteria)
 
     def finish(self, done: BatchResult, jobs: int) -> dict[str, report.Trace]:
         """Return what there is to draw, the worst cases of a large batch simulated again."""
         if self.wanted and not self._on_the_way and not done.interrupted:
-            worst = [result.id for result in page.worst_first(done.results) if result.outcome != "error"]
-            chosen = campaign.by_id(self.cases, frozenset(worst[: page.DRAWN]))
-            for case, recording in campaign.replay(chosen, every=self._interval, jobs=jobs):
-                self.traces[case.id] = report.trace_of(recording)
+            ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]
+            worst = {result.id: result for result in ranked[: page.DRAWN]}
+            drawn_cases = campaign.by_id(self.cases, frozenset(worst))
+            for case, recording in campaign.replay(drawn_cases, every=self._interval, jobs=jobs):
+                self.traces[case.id] = report.trace_of(recording, worst[case.id].criteria)
         return self.traces
 
     @property

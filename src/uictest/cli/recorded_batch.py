@@ -80,7 +80,9 @@ def subjects_of(
 def traces_of(examined: Sequence[CaseRun]) -> dict[str, report.Trace]:
     """Return what there is to draw of the recordings, by the id of the case each is judged as."""
     return {
-        each.result.id: report.trace_of(each.recording) for each in examined if each.recording is not None
+        each.result.id: report.trace_of(each.recording, each.result.criteria)
+        for each in examined
+        if each.recording is not None
     }
 
 

@@ -7,7 +7,7 @@ from fnmatch import fnmatchcase
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
-from uictest.report import PLOT_QUANTITIES
+from uictest.report import PLOT_QUANTITIES, names_of
 from uictest.scenario.yaml import nearest
 from uictest.units import SIZES
 
@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 _SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
 """Unit of a recording -> unit that every page shows it in."""
+_PER_CENT: Final = frozenset(
+    name for key, quantity in PLOT_QUANTITIES.items() if quantity.unit == "%" for name in names_of(key)
+)
+"""Channels that every page shows in per cent."""
 
 
 def in_shown_units(recording: Recording) -> Recording:
@@ -31,9 +35,7 @@ def in_shown_units(recording: Recording) -> Recording:
 
 
 def _shown_unit(channel: str, unit: str) -> str:
-    name, _, wheelset = channel.rpartition("_")
-    quantity = PLOT_QUANTITIES.get(name if wheelset.isdigit() else channel)
-    if unit == "1" and quantity is not None and quantity.unit == "%":
+    if unit == "1" and channel in _PER_CENT:
         return "%"
     return _SHOWN.get(unit, unit)
 

@@ -13,7 +13,7 @@ from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.parameters import parameter_changes
 from uictest.comparison.tolerance import Tolerances
 from uictest.evaluation import unit_of
-from uictest.report import Difference
+from uictest.report import Difference, wheelset_quantity
 
 
 def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
@@ -76,7 +76,9 @@ def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
 def _figures(result: evaluation.CaseResult) -> dict[str, float]:
     figures = dataclasses.asdict(result.measures) if result.measures is not None else {}
     for position, wheelset in enumerate(result.wheelsets, start=1):
-        figures |= {f"{name}_{position}": value for name, value in dataclasses.asdict(wheelset).items()}
+        figures |= {
+            wheelset_quantity(name, position): value for name, value in dataclasses.asdict(wheelset).items()
+        }
     return figures
 
 

@@ -10,6 +10,7 @@ from .csv_table import Cell as Cell, csv_text as csv_text
 from .difference import (
     Difference as Difference,
     value_text as value_text,
+    wheelset_quantity as wheelset_quantity,
     worst_of_wheelsets as worst_of_wheelsets,
 )
 from .escaping import csv_cell as csv_cell, printable as printable, xml_text as xml_text
@@ -62,7 +63,12 @@ from .text_table import (
     table_width as table_width,
     wrapped_name as wrapped_name,
 )
-from .traces.quantities import PLOT_QUANTITIES as PLOT_QUANTITIES, Panel as Panel, PlotLine as PlotLine
+from .traces.quantities import (
+    PLOT_QUANTITIES as PLOT_QUANTITIES,
+    Panel as Panel,
+    PlotLine as PlotLine,
+    names_of as names_of,
+)
 from .traces.trace import (
     Curve as Curve,
     Trace as Trace,

@@ -10,6 +10,7 @@ from typing import Any
 
 from uictest import evaluation
 from uictest.report.escaping import printable
+from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity
 
 Value = float | str
@@ -67,14 +68,23 @@ def difference_sentence(difference: Difference) -> str:
     return printable(f"{sentence} ({difference.remark})" if difference.remark else sentence)
 
 
+def wheelset_quantity(measure: str, wheelset: int) -> str:
+    """Return what a measure of one wheelset is called among the quantities of a stop."""
+    return f"{measure}_{wheelset}"
+
+
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
-    """Return the differences; of a figure that the wheelsets of a stop have, the worst stands for all."""
-    of_wheelsets = frozenset(field.name for field in dataclasses.fields(evaluation.CaseWheelsetMeasures))
-    by_figure: dict[tuple[str, str], list[Difference]] = {}
+    """Return the differences; of a measure that the wheelsets of a stop have, the worst stands for all."""
+    measures = {
+        wheelset_quantity(field.name, n): field.name
+        for field in dataclasses.fields(evaluation.CaseWheelsetMeasures)
+        for n in WHEELSETS
+    }
+    by_measure: dict[tuple[str, str], list[Difference]] = {}
     for difference in differences:
-        figure = _figure(difference.quantity, of_wheelsets)
-        by_figure.setdefault((difference.case, figure), []).append(difference)
-    return list(_worst_of_each(by_figure.values()))
+        measure = measures.get(difference.quantity, difference.quantity)
+        by_measure.setdefault((difference.case, measure), []).append(difference)
+    return list(_worst_of_each(by_measure.values()))
 
 
 def _worst_of_each(groups: Iterable[Sequence[Difference]]) -> Iterator[Difference]:
@@ -82,12 +92,6 @@ def _worst_of_each(groups: Iterable[Sequence[Difference]]) -> Iterator[Differenc
         worst = max(group, key=_excess)
         remark = worst.remark if len(group) == 1 else f"worst of {len(group)} wheelsets"
         yield dataclasses.replace(worst, remark=remark)
-
-
-def _figure(name: str, of_wheelsets: frozenset[str]) -> str:
-    """Return the name of a figure, less the number of the wheelset."""
-    figure, _, number_of_wheelset = name.rpartition("_")
-    return figure if number_of_wheelset.isdigit() and figure in of_wheelsets else name
 
 
 def _excess(difference: Difference) -> float:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from uictest import evaluation, recording
 from uictest.report.baseline import BaselineComparison
 from uictest.report.case_description import CaseDescription
 from uictest.report.content import RunContent
 from uictest.report.run_report import RECORDINGS, RESULTS
-
-if TYPE_CHECKING:
-    from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import Trace, trace_of
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:
@@ -31,7 +29,7 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
         content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
     except ValueError as error:
         raise ValueError(f"{path}: not the results of a run: {error}") from error
-    drawn = read_traces(folder, [result.id for result in content.results]) if traces else {}
+    drawn = read_traces(folder, content.results) if traces else {}
     return dataclasses.replace(content, traces=drawn)
 
 
@@ -50,14 +48,13 @@ def run_content(document: Mapping[str, Any], name: str) -> RunContent:
     return RunContent(name, results, manifest, complete, subjects, baseline=baseline)
 
 
-def read_traces(folder: Path, case_ids: Sequence[str]) -> dict[str, Trace]:
+def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, Trace]:
     """Return what there is to draw of the cases that have a recording in the folder, by id.
 
     Raises OSError, and ValueError where a recording is none.
     """
-    from uictest.report.traces.trace import trace_of
-
-    paths = {case_id: folder / RECORDINGS / f"{case_id}.parquet" for case_id in case_ids}
     return {
-        case_id: trace_of(recording.read_parquet(path)) for case_id, path in paths.items() if path.is_file()
+        result.id: trace_of(recording.read_parquet(path), result.criteria)
+        for result in results
+        if (path := folder / RECORDINGS / f"{result.id}.parquet").is_file()
     }

@@ -24,10 +24,13 @@ def quantity(value: float | None, unit: str) -> str:
     return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
 
 
-def limits(verdict: evaluation.Verdict) -> str:
-    """Return the limits of a criterion, e.g. `limits 440 .. 490 m`, `lower limit 35 %`, `no limit`."""
+def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
+    """Return the limits of a criterion, e.g. `limits 440 .. 490 m`, `lower limit 35 %`, `no limit`.
+
+    `word` stands before a pair of limits.
+    """
     if verdict.lower is not None and verdict.upper is not None:
-        return f"limits {number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
+        return f"{word}{number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
     if verdict.lower is not None:
         return f"lower limit {quantity(verdict.lower, verdict.unit)}"
     if verdict.upper is not None:

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import product
 
-from uictest.evaluation import CaseResult
+from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report.page.matrix import maps_of
 
 MakeResult = Callable[..., CaseResult]
@@ -11,7 +11,18 @@ MakeResult = Callable[..., CaseResult]
 
 def _cases(make: MakeResult, **keys: list[str]) -> list[CaseResult]:
     swept = [dict(zip(keys, values, strict=True)) for values in product(*keys.values())]
-    return [make(id=str(parameters), parameters=parameters) for parameters in swept]
+    return [
+        make(id=str(parameters), parameters=parameters, parts={"scenario": _part(parameters)})
+        for parameters in swept
+    ]
+
+
+def _part(texts: dict[str, str]) -> EffectivePart:
+    parameters = tuple(
+        Parameter(key, float(text.split()[0]) if text[0].isdigit() else text, "", text, "user")
+        for key, text in texts.items()
+    )
+    return EffectivePart("scenario", "", "", None, parameters)
 
 
 def test_two_swept_keys_make_a_map_in_the_order_of_their_numbers(make_result: MakeResult) -> None:
@@ -20,6 +31,12 @@ def test_two_swept_keys_make_a_map_in_the_order_of_their_numbers(make_result: Ma
     assert (found.row_key, found.column_key) == ("friction", "command")
     assert (found.rows, found.columns) == (["0.09", "0.12"], ["80 %", "100 %"])
     assert found.cells[0][1] is results[2]
+
+
+def test_texts_that_are_no_numbers_keep_their_order(make_result: MakeResult) -> None:
+    results = _cases(make_result, state=["bypassed", "active"], friction=["0.12", "0.09"])
+    (found,) = maps_of(results)
+    assert (found.rows, found.columns) == (["bypassed", "active"], ["0.09", "0.12"])
 
 
 def test_a_combination_that_was_excluded_leaves_its_cell_empty(make_result: MakeResult) -> None:

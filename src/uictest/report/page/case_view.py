@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word
+from uictest.report.case_description import CaseDescription
+from uictest.report.difference import Difference
 from uictest.report.page.script_json import script_json
 from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.mark import Mark
@@ -28,13 +30,8 @@ from uictest.report.traces.quantities import (
     loop_lines,
     panel_lines,
 )
-from uictest.report.traces.trace import BINS, Curve
+from uictest.report.traces.trace import BINS, Curve, Trace
 from uictest.report.wording import failing_first
-
-if TYPE_CHECKING:
-    from uictest.report.case_description import CaseDescription
-    from uictest.report.difference import Difference
-    from uictest.report.traces.trace import Trace
 
 Figure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
@@ -95,11 +92,11 @@ def case_view(
 def _marked(
     result: evaluation.CaseResult, marks: Sequence[Mark]
 ) -> Iterator[tuple[evaluation.Verdict, list[str]]]:
-    titles = {plot.key: plot.title for plot in (*PANELS, *LOOPS)} | STRIPS
+    titles = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
     for verdict in failing_first(result.criteria):
         plots = dict.fromkeys(mark.plot for mark in marks if mark.criterion == verdict.id)
         if plots:
-            yield verdict, [titles[plot].partition(":")[0] for plot in plots]
+            yield verdict, [titles[plot] for plot in plots]
 
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: Trace) -> Iterator[str]:
@@ -167,7 +164,8 @@ def plots_json() -> str:
         for loop in LOOPS
     ]
     quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
-    return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": STRIPS})
+    strips = {strip.key: strip.heading for strip in STRIPS}
+    return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": strips})
 
 
 def _data(trace: Trace, marks: Sequence[Mark]) -> dict[str, Any]:

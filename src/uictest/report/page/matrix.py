@@ -25,7 +25,8 @@ def maps_of(results: Iterable[evaluation.CaseResult]) -> list[Map]:
     by_sweep: dict[tuple[str, ...], list[evaluation.CaseResult]] = {}
     for result in results:
         by_sweep.setdefault((result.scenario, *result.parameters), []).append(result)
-    return [found for sweep, cases in by_sweep.items() if (found := _map(sweep[0], sweep[1:], cases))]
+    maps = (_map(scenario, keys, cases) for (scenario, *keys), cases in by_sweep.items())
+    return [case_map for case_map in maps if case_map is not None]
 
 
 def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResult]) -> Map | None:
@@ -33,7 +34,7 @@ def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResu
     if len(moving) != 2:
         return None
     row_key, column_key = moving
-    rows, columns = (_ordered({case.parameters[key]: None for case in cases}) for key in moving)
+    rows, columns = (_ordered(key, cases) for key in moving)
     by_place = {(case.parameters[row_key], case.parameters[column_key]): case for case in cases}
     if len(by_place) < len(cases):
         return None
@@ -41,10 +42,15 @@ def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResu
     return Map(scenario, row_key, column_key, rows, columns, cells)
 
 
-def _ordered(texts: Iterable[str]) -> list[str]:
-    """Return texts by the number they begin with, where all do; else as they came."""
-    found = list(texts)
-    try:
-        return sorted(found, key=lambda text: float(text.split()[0]))
-    except (ValueError, IndexError):
-        return found
+def _ordered(key: str, cases: Iterable[evaluation.CaseResult]) -> list[str]:
+    """Return the texts of a swept key by their numbers, where all of them are; else as they came."""
+    numbers = {case.parameters[key]: _number(key, case) for case in cases}
+    known = {text: number for text, number in numbers.items() if number is not None}
+    return sorted(known, key=lambda text: known[text]) if len(known) == len(numbers) else list(numbers)
+
+
+def _number(key: str, case: evaluation.CaseResult) -> float | None:
+    """Return the number that a case was run with for a key; None where it is none or not known."""
+    values = (each.value for part in case.parts.values() for each in part.parameters if each.key == key)
+    number = next(values, None)
+    return number if isinstance(number, int | float) else None

@@ -37,7 +37,7 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
         subjects = {name: CaseDescription.from_dict(each) for name, each in document["subjects"].items()}
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ValueError(f"{path}: not the result of a sweep: {error}") from error
-    drawn = read_traces(folder, [result.id for result in worst]) if traces else {}
+    drawn = read_traces(folder, worst) if traces else {}
     return SweepContent(folder, document, _mapping(folder / _MANIFEST), worst, subjects, drawn, base)
 
 

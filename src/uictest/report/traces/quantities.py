@@ -69,12 +69,27 @@ PANELS = (
 )
 """Panels over time from top to bottom; the strips follow below them."""
 
-STRIPS = {
-    "valves": "WSP valves: hold (faint), vent (strong)",
-    "locked": "Locked wheelsets",
-    "sliding": "Sliding wheelsets",
-}
-"""Strips with a row for each wheelset, from top to bottom, and their titles; one without bars is left out."""
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """Bars in a row for each wheelset over time; `note` explains them."""
+
+    key: str
+    title: str
+    note: str = ""
+
+    @property
+    def heading(self) -> str:
+        """The title with the note."""
+        return f"{self.title}: {self.note}" if self.note else self.title
+
+
+STRIPS = (
+    Strip("valves", "WSP valves", "hold (faint), vent (strong)"),
+    Strip("locked", "Locked wheelsets"),
+    Strip("sliding", "Sliding wheelsets"),
+)
+"""Strips from top to bottom; one without bars is left out."""
 
 
 @dataclass(frozen=True, slots=True)

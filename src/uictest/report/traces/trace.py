@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import evaluation, recording
 from uictest.report.traces.extremes import thinned
+from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import LOOPS, PLOT_QUANTITIES, WHEELSETS, loop_lines, names_of
 from uictest.units import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
 
 BINS = 800
 """Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""
@@ -66,6 +64,7 @@ class Trace:
         loops: key of a loop and name of its upper series, with a blank between -> line.
         sliding_time: when a wheelset first slid, s; None where none did or it is not known.
         derived: names of the curves that the record does not hold.
+        moments: id of a criterion -> when it was decided.
 
     """
 
@@ -77,21 +76,31 @@ class Trace:
     loops: Mapping[str, Curve] = field(default_factory=dict)
     sliding_time: float | None = None
     derived: tuple[str, ...] = ()
+    moments: Mapping[str, Moments] = field(default_factory=dict)
 
 
-def trace_of(recording: Recording) -> Trace:
-    """Return what is drawn of a recording: the extremes of every signal, every change of a state."""
-    time = recording["time"]
-    series = _in_units(dict(recording.channels) | _derived(recording))
+def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict] = ()) -> Trace:
+    """Return what is drawn of a stop: the extremes of every signal, every change of a state.
+
+    Args:
+        record: samples of the stop, SI.
+        verdicts: of the stop; the trace holds when each of them was decided.
+
+    """
+    time = record["time"]
+    channels = dict(record.channels) | _derived(record)
+    series = _in_units(channels)
+    states = {name for state in STATES for name in names_of(state)}
     return Trace(
         float(time[0]),
         float(time[-1]),
         interval_of(time),
-        {name: curve_of(time, samples) for name, samples in series.items() if not _is_state(name)},
-        {name: _states(time, samples) for name, samples in series.items() if _is_state(name)},
+        {name: curve_of(time, samples) for name, samples in series.items() if name not in states},
+        {name: _states(time, samples) for name, samples in series.items() if name in states},
         dict(_loops(series)),
-        _sliding_time(recording.metadata),
-        tuple(name for name in series if name not in recording.channels),
+        _sliding_time(record.metadata),
+        tuple(name for name in series if name not in record.channels),
+        moments_of(verdicts, channels),
     )
 
 
@@ -115,9 +124,9 @@ def slide(speed: Series, wheel_speed: Series) -> Series:
     return np.where(runs | np.isnan(speed), share, 0.0)
 
 
-def _derived(recording: Recording) -> dict[str, Series]:
+def _derived(record: recording.Recording) -> dict[str, Series]:
     """Return what is drawn though the record does not hold it, SI (the deceleration in g)."""
-    channels = recording.channels
+    channels = record.channels
     if "speed" not in channels:
         return {}
     speed = channels["speed"]
@@ -143,10 +152,6 @@ def curve_of(time: Series, samples: Series) -> Curve:
     return Curve(time[rows], samples[rows])
 
 
-def _is_state(name: str) -> bool:
-    return name.rpartition("_")[0] in STATES
-
-
 def _states(time: Series, samples: Series) -> States:
     state = np.where(np.isfinite(samples), np.rint(samples), UNKNOWN).astype(np.int64)
     changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
@@ -168,5 +173,5 @@ def interval_of(time: Series) -> float:
 
 
 def _sliding_time(metadata: Mapping[str, str]) -> float | None:
-    written = metadata.get("sliding_time")
-    return None if written is None else float(written)
+    time = metadata.get("sliding_time")
+    return None if time is None else float(time)

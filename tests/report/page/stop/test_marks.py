@@ -22,16 +22,22 @@ FILTERING = {**MOVING, "deceleration_filter": 0.5, "developed_time": 2.0}
 
 
 @pytest.fixture
-def trace(make_recording: MakeRecording) -> Trace:
+def record(make_recording: MakeRecording) -> Recording:
     """A stop at 1 m/s2 whose wheelsets slide from 5 to 15 s; the third is locked from 20 to 22 s."""
     recording = make_recording(sliding_time="5.0")
     time = recording["time"]
     recording["wheel_speed_3"][(time >= 20.0) & (time < 22.0)] = 0.0
-    return trace_of(recording)
+    return recording
 
 
 @pytest.fixture
-def marks(make_verdict: MakeVerdict, trace: Trace) -> Marks:
+def trace(record: Recording) -> Trace:
+    """What is drawn of that stop."""
+    return trace_of(record)
+
+
+@pytest.fixture
+def marks(make_verdict: MakeVerdict, record: Recording) -> Marks:
     """The marks of that stop, judged by one criterion."""
 
     def make(measure: str, defined: Mapping[str, float] | None = None, **changes: object) -> list[Mark]:
@@ -39,7 +45,8 @@ def marks(make_verdict: MakeVerdict, trace: Trace) -> Marks:
             AppliedDefinition(name, value, "", "chosen") for name, value in (defined or {}).items()
         )
         fields = {"lower": None, "upper": None, "measure": measure, "definitions": definitions}
-        return marks_of([make_verdict(**(fields | changes))], trace)
+        verdicts = [make_verdict(**(fields | changes))]
+        return marks_of(verdicts, trace_of(record, verdicts))
 
     return make
 
@@ -62,8 +69,8 @@ def test_a_failing_criterion_is_drawn_whatever_it_measures(marks: Marks, measure
 def test_a_locked_wheelset_is_an_interval_in_its_row(marks: Marks) -> None:
     (mark,) = marks("longest_lock", LOCKING, verdict="fail", upper=1.0, value=2.0, unit="s", id="locked")
     assert (mark.plot, mark.kind, mark.y) == ("locked", "interval", 3.0)
-    # Ends are known to the 50 ms of which a line keeps the extremes.
-    assert (mark.x0, mark.x1) == (pytest.approx(20.0, abs=0.051), pytest.approx(22.0, abs=0.051))
+    # From the sample before the lock to its last, as the measure counts it.
+    assert (mark.x0, mark.x1) == (pytest.approx(19.99), pytest.approx(21.99))
     assert mark.label == "locked: 2 s, upper limit 1 s"
 
 
@@ -110,7 +117,6 @@ def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
 ) -> None:
     time = np.linspace(0.0, 30.0, 3001)
     speed = 33.0 - time + np.where(time > 10.0, np.minimum(0.5 * (time - 10.0), 0.5), 0.0)
-    trace = trace_of(Recording({"time": time, "speed": speed}, {"time": "s", "speed": "m/s"}))
     definitions = tuple(AppliedDefinition(name, value, "", "chosen") for name, value in FILTERING.items())
     verdict = make_verdict(
         measure="minimum_deceleration",
@@ -120,7 +126,8 @@ def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
         value=0.57,
         definitions=definitions,
     )
-    *_, mark = marks_of([verdict], trace)
+    record = Recording({"time": time, "speed": speed}, {"time": "s", "speed": "m/s"})
+    *_, mark = marks_of([verdict], trace_of(record, [verdict]))
     assert (mark.kind, mark.y) == ("point", pytest.approx(0.57 / 9.80665))
     assert mark.x0 == pytest.approx(11.0, abs=0.05)
 
@@ -132,6 +139,25 @@ def test_failing_criteria_come_first_then_inconclusive_ones(make_verdict: MakeVe
     ]
     drawn = dict.fromkeys(mark.criterion for mark in marks_of(verdicts, trace))
     assert list(drawn) == ["fail", "inconclusive", "pass"]
+
+
+@pytest.mark.parametrize(("status", "ending"), [("fail", ""), ("inconclusive", " (inconclusive)")])
+def test_a_mark_says_in_words_that_a_criterion_was_not_decided(
+    marks: Marks, status: str, ending: str
+) -> None:
+    band, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, verdict=status)
+    assert (band.label, reached.label) == (f"braking-distance: 440 .. 490 m{ending}", f"510 m{ending}")
+
+
+@pytest.mark.parametrize(("margin", "label"), [(0.0, "1: 40 %"), (-1.0, "")])
+def test_a_value_at_a_bound_misses_it_where_the_bound_itself_does_not_pass(
+    marks: Marks, margin: float, label: str
+) -> None:
+    cutoff = {"low_speed_cutoff": 30 / 3.6}
+    _, first, *_ = marks(
+        "maximum_slide_above_cutoff", cutoff, unit="%", upper=40.0, value=40.0, margin=margin, verdict="fail"
+    )
+    assert first.label == label
 
 
 def test_the_first_phase_is_a_window_with_its_limit_and_what_was_found(marks: Marks) -> None:
@@ -149,7 +175,7 @@ def test_the_slide_limit_ends_where_slides_no_longer_count(marks: Marks) -> None
     (mark,) = marks("maximum_slide_above_cutoff", {"low_speed_cutoff": 30 / 3.6}, unit="%", lower=35.0)
     assert (mark.plot, mark.kind, mark.y, mark.x0) == ("slide", "limit", 35.0, None)
     # 120 km/h less 1 m/s2: 30 km/h after 25 s.
-    assert mark.x1 == pytest.approx(25.0, abs=0.06)
+    assert mark.x1 == pytest.approx(25.0, abs=0.011)
 
 
 def test_the_braking_distance_is_a_band_over_the_distance(marks: Marks) -> None:

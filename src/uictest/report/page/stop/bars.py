@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
+from uictest.report.page.axis import Axis
+from uictest.report.page.stop.mark import Mark
 from uictest.report.traces.quantities import WHEELSETS
-
-if TYPE_CHECKING:
-    from uictest.report.page.axis import Axis
-    from uictest.report.page.stop.mark import Mark
-    from uictest.report.traces.trace import States, Trace
+from uictest.report.traces.trace import States, Trace
 
 Bar = tuple[float, float, float]
 """Beginning and end (s), and row: the number of the wheelset."""

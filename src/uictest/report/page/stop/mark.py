@@ -48,9 +48,16 @@ def limit_marks(
 
 
 def misses(verdict: evaluation.Verdict, value: float) -> bool:
-    """Return whether a value, in the unit of the criterion, is outside its bounds."""
-    below = verdict.lower is not None and value < verdict.lower
-    return below or (verdict.upper is not None and value > verdict.upper)
+    """Return whether a value, in the unit of the criterion, misses its bounds.
+
+    A criterion that fails with a margin of 0 is one whose bounds themselves do not pass.
+    """
+    strict = verdict.verdict == "fail" and verdict.margin == 0.0
+    margins = [
+        *([] if verdict.lower is None else [value - verdict.lower]),
+        *([] if verdict.upper is None else [verdict.upper - value]),
+    ]
+    return any(margin < 0.0 or (strict and margin == 0.0) for margin in margins)
 
 
 def instant(plot: str, time: float, label: str) -> Mark:

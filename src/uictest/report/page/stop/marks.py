@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from uictest import evaluation
 from uictest.report.page.stop import train_marks, wheelset_marks
 from uictest.report.page.stop.mark import Mark
+from uictest.report.traces.trace import Trace
 from uictest.report.wording import failing_first
-
-if TYPE_CHECKING:
-    from uictest.report.traces.trace import Trace
 
 DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]] = MappingProxyType(
     {
@@ -43,8 +41,18 @@ DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]
 def marks_of(verdicts: Iterable[evaluation.Verdict], trace: Trace) -> list[Mark]:
     """Return the marks of every criterion that applied to a stop, those of failing ones first."""
     return [
-        replace(mark, criterion=verdict.id, status=verdict.verdict)
+        replace(
+            mark,
+            criterion=verdict.id,
+            status=verdict.verdict,
+            label=_with_status(mark.label, verdict.verdict),
+        )
         for verdict in failing_first(verdicts)
         if verdict.verdict != "not_applicable" and verdict.measure in DRAWN
         for mark in DRAWN[verdict.measure](verdict, trace)
     ]
+
+
+def _with_status(label: str, status: evaluation.Status) -> str:
+    """Return a label that says in words, not by its colour alone, that a criterion was not decided."""
+    return f"{label} (inconclusive)" if label and status == "inconclusive" else label

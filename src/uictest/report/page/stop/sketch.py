@@ -17,6 +17,7 @@ from uictest.report.traces.quantities import (
     Loop,
     Panel,
     PlotLine,
+    Strip,
     loop_lines,
     panel_lines,
 )
@@ -104,10 +105,11 @@ def panels_over_time(
             own = [mark for mark in marks if mark.plot == panel.key]
             drawings.append(_panel(panel, known, trace, time, top, own))
             top = drawings[-1].bottom + _GAP
-    for key, title in STRIPS.items():
-        bars = mark_bars(marks, key) | (state_bars(trace) if key == "valves" else {})
+    for strip in STRIPS:
+        bars = mark_bars(marks, strip.key) | (state_bars(trace) if strip.key == "valves" else {})
         if bars:
-            drawings.append(_strip(key, title, bars, [mark for mark in marks if mark.plot == key], time, top))
+            own = [mark for mark in marks if mark.plot == strip.key]
+            drawings.append(_strip(strip, bars, own, time, top))
             top = drawings[-1].bottom + _GAP
     return Sketch(top + _BELOW, drawings)
 
@@ -136,14 +138,14 @@ def _panel(
 
 
 def _strip(
-    key: str, title: str, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
+    strip: Strip, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
 ) -> Drawing:
     upper = top + _TITLE
     bottom = upper + len(WHEELSETS) * _BAND
     row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
     return Drawing(
-        key,
-        title,
+        strip.key,
+        strip.heading,
         LEFT,
         RIGHT,
         upper,

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
-
-import numpy as np
 
 from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.mark import Mark, instant, limit_marks, point
+from uictest.report.traces.moments import TRAIN, Moments
+from uictest.report.traces.trace import Trace
 from uictest.report.wording import limits, number, quantity, value_and_limits
-from uictest.units import KILOMETRE_PER_HOUR, STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from uictest.report.traces.trace import Curve, Series, Trace
+from uictest.units import STANDARD_GRAVITY
 
 
 def braking_distance(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
@@ -57,21 +53,19 @@ def initial_adhesion(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark
 
 def minimum_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the smallest deceleration, and when it was that small."""
-    yield from _extreme_deceleration(verdict, trace, verdict.defined("developed_time") or 0.0, -1.0)
+    yield from _extreme_deceleration(verdict, trace)
 
 
 def maximum_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the largest deceleration, and when it was that large."""
-    yield from _extreme_deceleration(verdict, trace, 0.0, 1.0)
+    yield from _extreme_deceleration(verdict, trace)
 
 
 def reservoir_minimum_pressure(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the bounds of the reservoir's pressure, and when it was lowest."""
     yield from limit_marks(verdict, "pressure")
-    curve = trace.curves.get("reservoir_pressure")
-    if curve is not None and verdict.value is not None:
-        lowest = float(curve.x[np.nanargmin(curve.y)])
-        yield point("pressure", lowest, verdict.value, f"lowest {quantity(verdict.value, verdict.unit)}")
+    if (time := _decided_at(verdict, trace)) is not None and verdict.value is not None:
+        yield point("pressure", time, verdict.value, f"lowest {quantity(verdict.value, verdict.unit)}")
 
 
 def air_consumed(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
@@ -90,7 +84,7 @@ def energy_residual(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]
 
 
 def _band(verdict: evaluation.Verdict, plot: str) -> Iterator[Mark]:
-    label = printable(f"{verdict.id}: {limits(verdict).removeprefix('limits ')}")
+    label = printable(f"{verdict.id}: {limits(verdict, word='')}")
     yield Mark(plot, "band", label, verdict.lower, verdict.upper)
     if verdict.value is not None and verdict.verdict != "pass":
         yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
@@ -101,31 +95,17 @@ def _sum_at_the_end(verdict: evaluation.Verdict, trace: Trace, plot: str) -> Ite
         yield instant(plot, trace.end, f"{verdict.id}: {value_and_limits(verdict)}")
 
 
-def _extreme_deceleration(
-    verdict: evaluation.Verdict, trace: Trace, since: float, sign: float
-) -> Iterator[Mark]:
+def _extreme_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     yield from limit_marks(verdict, "deceleration", scale=STANDARD_GRAVITY)
-    curve, time_constant = trace.curves.get("speed"), verdict.defined("deceleration_filter")
-    if curve is None or time_constant is None or verdict.value is None:
-        return
-    slowest = (verdict.defined("moving_speed") or 0.0) / KILOMETRE_PER_HOUR
-    counts = (curve.y >= slowest) & (curve.x >= since)
-    if counts.any():
-        filtered = np.where(counts, sign * _filtered(curve, time_constant), -np.inf)
+    if (time := _decided_at(verdict, trace)) is not None and verdict.value is not None:
         label = quantity(verdict.value, verdict.unit)
-        yield point(
-            "deceleration", float(curve.x[np.nanargmax(filtered)]), verdict.value / STANDARD_GRAVITY, label
-        )
+        yield point("deceleration", time, verdict.value / STANDARD_GRAVITY, label)
 
 
-def _filtered(curve: Curve, time_constant: float) -> Series:
-    """Return the deceleration of a speed (km/h) after the low-pass of the measures, m/s2."""
-    intervals, changes = np.diff(curve.x), -np.diff(curve.y * KILOMETRE_PER_HOUR)
-    filtered = np.zeros_like(curve.x)
-    for k, (interval, change) in enumerate(zip(intervals.tolist(), changes.tolist(), strict=True)):
-        share = interval / (interval + time_constant)
-        filtered[k + 1] = filtered[k] + share * (change / interval - filtered[k])
-    return filtered
+def _decided_at(verdict: evaluation.Verdict, trace: Trace) -> float | None:
+    """Return when a measure of the train had the value of the criterion, s; None where it is not known."""
+    moments = trace.moments.get(verdict.id, Moments())
+    return moments.extremes[TRAIN][0] if TRAIN in moments.extremes else None
 
 
 def _last_speed(trace: Trace) -> str:
