@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from uictest.campaign import subjects_of
-from uictest.report import CaseDescription
+from uictest.report import CaseDescription, subjects_form
+from uictest.report.case_description import read_subjects
 from uictest.scenario import load
 
 _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\ninitial_speed: 80 km/h\n"
@@ -22,7 +23,7 @@ def test_a_subject_is_in_the_users_words(tmp_path: Path) -> None:
     assert (subject.title, subject.tags) == ("A stop", ("a", "b"))
     assert subject.settings["initial speed"] == "80 km/h"
     assert subject.settings["rail"] == "wet, friction 0.10, gradient 0 permille"
-    assert CaseDescription.from_dict(subject.to_dict()) == subject
+    assert read_subjects({"subjects": subjects_form({"a": subject})}) == {"a": subject}
 
 
 @pytest.mark.parametrize(

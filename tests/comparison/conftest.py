@@ -35,7 +35,7 @@ def make_run() -> Callable[..., RunContent]:
             parameters={},
             expect="pass",
             outcome=outcome,  # type: ignore[arg-type]
-            criteria=(dataclasses.replace(VERDICT, verdict=verdict),),  # type: ignore[arg-type]
+            criteria=(dataclasses.replace(VERDICT, status=verdict),),  # type: ignore[arg-type]
             measures=dataclasses.replace(FIGURES, **figures),
             wheelsets=(wheelset, wheelset),
         )

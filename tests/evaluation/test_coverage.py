@@ -48,10 +48,10 @@ def locked(criterion, stop, wheelsets, verdict_of):
 
 def test_an_upper_bound_on_what_can_only_grow_is_open_until_it_is_exceeded(locked) -> None:
     kept = locked([0.0, 0.0, 0.4, 0.0], running=True, upper="1 s", wheelsets="all")
-    assert (kept.verdict, kept.value, kept.margin) == ("inconclusive", None, None)
+    assert (kept.status, kept.value, kept.margin) == ("inconclusive", None, None)
     assert kept.reason == f"4 of 4 wheelsets must keep <= 1 s: 0, 0, 0.4, 0 s so far; {ENDED}"
     broken = locked([0.0, 3.0, 0.4, 2.0], running=True, upper="1 s", wheelsets="all")
-    assert (broken.verdict, broken.value, broken.margin) == ("fail", 3.0, -2.0)
+    assert (broken.status, broken.value, broken.margin) == ("fail", 3.0, -2.0)
     assert broken.reason == (f"2 of 4 wheelsets miss <= 1 s, 4 must keep it: 0, 3, 0.4, 2 s so far; {ENDED}")
 
 
@@ -63,9 +63,9 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
         "maximum_slide_above_cutoff", lower="35 %", wheelsets={"at_least": "half"}, definition=cutoff
     )
     passed = verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.8))
-    assert (passed.verdict, passed.value, passed.margin) == ("pass", 80.0, 45.0)
+    assert (passed.status, passed.value, passed.margin) == ("pass", 80.0, 45.0)
     assert passed.reason == f"2 of 4 wheelsets keep >= 35 %, 2 needed: 20, 90, 30, 80 % so far; {ENDED}"
-    assert verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.3)).verdict == "inconclusive"
+    assert verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.3)).status == "inconclusive"
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
 def test_before_standstill_a_measure_is_judged_by_what_it_can_still_become(
     criterion, stop, verdict_of, name: str, bound: dict[str, Any], fields: dict[str, Any], verdict: str
 ) -> None:
-    assert verdict_of(criterion(name, **bound), stop(**RUNNING, **fields)).verdict == verdict
+    assert verdict_of(criterion(name, **bound), stop(**RUNNING, **fields)).status == verdict
 
 
 def test_a_first_phase_that_is_over_is_final_and_one_that_is_not_is_open(
@@ -101,13 +101,13 @@ def test_a_first_phase_that_is_over_is_final_and_one_that_is_not_is_open(
 ) -> None:
     phase = {"first_phase_duration": {"value": "3 s", "range": ["2 s", "5 s"]}}
     slippery = criterion("initial_adhesion", upper="0.08 g", definition=phase)
-    assert verdict_of(slippery, sliding_stop(**RUNNING)).verdict == "pass"
+    assert verdict_of(slippery, sliding_stop(**RUNNING)).status == "pass"
     speed = [33.0, 32.0, *[math.nan] * 9]
     unfinished = sliding_stop(**RUNNING, speed_after_sliding=speed)
-    assert verdict_of(slippery, unfinished).verdict == "inconclusive"
-    assert verdict_of(slippery, sliding_stop(speed_after_sliding=speed)).verdict == "not_applicable"
+    assert verdict_of(slippery, unfinished).status == "inconclusive"
+    assert verdict_of(slippery, sliding_stop(speed_after_sliding=speed)).status == "not_applicable"
     unslid = verdict_of(slippery, stop(**RUNNING))
-    assert (unslid.verdict, unslid.reason) == (
+    assert (unslid.status, unslid.reason) == (
         "inconclusive",
         f"no wheelset slid, so the first phase has no beginning; {ENDED}",
     )
@@ -120,7 +120,7 @@ def test_what_is_decided_early_is_decided_as_the_whole_stop_is(
     fields = {"upper" if upper else "lower": f"{bound:.6f} s", "wheelsets": {"at_least": needed}}
     early = locked(so_far, running=True, **fields)
     whole = locked([a + b for a, b in zip(so_far, more, strict=True)], **fields)
-    assert early.verdict in (whole.verdict, "inconclusive")
+    assert early.status in (whole.status, "inconclusive")
 
 
 @given(
@@ -133,28 +133,28 @@ def test_a_wheelset_that_is_not_known_counts_either_way(
     coverage = Coverage({"locked_time": tuple(NOWHERE if lacks else None for lacks in lacking)})
     early = locked(known, coverage=coverage, **fields)
     possible = [b if lacks else a for a, b, lacks in zip(known, other, lacking, strict=True)]
-    assert early.verdict in (locked(possible, **fields).verdict, "inconclusive")
+    assert early.status in (locked(possible, **fields).status, "inconclusive")
     if not any(lacking):
-        assert early.verdict != "inconclusive"
+        assert early.status != "inconclusive"
 
 
 def test_three_known_wheelsets_can_decide_for_four(locked) -> None:
     coverage = Coverage({"locked_time": (None, NOWHERE, None, None)})
     half = {"upper": "1 s", "wheelsets": {"at_least": "half"}}
     found = locked([0.0, math.nan, 0.2, 5.0], coverage=coverage, **half)
-    assert (found.verdict, found.value) == ("pass", 0.2)
+    assert (found.status, found.value) == ("pass", 0.2)
     assert found.reason == (
         "2 of 4 wheelsets keep <= 1 s, 2 needed: 0, -, 0.2, 5 s so far; not recorded: wheel_speed_2"
     )
     every = locked([0.0, math.nan, 0.2, 0.3], coverage=coverage, upper="1 s", wheelsets="all")
-    assert every.verdict == "inconclusive"
+    assert every.status == "inconclusive"
 
 
 def test_a_gap_leaves_what_was_seen_besides_it(locked) -> None:
     coverage = Coverage({"locked_time": (None, GAP, None, None)})
     every = {"upper": "1 s", "wheelsets": "all", "coverage": coverage}
-    assert locked([0.0, 2.0, 0.0, 0.0], **every).verdict == "fail"
-    assert locked([0.0, 0.5, 0.0, 0.0], **every).verdict == "inconclusive"
+    assert locked([0.0, 2.0, 0.0, 0.0], **every).status == "fail"
+    assert locked([0.0, 0.5, 0.0, 0.0], **every).status == "inconclusive"
 
 
 def test_a_balance_of_the_simulation_says_nothing_about_a_recorded_stop(
@@ -164,7 +164,7 @@ def test_a_balance_of_the_simulation_says_nothing_about_a_recorded_stop(
     records = wheelsets(0.1, 0.1, 0.1, 0.1)
     result = evaluate(case(scenario(shipped("uictest-stop"))), measures, records, coverage=Coverage({}))
     assert result.outcome == "pass"
-    assert [v.verdict for v in result.criteria] == ["not_applicable", "not_applicable", "pass", "pass"]
+    assert [v.status for v in result.criteria] == ["not_applicable", "not_applicable", "pass", "pass"]
 
 
 def test_without_the_initial_speed_a_criterion_that_asks_for_one_is_open(
@@ -181,5 +181,5 @@ def test_without_the_initial_speed_a_criterion_that_asks_for_one_is_open(
         )[2]
         for rail in ("dry", "wet")
     )
-    assert (dry.verdict, dry.reason) == ("inconclusive", coverage.no_initial_speed)
-    assert (wet.verdict, wet.reason) == ("not_applicable", "rail is wet, the criterion is for dry")
+    assert (dry.status, dry.reason) == ("inconclusive", coverage.no_initial_speed)
+    assert (wet.status, wet.reason) == ("not_applicable", "rail is wet, the criterion is for dry")

@@ -9,6 +9,7 @@ import pytest
 from uictest.evaluation import (
     EffectivePart,
     Parameter,
+    cases_document,
     error_result,
     evaluate,
     result_document,
@@ -66,7 +67,7 @@ def test_the_document_is_json_that_any_reader_takes(results) -> None:
 
 def test_results_come_back_from_their_document(results) -> None:
     back = results_of(json.loads(to_json(result_document(results))))
-    assert [result.to_dict() for result in back] == [result.to_dict() for result in results]
+    assert cases_document(back) == cases_document(results)
     assert back[0].criteria == results[0].criteria
     assert back[0].wheelsets == results[0].wheelsets
 
@@ -109,14 +110,29 @@ def test_the_same_results_give_the_same_text_however_long_they_took(results) -> 
     assert to_json(result_document(slower)) == to_json(result_document(results))
 
 
+BARE = {
+    "id": "a",
+    "scenario": "a.yaml",
+    "parameters": {},
+    "expect": "pass",
+    "outcome": "error",
+    "criteria": [],
+    "measures": None,
+    "wheelsets": [],
+}
+
+
 @pytest.mark.parametrize(
     ("document", "message"),
     [
         ({}, "expected a result document of schema 'uictest/result/1', found None"),
         ({"schema": "uictest/result/2"}, "found 'uictest/result/2'"),
         ({"schema": "uictest/result/1"}, "'cases'"),
-        ({"schema": "uictest/result/1", "cases": [{"id": "a"}]}, "'measures'"),
+        ({"schema": "uictest/result/1", "cases": [{"id": "a"}]}, "cases.0: .*'criteria' is missing"),
         ({"schema": "uictest/result/1", "cases": [None]}, "not as schema"),
+        ({"schema": "uictest/result/1", "cases": [BARE | {"met": True}]}, "cases.0.met: Unexpected"),
+        ({"schema": "uictest/result/1", "cases": [BARE | {"outcome": "lost"}]}, "cases.0.outcome: Input"),
+        ({"schema": "uictest/result/1", "cases": [BARE], "parts": {"a": {}}}, "parts.a.kind: Field req"),
     ],
 )
 def test_another_document_is_refused(document, message: str) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import EffectivePart, Parameter
+from uictest.evaluation import EffectivePart, Parameter, parts_document
 from uictest.evaluation.effective_parts import EffectiveParts
 from uictest.scenario import Case, load
 
@@ -42,8 +42,9 @@ def test_an_inline_controller_differs_from_the_library_in_what_it_names(cases: C
     (case,) = cases("controller: {extends: threshold, slip_threshold: 3 km/h}\n")
     parts = of(case)
     assert (parts["controller"].name, parts["controller"].based_on) == ("threshold", "threshold")
-    (parameter,) = parts["controller"].changed
-    assert parameter.to_dict() == {
+    form = parts_document([parts])[parts["controller"].id]
+    (changed_form,) = (each for each in form["parameters"] if each["differs"])
+    assert changed_form == {
         "key": "controller.slip_threshold",
         "value": pytest.approx(3 / 3.6, rel=1e-15),
         "unit": "m/s",

@@ -40,7 +40,7 @@ def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
         judge(scenario(appendix_b, condition="wet"), sliding_stop(0.07 * G), wheelsets(0.2, 0.9, 0.3, 0.8))
     )
     adhesion = verdicts["initial-adhesion"]
-    assert (adhesion.verdict, adhesion.unit, adhesion.upper, adhesion.layer) == (
+    assert (adhesion.status, adhesion.unit, adhesion.upper, adhesion.layer) == (
         "pass",
         "g",
         0.08,
@@ -49,17 +49,17 @@ def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
     assert adhesion.value == pytest.approx(0.07)
     assert adhesion.margin == pytest.approx(0.01)
     slide = verdicts["minimum-slide"]
-    assert (slide.verdict, slide.value, slide.lower, slide.unit) == ("pass", 80.0, 35.0, "%")
+    assert (slide.status, slide.value, slide.lower, slide.unit) == ("pass", 80.0, 35.0, "%")
     assert slide.margin == pytest.approx(45.0)
     assert slide.reason == "2 of 4 wheelsets keep > 35 %, 2 needed: 20, 90, 30, 80 %"
     distance = verdicts["braking-distance"]
-    assert (distance.verdict, distance.value, distance.margin) == ("not_applicable", None, None)
+    assert (distance.status, distance.value, distance.margin) == ("not_applicable", None, None)
     assert distance.reason == "rail is wet, the criterion is for dry"
 
 
 def test_a_dry_stop_is_judged_by_distance_alone(appendix_b, scenario, stop, wheelsets) -> None:
     verdicts = by_id(judge(scenario(appendix_b), stop(braking_distance=512.0), wheelsets(0.0, 0.0, 0.0, 0.0)))
-    assert [v.verdict for v in verdicts.values()] == ["not_applicable", "not_applicable", "fail"]
+    assert [v.status for v in verdicts.values()] == ["not_applicable", "not_applicable", "fail"]
     distance = verdicts["braking-distance"]
     assert (distance.lower, distance.upper, distance.margin) == (440.0, 490.0, -22.0)
     assert distance.reason == "512 m misses 440 .. 490 m by 22 m"
@@ -71,10 +71,10 @@ def test_exactly_at_a_limit_below_and_above_do_not_hold_but_a_range_does(
     wet = by_id(
         judge(scenario(appendix_b, condition="wet"), sliding_stop(), wheelsets(0.35, 0.35, 0.35, 0.35))
     )
-    assert wet["minimum-slide"].verdict == "fail"
+    assert wet["minimum-slide"].status == "fail"
     for distance in (440.0, 490.0):
         dry = by_id(judge(scenario(appendix_b), stop(braking_distance=distance), wheelsets(0.0)))
-        assert dry["braking-distance"].verdict == "pass"
+        assert dry["braking-distance"].status == "pass"
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_what_keeps_a_criterion_from_applying_is_said(
 ) -> None:
     measures = stop(initial_speed=speed * KMH)
     verdict = by_id(judge(scenario(appendix_b, **changes), measures, wheelsets(0.0)))["braking-distance"]
-    assert verdict.verdict == "not_applicable"
+    assert verdict.status == "not_applicable"
     assert verdict.reason.startswith(reason)
     assert verdict.sensitivity == ()
 
@@ -108,7 +108,7 @@ def test_within_the_tolerance_the_distance_is_judged_uncorrected(
 ) -> None:
     measures = stop(initial_speed=speed * KMH, braking_distance=470.0)
     verdict = by_id(judge(scenario(appendix_b), measures, wheelsets(0.0)))["braking-distance"]
-    assert (verdict.verdict, verdict.value) == ("pass", 470.0)
+    assert (verdict.status, verdict.value) == ("pass", 470.0)
     assert "not corrected" in verdict.definition["measure"]
 
 
@@ -116,9 +116,9 @@ def test_a_wet_stop_without_sliding_says_so_and_is_no_slip_test(
     appendix_b, scenario, stop, wheelsets
 ) -> None:
     verdicts = by_id(judge(scenario(appendix_b, condition="wet"), stop(), wheelsets(0.01, 0.01, 0.01, 0.01)))
-    assert verdicts["initial-adhesion"].verdict == "not_applicable"
+    assert verdicts["initial-adhesion"].status == "not_applicable"
     assert "no wheelset slid" in verdicts["initial-adhesion"].reason
-    assert verdicts["minimum-slide"].verdict == "fail"
+    assert verdicts["minimum-slide"].status == "fail"
 
 
 def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(
@@ -127,10 +127,10 @@ def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(
     bounded = criterion(lower="440 m", upper="490 m")
     running = {"stopped": 0.0, "braking_distance": np.nan, "end_speed": 12.0, "end_time": 60.0}
     far = verdict_of(bounded, stop(**running, end_distance=900.0))
-    assert (far.verdict, far.value, far.margin) == ("fail", 900.0, -410.0)
+    assert (far.status, far.value, far.margin) == ("fail", 900.0, -410.0)
     assert far.reason == f"900 m so far; {ENDED}"
     near = verdict_of(bounded, stop(**running, end_distance=460.0))
-    assert (near.verdict, near.value, near.margin) == ("inconclusive", None, None)
+    assert (near.status, near.value, near.margin) == ("inconclusive", None, None)
     assert near.reason == f"460 m so far; {ENDED}"
 
 
@@ -142,10 +142,10 @@ def test_a_train_slower_than_the_speed_of_observation_does_not_show_that_no_whee
     slow = stop(initial_speed=9.0 / 3.6, maximum_deceleration=math.nan)
     gaining = stop(initial_speed=9.0 / 3.6)
     unobserved = verdict_of(short, slow)
-    assert unobserved.verdict == "not_applicable"
+    assert unobserved.status == "not_applicable"
     assert "`moving_speed` (10 km/h)" in unobserved.reason
-    assert verdict_of(short, gaining).verdict == "pass"
-    assert verdict_of(criterion(lower="440 m"), slow).verdict == "pass"
+    assert verdict_of(short, gaining).status == "pass"
+    assert verdict_of(criterion(lower="440 m"), slow).status == "pass"
 
 
 @pytest.mark.parametrize(
@@ -165,7 +165,7 @@ def test_the_wheelset_that_decides_gives_the_value(
     cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["30 km/h", "30 km/h"]}}
     slide = criterion("maximum_slide_above_cutoff", lower="35 %", wheelsets=wheelsets_keep, definition=cutoff)
     found = verdict_of(slide, stop(), wheelsets(*slides))
-    assert (found.verdict, found.value) == (verdict, value)
+    assert (found.status, found.value) == (verdict, value)
 
 
 def test_a_record_of_fewer_wheelsets_than_needed_supports_no_verdict(
@@ -173,7 +173,7 @@ def test_a_record_of_fewer_wheelsets_than_needed_supports_no_verdict(
 ) -> None:
     locked = criterion("locked_time", upper="1 s", wheelsets={"at_least": 3})
     found = verdict_of(locked, stop(), wheelsets(0.1, 0.1))
-    assert (found.verdict, found.reason) == ("inconclusive", "the record holds 2 wheelsets")
+    assert (found.status, found.reason) == ("inconclusive", "the record holds 2 wheelsets")
 
 
 def test_the_verdict_carries_what_it_was_taken_to_mean(appendix_b, scenario, sliding_stop, wheelsets) -> None:
@@ -223,7 +223,7 @@ def test_nan_never_passes(criterion, verdict_of, sliding_stop, wheelsets, name: 
     fields = ("braking_distance", "energy_residual", "reservoir_minimum_pressure")
     measures = sliding_stop(**dict.fromkeys(fields, nan), speed_after_sliding=nan)
     found = verdict_of(criterion(name, **bounds[name]), measures, wheelsets(nan))
-    assert found.verdict != "pass"
+    assert found.status != "pass"
     assert found.reason
 
 
@@ -233,7 +233,7 @@ def test_a_longer_stop_never_turns_fail_into_pass_under_an_upper_bound(
 ) -> None:
     limited = criterion(upper=f"{bound:.6f} m")
     shorter, longer = (verdict_of(limited, stop(braking_distance=s)) for s in sorted(distances))
-    assert (shorter.verdict, longer.verdict) != ("fail", "pass")
+    assert (shorter.status, longer.status) != ("fail", "pass")
     assert shorter.margin >= longer.margin
 
 
@@ -243,4 +243,4 @@ def test_the_margin_has_the_sign_of_the_verdict(
 ) -> None:
     for side in ("lower", "upper"):
         found = verdict_of(criterion(**{side: f"{bound:.6f} m"}), stop(braking_distance=distance))
-        assert (found.margin >= 0) == (found.verdict == "pass")
+        assert (found.margin >= 0) == (found.status == "pass")

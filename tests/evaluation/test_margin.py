@@ -29,7 +29,7 @@ def verdict(**changes: Any) -> Verdict:
         "lower": None,
         "upper": 500.0,
         "margin": 50.0,
-        "verdict": "pass",
+        "status": "pass",
         "reason": "",
         "definition": {},
     }
@@ -37,12 +37,12 @@ def verdict(**changes: Any) -> Verdict:
 
 
 def result(*criteria: Verdict) -> CaseResult:
-    return CaseResult("stop", "stop.yaml", {}, "pass", "pass", criteria)
+    return CaseResult("stop", "stop.yaml", {}, "pass", "pass", criteria=criteria)
 
 
 def test_a_margin_counts_over_its_bound() -> None:
     assert relative_margin(verdict()) == pytest.approx(0.1)
-    assert relative_margin(verdict(margin=-25.0, verdict="fail")) == pytest.approx(-0.05)
+    assert relative_margin(verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
 
 
 def test_a_verdict_that_hangs_on_a_definition_has_no_margin() -> None:
@@ -52,8 +52,8 @@ def test_a_verdict_that_hangs_on_a_definition_has_no_margin() -> None:
 def test_what_only_says_yes_or_no_has_none() -> None:
     standstill = verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
     assert relative_margin(standstill) is None
-    assert relative_margin(verdict(margin=None, verdict="not_applicable")) is None
-    missed = verdict(id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, verdict="fail")
+    assert relative_margin(verdict(margin=None, status="not_applicable")) is None
+    missed = verdict(id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, status="fail")
     assert relative_margin(missed) == -1.0
 
 

@@ -58,10 +58,10 @@ def test_where_the_verdict_flips_is_located(adhesion, moved, sliding_stop, wheel
     falls = np.array([0.07, 0.07, *[0.09] * 8]) * G
     measures = sliding_stop(speed_after_sliding=33.0 - np.cumsum([0.0, *falls]))
     found = moved(adhesion, measures, wheelsets(0.5))
-    assert [stretch.verdict for stretch in found.stretches] == ["pass", "fail"]
-    assert found.stretches[0].first == 1.5
-    assert found.stretches[0].last == pytest.approx(4.0, abs=1e-5)
-    assert found.stretches[1].last == 5.5
+    assert [interval.status for interval in found.intervals] == ["pass", "fail"]
+    assert found.intervals[0].first == 1.5
+    assert found.intervals[0].last == pytest.approx(4.0, abs=1e-5)
+    assert found.intervals[1].last == 5.5
     assert str(found) == "first_phase_duration 1.5 .. 5.5 s: pass 1.5 .. 4, fail 4 .. 5.5"
 
 
@@ -69,8 +69,8 @@ def test_a_record_too_short_for_part_of_the_range_shows(adhesion, moved, sliding
     speed = 33.0 - 0.07 * G * np.arange(11.0)
     speed[5:] = np.nan
     found = moved(adhesion, sliding_stop(speed_after_sliding=speed), wheelsets(0.5))
-    assert [stretch.verdict for stretch in found.stretches] == ["pass", "not_applicable"]
-    assert found.stretches[0].last == pytest.approx(4.0, abs=1e-5)
+    assert [interval.status for interval in found.intervals] == ["pass", "not_applicable"]
+    assert found.intervals[0].last == pytest.approx(4.0, abs=1e-5)
 
 
 def test_both_bounds_crossed_within_a_second_are_both_found(
@@ -80,7 +80,7 @@ def test_both_bounds_crossed_within_a_second_are_both_found(
     narrow = criterion("initial_adhesion", lower="1.5 m/s2", upper="1.6 m/s2", definition=phase)
     measures = sliding_stop(speed_after_sliding=[30.0, 29.0, 26.0, *[25.0] * 8])
     found = moved(narrow, measures, wheelsets(0.5))
-    assert [stretch.verdict for stretch in found.stretches] == ["fail", "pass", "fail"]
+    assert [interval.status for interval in found.intervals] == ["fail", "pass", "fail"]
 
 
 def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wheelsets) -> None:
@@ -91,7 +91,7 @@ def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wh
 
 
 @given(speeds, st.floats(1.5, 5.5))
-def test_the_stretches_agree_with_deciding_at_any_duration(
+def test_the_intervals_agree_with_deciding_at_any_duration(
     adhesion, moved, sliding_stop, wheelsets, speed, duration: float
 ) -> None:
     measures = sliding_stop(speed_after_sliding=speed)
@@ -101,13 +101,13 @@ def test_the_stretches_agree_with_deciding_at_any_duration(
         bounds_of(adhesion),
         {"first_phase_duration": duration},
         ObservedStop(measures, wheelsets(0.5)),
-    ).verdict
-    nearby = {s.verdict for s in found.stretches if s.first - TOLERANCE <= duration <= s.last + TOLERANCE}
+    ).status
+    nearby = {s.status for s in found.intervals if s.first - TOLERANCE <= duration <= s.last + TOLERANCE}
     assert direct in nearby
 
 
 @given(st.lists(st.floats(0.0, 1.0), min_size=84, max_size=84), st.integers(1, 6))
-def test_the_stretches_agree_with_deciding_at_any_cutoff(
+def test_the_intervals_agree_with_deciding_at_any_cutoff(
     slide, moved, stop, wheelsets, slides, k: int
 ) -> None:
     records = wheelsets(0.0, 0.0, 0.0, 0.0)
@@ -115,10 +115,10 @@ def test_the_stretches_agree_with_deciding_at_any_cutoff(
     found = moved(slide, stop(), records)
     direct = decide(
         slide, bounds_of(slide), {"low_speed_cutoff": 10 * k * KMH}, ObservedStop(stop(), records)
-    ).verdict
-    assert [s.verdict for s in found.stretches if s.first <= 10 * k <= s.last] == [direct]
+    ).status
+    assert [s.status for s in found.intervals if s.first <= 10 * k <= s.last] == [direct]
 
 
 def test_a_range_of_one_value_is_decided_there() -> None:
     only = sensitivity("first_phase_duration", "s", 3.0, 3.0, None, lambda at: Decision("pass", at, ""))
-    assert [(s.first, s.last) for s in only.stretches] == [(3.0, 3.0)]
+    assert [(s.first, s.last) for s in only.intervals] == [(3.0, 3.0)]

@@ -1,8 +1,17 @@
 import math
+from typing import Any
 
 import pytest
+from pydantic import ConfigDict, TypeAdapter
 
-from uictest.evaluation import AppliedDefinition, Sensitivity, Verdict, VerdictInterval
+from uictest.evaluation import (
+    AppliedDefinition,
+    Sensitivity,
+    Verdict,
+    VerdictInterval,
+    from_json_form,
+    to_json_form,
+)
 
 # The interface's names; `sensitivity` adds how firm the verdict is, the last two say as data what was judged.
 FIELDS = [
@@ -20,6 +29,7 @@ FIELDS = [
     "measure",
     "definitions",
 ]
+VERDICTS = TypeAdapter(list[Verdict], config=ConfigDict(extra="forbid"))
 SLIDE = Sensitivity(
     "low_speed_cutoff",
     "km/h",
@@ -39,22 +49,30 @@ def verdict(**changes: object) -> Verdict:
         "lower": 35.0,
         "upper": None,
     }
-    fields |= {"margin": 45.0, "verdict": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
+    fields |= {"margin": 45.0, "status": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
     cutoff = AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "chosen", 10 / 3.6, 60 / 3.6)
     fields |= {"measure": "maximum_slide", "definitions": (cutoff,)}
     return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
 
 
+def form_of(verdict: Verdict) -> dict[str, Any]:
+    return to_json_form(VERDICTS, [verdict])[0]
+
+
+def read_back(form: dict[str, Any]) -> Verdict:
+    return from_json_form(VERDICTS, [form])[0]
+
+
 def test_the_json_form_has_the_fields_of_the_interface_and_comes_back() -> None:
-    form = verdict().to_dict()
+    form = form_of(verdict())
     assert list(form) == FIELDS
-    assert Verdict.from_dict(form) == verdict()
+    assert read_back(form) == verdict()
 
 
 def test_a_result_of_the_first_version_can_still_be_read() -> None:
-    form = verdict().to_dict()
+    form = form_of(verdict())
     del form["measure"], form["definitions"]
-    assert Verdict.from_dict(form) == verdict(measure="", definitions=())
+    assert read_back(form) == verdict(measure="", definitions=())
 
 
 def test_a_definition_is_found_by_its_name() -> None:
@@ -63,12 +81,26 @@ def test_a_definition_is_found_by_its_name() -> None:
 
 
 def test_nan_and_infinity_become_null() -> None:
-    form = verdict(value=math.inf, margin=math.nan).to_dict()
+    form = form_of(verdict(value=math.inf, margin=math.nan))
     assert (form["value"], form["margin"]) == (None, None)
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"verdict": "maybe"}, "verdict: Input should be 'pass', 'fail'"),
+        ({"value": "far"}, "value: Input should be a valid number"),
+        ({"status": "pass"}, "status: Unexpected keyword argument"),
+        ({"sensitivity": [{"definition": "low_speed_cutoff"}]}, "sensitivity.0.unit: Field required"),
+    ],
+)
+def test_a_verdict_of_another_form_is_refused(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        read_back(form_of(verdict()) | changes)
+
+
 def test_a_sensitivity_says_whether_it_flips() -> None:
-    assert [entry["flips"] for entry in verdict().to_dict()["sensitivity"]] == [True, False]
+    assert [entry["flips"] for entry in form_of(verdict())["sensitivity"]] == [True, False]
     assert not verdict().firm
     assert verdict(sensitivity=(STEADY,)).firm
     assert verdict(sensitivity=()).firm
@@ -76,4 +108,4 @@ def test_a_sensitivity_says_whether_it_flips() -> None:
 
 def test_a_verdict_cannot_be_changed() -> None:
     with pytest.raises(AttributeError):
-        verdict().verdict = "fail"
+        verdict().status = "fail"

@@ -19,7 +19,7 @@ def _kinds(stop: Any) -> set[tuple[str, str]]:
 
 
 def _reasons(case: Any, stop: Any) -> dict[str, str]:
-    return {v.id: v.reason for v in judge_stop(case, stop).criteria if v.verdict == "inconclusive"}
+    return {v.id: v.reason for v in judge_stop(case, stop).criteria if v.status == "inconclusive"}
 
 
 def _change(channels: Channels, name: str, samples: np.ndarray) -> None:

@@ -48,8 +48,8 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
     wanted, found = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, measured)
     assert measured.defects == ()
     assert found.outcome == wanted.outcome
-    verdicts = [(v.id, v.verdict) for v in found.criteria if v.id not in BALANCES]
-    assert verdicts == [(v.id, v.verdict) for v in wanted.criteria if v.id not in BALANCES]
+    verdicts = [(v.id, v.status) for v in found.criteria if v.id not in BALANCES]
+    assert verdicts == [(v.id, v.status) for v in wanted.criteria if v.id not in BALANCES]
     _compare(found, wanted, max(1.0 / rate, 0.01))
 
 
@@ -72,10 +72,10 @@ def test_what_a_record_lacks_is_inconclusive_and_what_no_train_has_not_applicabl
     verdicts = {each.id: each for each in result.criteria}
     assert result.outcome == "inconclusive"
     for name in BALANCES:
-        assert verdicts[name].verdict == "not_applicable"
-    assert verdicts["standstill"].verdict == "pass"
+        assert verdicts[name].status == "not_applicable"
+    assert verdicts["standstill"].status == "pass"
     locked = verdicts["locked-wheels"]
-    assert (locked.verdict, locked.reason) == (
+    assert (locked.status, locked.reason) == (
         "inconclusive",
         "not recorded: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4",
     )

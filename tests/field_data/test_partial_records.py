@@ -120,12 +120,12 @@ def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
     assert len(whole.criteria) > 100
     assert some.outcome in ("fail", "inconclusive")
     wrong = [
-        (early.id, early.verdict, early.reason)
+        (early.id, early.status, early.reason)
         for early, late in zip(some.criteria, whole.criteria, strict=True)
-        if early.verdict not in (late.verdict, "inconclusive")
+        if early.status not in (late.status, "inconclusive")
     ]
     assert wrong == []
-    decided = {each.verdict for each in some.criteria}
+    decided = {each.status for each in some.criteria}
     assert "inconclusive" in decided
 
 
@@ -134,7 +134,7 @@ def test_what_a_part_shows_for_certain_is_decided(
     part: str, by_every_measure: Case, channels: Channels, prepared: Any
 ) -> None:
     some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
-    verdicts = {each.id: each.verdict for each in some.criteria}
+    verdicts = {each.id: each.status for each in some.criteria}
     for name in ("sliding-duration", "valve-actuations", "maximum-clamping-force"):
         assert verdicts[f"{name}-lower-0.1"] == "pass"
         assert verdicts[f"{name}-upper-0.1"] == "fail"
@@ -177,7 +177,7 @@ def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Cha
         "criteria=[uic-541-05-appendix-b]",
     )
     result = judge_stop(stated_case("late", 40.0 / 3.6, statements), prepared(_of_part("from 2", channels)))
-    verdicts = {each.id: (each.verdict, each.reason) for each in result.criteria}
+    verdicts = {each.id: (each.status, each.reason) for each in result.criteria}
     assert verdicts["braking-distance"] == (
         "inconclusive",
         "the record begins after the brake command: no initial speed",
@@ -199,7 +199,7 @@ def test_samples_far_apart_do_not_show_that_no_wheelset_locked(
     assert [str(each) for each in stop.defects if each.kind == "coarse"] == [
         f"coarse: {coarse} is sampled every 0.5 s; at most 0.25 s shows all that happens"
     ]
-    assert verdicts["locked-wheels"].verdict == "inconclusive"
+    assert verdicts["locked-wheels"].status == "inconclusive"
     assert "samples are 0.5 s apart" in verdicts["locked-wheels"].reason
-    assert verdicts["standstill"].verdict == "pass"
+    assert verdicts["standstill"].status == "pass"
     assert result.outcome == "inconclusive"

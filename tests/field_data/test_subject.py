@@ -3,7 +3,8 @@ from __future__ import annotations
 from typing import Any
 
 from uictest.field_data import recorded_subject, stated_case
-from uictest.report import CaseDescription
+from uictest.report import subjects_form
+from uictest.report.case_description import read_subjects
 from uictest.scenario import Case
 
 
@@ -26,14 +27,14 @@ def test_a_recorded_stop_is_headed_by_its_file_and_by_what_was_read_and_derived(
     assert subject.recorded["sampling"] == "speed every 10 ms"
     assert subject.recorded["trigger"] == "at 0 s, stated by the file"
     assert "distance" not in recorded_subject(case, prepared(channels)).recorded
-    assert CaseDescription.from_dict(subject.to_dict()) == subject
+    assert read_subjects({"subjects": subjects_form({"a": subject})}) == {"a": subject}
 
 
 def test_nothing_of_a_simulated_rig_is_said_of_a_recorded_stop(
     case: Case, channels: Any, prepared: Any
 ) -> None:
     subject = recorded_subject(case, prepared(channels))
-    text = str(subject.to_dict())
+    text = str(subjects_form({"a": subject}))
     for of_the_rig in ("intercity-180", "one-caliper", "threshold", "compensation", "0.08", "ep-disc"):
         assert of_the_rig not in text
 

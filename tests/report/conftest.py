@@ -119,7 +119,7 @@ def verdict(**changes: object) -> Verdict:
         "lower": 440.0,
         "upper": 490.0,
         "margin": 24.75,
-        "verdict": "pass",
+        "status": "pass",
         "reason": "",
         "definition": {"low_speed_cutoff": "30 km/h"},
     }

@@ -29,7 +29,7 @@ def test_one_testcase_per_case_named_after_file_and_id(make_result: MakeResult) 
 def test_a_missed_case_is_a_failure_whose_text_says_everything(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    broken = make_verdict(verdict="fail", value=500.0, margin=-10.0, reason="500 m misses 440 .. 490 m")
+    broken = make_verdict(status="fail", value=500.0, margin=-10.0, reason="500 m misses 440 .. 490 m")
     suite = _suite([make_result(outcome="invalid", criteria=(broken,), reason="braking-distance: ...")])
     text = suite.findtext("testcase/failure")
     assert text is not None

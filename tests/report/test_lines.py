@@ -20,7 +20,7 @@ def test_the_line_of_a_case_that_is_met(make_result: MakeResult) -> None:
 def test_a_missed_case_gives_its_reason_on_the_same_line(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    broken = make_verdict(id="locked", verdict="fail", margin=None, reason="locked for 3 s")
+    broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     line = case_line(make_result(outcome="fail", criteria=(broken,)))
     assert line.startswith("MISSED dry-120[command=90] outcome=fail expect=pass ")
     assert line.endswith("reason=locked (validity) fail: locked for 3 s")

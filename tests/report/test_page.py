@@ -106,7 +106,7 @@ def test_hostile_texts_are_shown_and_make_no_element(
     drawn: str,
 ) -> None:
     bad = f"{hostile}</script></td><img src=x onerror=alert(1)>"
-    verdict = make_verdict(id=bad, reason=bad, definition={bad: bad}, verdict="fail", margin=-1.0)
+    verdict = make_verdict(id=bad, reason=bad, definition={bad: bad}, status="fail", margin=-1.0)
     result = make_result(
         id=bad, scenario=bad, parameters={bad: bad}, outcome="fail", criteria=(verdict,), reason=bad
     )
@@ -134,7 +134,7 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
     make_recording: MakeRecording,
 ) -> None:
     reason = "0 of 4 wheelsets keep <= 1 s, 4 needed: 1.27, 1.24, 1.29, 1.32 s"
-    broken = make_verdict(verdict="fail", margin=-10.0, reason=reason)
+    broken = make_verdict(status="fail", margin=-10.0, reason=reason)
     results = [
         make_result(id=f"wet-80-friction[friction=0.{n:03}]", outcome="fail", criteria=(broken,) * 7)
         for n in range(1000)

@@ -190,7 +190,7 @@ def test_the_criterion_that_failed_is_named_and_drawn_first(
         for name, value in (("locked_speed", 0.1), ("moving_speed", 10 / 3.6))
     )
     lock = make_verdict(
-        id="locked-wheels", measure="longest_lock", verdict="fail", value=4.0, unit="s", upper=1.0,
+        id="locked-wheels", measure="longest_lock", status="fail", value=4.0, unit="s", upper=1.0,
         lower=None, margin=-3.0, definitions=definitions,
     )  # fmt: skip
     result = make_result(outcome="fail", criteria=(make_verdict(measure="braking_distance"), lock))

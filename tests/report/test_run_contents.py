@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult
+from uictest.evaluation import CaseResult, cases_document
 from uictest.recording import Recording
 from uictest.report import CaseDescription, read_run, write_recording, write_reports
 
@@ -19,7 +19,7 @@ def test_a_run_comes_back_from_its_folder(
     write_reports(tmp_path, [result], {"seed": 3}, complete=False, subjects={result.id: subject})
     write_recording(tmp_path, result.id, make_recording())
     content = read_run(tmp_path, traces=True)
-    assert [each.to_dict() for each in content.results] == [result.to_dict()]
+    assert cases_document(content.results) == cases_document([result])
     assert (content.name, content.manifest, content.complete) == (tmp_path.name, {"seed": 3}, False)
     assert content.subject(result.id) == subject
     assert content.subject("another") == CaseDescription()

@@ -54,7 +54,7 @@ def test_markup_and_terminal_codes_in_a_name_are_shown_as_text(make_result: Make
 def test_the_explanation_names_expectation_and_deciding_criterion(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    broken = make_verdict(id="locked", verdict="fail", margin=None, reason="locked for 3 s")
+    broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
         "MISSED dry-120[command=90]",

@@ -61,7 +61,7 @@ def test_wheelsets_are_numbered_from_the_leading_end(make_result: MakeResult) ->
 def test_every_criterion_is_a_row_with_its_definition(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    criteria = (make_verdict(), make_verdict(id="slide", value=None, margin=None, verdict="not_applicable"))
+    criteria = (make_verdict(), make_verdict(id="slide", value=None, margin=None, status="not_applicable"))
     distance, slide = _rows(criteria_csv([make_result(criteria=criteria)]))
     assert (distance["criterion"], distance["value"], distance["margin"]) == (
         "braking-distance",

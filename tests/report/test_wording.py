@@ -38,7 +38,7 @@ def test_limits(make_verdict: MakeVerdict, lower: float | None, upper: float | N
 def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    absent = make_verdict(verdict="not_applicable", value=None, margin=None, reason="the rail is dry")
+    absent = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
     assert explanation(make_result(outcome="skipped", criteria=(absent,))) == [
         "expected pass, came out skipped",
         "braking-distance (validity) not applicable: the rail is dry",
@@ -49,7 +49,7 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged(
     make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
     undecided = make_verdict(
-        verdict="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
+        status="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
     )
     assert explanation(make_result(outcome="inconclusive", criteria=(make_verdict(), undecided))) == [
         "expected pass, came out inconclusive",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from uictest.report import Difference
+from uictest.report import Difference, differences_form
 
 if TYPE_CHECKING:
     from uictest.comparison.overlay import Overlay
@@ -57,5 +57,5 @@ class Comparison:
             "compared": self.compared,
             "notes": list(self.notes),
             "parameters": [asdict(change) for change in self.parameters],
-            "differences": [difference.to_dict() for difference in self.differences],
+            "differences": differences_form(self.differences),
         }

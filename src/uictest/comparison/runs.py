@@ -70,7 +70,7 @@ def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference |
 
 
 def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
-    return {verdict.id: verdict.verdict.replace("_", " ") for verdict in result.criteria}
+    return {verdict.id: verdict.status.replace("_", " ") for verdict in result.criteria}
 
 
 def _figures(result: evaluation.CaseResult) -> dict[str, float]:

@@ -1,17 +1,32 @@
 from .case import JUDGED_KEYS as JUDGED_KEYS, error_result as error_result, evaluate as evaluate
 from .coverage import Coverage as Coverage, MissingData as MissingData
 from .document import (
-    parts_document as parts_document,
-    parts_of as parts_of,
+    cases_document as cases_document,
+    cases_of as cases_of,
     result_document as result_document,
     results_of as results_of,
     to_json as to_json,
 )
 from .effective_parts import EffectiveParts as EffectiveParts
-from .json_form import json_form as json_form
+from .json_form import (
+    Number as Number,
+    OptionalNumber as OptionalNumber,
+    finite_or_none as finite_or_none,
+    from_json_form as from_json_form,
+    json_form as json_form,
+    nan_for_none as nan_for_none,
+    required as required,
+    to_json_form as to_json_form,
+)
 from .judgement import judge as judge
 from .margin import narrowest_margin as narrowest_margin, relative_margin as relative_margin
-from .parameters import EffectivePart as EffectivePart, Parameter as Parameter, parts_table as parts_table
+from .parameters import (
+    EffectivePart as EffectivePart,
+    Parameter as Parameter,
+    parts_document as parts_document,
+    parts_of as parts_of,
+    parts_table as parts_table,
+)
 from .result import (
     CaseMeasures as CaseMeasures,
     CaseResult as CaseResult,

@@ -16,12 +16,12 @@ from uictest.units import in_unit, to_12_digits, value_text, with_unit
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A verdict with the value that decided it (in the measure's unit; None where there is none) and why.
+    """A status with the value that decided it (in the measure's unit; None where there is none) and why.
 
     `side` is -1, 0 or 1: below, between or above the bounds.
     """
 
-    verdict: Status
+    status: Status
     value: float | None
     reason: str
     side: int = 0
@@ -63,10 +63,10 @@ def bounds_of(criterion: scenario.Criterion) -> Bounds:
     return Bounds(lower, upper, criterion.strict)
 
 
-def _decided(verdict: Status, value: float, bounds: Bounds, reason: str) -> Decision:
+def _decided(status: Status, value: float, bounds: Bounds, reason: str) -> Decision:
     if math.isnan(value):
-        return Decision(verdict, None, reason)
-    return Decision(verdict, value, reason, bounds.side(value))
+        return Decision(status, None, reason)
+    return Decision(status, value, reason, bounds.side(value))
 
 
 def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
@@ -90,13 +90,13 @@ def _of_intervals(
     breaking = [value for value, held in zip(values, holds, strict=True) if held is False]
     possible = len(values) - len(breaking)
     wheelsets, demand = f"of {len(values)} wheelsets", with_unit(str(bounds), unit)
-    verdict: Status = "inconclusive"
+    status: Status = "inconclusive"
     value, count = math.nan, f"{needed} {wheelsets} must keep {demand}"
     if len(keeping) >= needed:
-        verdict, value = "pass", deciding(keeping, bounds, needed)
+        status, value = "pass", deciding(keeping, bounds, needed)
         count = f"{len(keeping)} {wheelsets} keep {demand}, {needed} needed"
     elif possible < needed:
-        verdict, value = "fail", deciding(breaking, bounds, needed - possible)
+        status, value = "fail", deciding(breaking, bounds, needed - possible)
         count = f"{len(breaking)} {wheelsets} miss {demand}, {needed} must keep it"
     shown = [
         value_text(value, "1") if _known(value, gap) else "-"
@@ -104,9 +104,9 @@ def _of_intervals(
     ]
     reasons = _listed([gap for gap in missing if gap])
     if set(shown) == {"-"}:
-        return _decided(verdict, value, bounds, reasons)
+        return _decided(status, value, bounds, reasons)
     so_far = f"{with_unit(', '.join(shown), unit)} so far; {reasons}"
-    return _decided(verdict, value, bounds, so_far if len(values) == 1 else f"{count}: {so_far}")
+    return _decided(status, value, bounds, so_far if len(values) == 1 else f"{count}: {so_far}")
 
 
 def _known(value: float, gap: MissingData | None) -> bool:

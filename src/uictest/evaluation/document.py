@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Annotated, Any, Final
 
-from uictest.evaluation.json_form import json_form
-from uictest.evaluation.parameters import EffectivePart, parts_table
+from pydantic import ConfigDict, TypeAdapter
+
+from uictest.evaluation.json_form import from_json_form, json_form, required, to_json_form
+from uictest.evaluation.parameters import EffectivePart, parts_document, parts_of
 from uictest.evaluation.result import CaseResult
 
 SCHEMA = "uictest/result/1"
+
+
+# In code these three default to those of a case that was not simulated.
+_CASES: Final = TypeAdapter(
+    list[Annotated[CaseResult, required("criteria", "measures", "wheelsets")]],
+    config=ConfigDict(extra="forbid", defer_build=True),
+)
 
 
 def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:
@@ -23,21 +32,23 @@ def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, A
         "schema": SCHEMA,
         **json_form(header),
         "parts": parts_document(result.parts for result in results),
-        "cases": [result.to_dict() for result in results],
+        "cases": cases_document(results),
     }
 
 
-def parts_document(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, Any]:
-    """Return the JSON form of every distinct part of some cases, by id."""
-    return {part_id: part.to_dict() for part_id, part in parts_table(cases).items()}
+def cases_document(results: Iterable[CaseResult]) -> list[dict[str, Any]]:
+    """Return the JSON form of results, NaN and infinity as None, without how long they took."""
+    form: list[dict[str, Any]] = to_json_form(_CASES, list(results))
+    return form
 
 
-def parts_of(document: Mapping[str, Any]) -> dict[str, EffectivePart]:
-    """Return the parts in a document by id; none where an earlier version wrote it.
+def cases_of(content: object, parts: Mapping[str, EffectivePart], place: str = "cases") -> list[CaseResult]:
+    """Return the results whose JSON form is `content`; `parts` are those they may name, by id.
 
-    Raises KeyError, TypeError or AttributeError where one lacks or adds a field.
+    `place` is where the content stands in its document. Raises ValueError where a case lacks or adds a field,
+    or names another part.
     """
-    return {part_id: EffectivePart.from_dict(part) for part_id, part in document.get("parts", {}).items()}
+    return from_json_form(_CASES, content, place=place, context=parts)
 
 
 def results_of(document: Mapping[str, Any]) -> list[CaseResult]:
@@ -47,13 +58,14 @@ def results_of(document: Mapping[str, Any]) -> list[CaseResult]:
         ValueError: the document is not of this schema, or a case in it lacks or adds a field.
 
     """
-    found = document.get("schema")
-    if found != SCHEMA:
-        raise ValueError(f"expected a result document of schema {SCHEMA!r}, found {found!r}")
+    schema = document.get("schema")
+    if schema != SCHEMA:
+        raise ValueError(f"expected a result document of schema {SCHEMA!r}, found {schema!r}")
     try:
-        parts = parts_of(document)
-        return [CaseResult.from_dict(case, parts) for case in document["cases"]]
-    except (KeyError, TypeError, AttributeError) as error:
+        return cases_of(document["cases"], parts_of(document))
+    except KeyError as error:
+        raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: no {error}") from error
+    except ValueError as error:
         raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: {error}") from error
 
 

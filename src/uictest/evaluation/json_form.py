@@ -1,10 +1,14 @@
-"""Numbers as JSON can hold them."""
+"""Data as JSON can hold them: NaN and infinity are null, and what is read back is validated."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any, TypeVar
+
+from pydantic import BeforeValidator, PlainSerializer, TypeAdapter, ValidationError
+
+_Content = TypeVar("_Content")
 
 
 def json_form(value: Any) -> Any:
@@ -13,12 +17,61 @@ def json_form(value: Any) -> Any:
         return {str(key): json_form(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [json_form(item) for item in value]
+    return finite_or_none(value)
+
+
+def finite_or_none(value: Any) -> Any:
+    """Return a number as JSON can hold it, None for NaN and infinity; anything else unchanged."""
     if isinstance(value, float):
         # float(): a subclass (a quantity, a numpy number) would otherwise print in its own way.
         return float(value) if math.isfinite(value) else None
     return value
 
 
-def or_nan(value: float | None) -> float:
-    """Return a figure read from JSON, None as NaN."""
-    return math.nan if value is None else float(value)
+def nan_for_none(value: object) -> object:
+    """Return NaN for a null of JSON; anything else unchanged."""
+    return math.nan if value is None else value
+
+
+Number = Annotated[float, BeforeValidator(nan_for_none), PlainSerializer(finite_or_none)]
+"""A number whose NaN and infinity are null in JSON; null reads as NaN."""
+
+OptionalNumber = Annotated[float | None, PlainSerializer(finite_or_none)]
+"""A number that may be absent: NaN, infinity and None are null in JSON; null reads as None."""
+
+
+def required(*names: str) -> BeforeValidator:
+    """Return the validator of a form that always holds these fields, whatever defaults they have."""
+
+    def complete(content: object) -> object:
+        missing = [name for name in names if isinstance(content, Mapping) and name not in content]
+        if missing:
+            raise ValueError(f"{missing[0]!r} is missing")
+        return content
+
+    return BeforeValidator(complete)
+
+
+def from_json_form(
+    adapter: TypeAdapter[_Content], content: object, *, place: str = "", context: object = None
+) -> _Content:
+    """Return the data whose JSON form, as the adapter writes it, is `content`.
+
+    `place` is where the content stands in its document. Raises ValueError that names the first place where
+    the content is not of that form.
+    """
+    try:
+        return adapter.validate_python(content, context=context)
+    except ValidationError as error:
+        raise ValueError(_first_problem(error, place)) from error
+
+
+def to_json_form(adapter: TypeAdapter[Any], value: object) -> Any:
+    """Return the JSON form of a value: dicts, lists, text, finite numbers and None."""
+    return adapter.dump_python(value, mode="json", by_alias=True)
+
+
+def _first_problem(error: ValidationError, place: str) -> str:
+    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    where = ".".join(filter(None, (place, *map(str, first["loc"]))))
+    return f"{where}: {first['msg']}" if where else first["msg"]

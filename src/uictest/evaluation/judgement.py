@@ -69,7 +69,7 @@ def _judge(
         return _verdict(criterion, bounds, undecided)
     stated = criterion.definition.stated()
     decision = decide(criterion, bounds, stated, stop)
-    if not explain or decision.verdict == "inconclusive":
+    if not explain or decision.status == "inconclusive":
         return _verdict(criterion, bounds, decision)
     return _verdict(criterion, bounds, decision, *_sensitivities(criterion, bounds, stated, stop))
 
@@ -135,7 +135,7 @@ def _verdict(criterion: Criterion, bounds: Bounds, decision: Decision, *moves: S
         lower=bounds.lower,
         upper=bounds.upper,
         margin=_margin(decision, bounds),
-        verdict=decision.verdict,
+        status=decision.status,
         reason=decision.reason,
         sensitivity=moves,
         measure=criterion.measure,

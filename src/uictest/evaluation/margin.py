@@ -15,7 +15,7 @@ def relative_margin(verdict: Verdict) -> float | None:
     A criterion that is met exactly only says yes or no, as that of standstill does, and has none. A verdict
     that flips within the range of a definition counts as no margin at all.
     """
-    if verdict.margin is None or (verdict.margin == 0.0 and verdict.verdict == "pass" and verdict.firm):
+    if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm):
         return None
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
     return verdict.margin / bound if verdict.firm and bound else min(verdict.margin, 0.0)

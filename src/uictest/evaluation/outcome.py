@@ -22,16 +22,16 @@ def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
     broken = _reasons(verdicts, ("fail",), "requirement")
     if broken and not _reasons(verdicts, ("inconclusive",), "validity"):
         return "fail", broken
-    if any(verdict.verdict == "inconclusive" for verdict in verdicts):
+    if any(verdict.status == "inconclusive" for verdict in verdicts):
         return "inconclusive", _reasons(verdicts, ("fail", "inconclusive"))
-    if not any(verdict.verdict == "pass" for verdict in verdicts):
+    if not any(verdict.status == "pass" for verdict in verdicts):
         return "skipped", _reasons(verdicts, ("not_applicable",)) or "no criterion"
     return "pass", ""
 
 
-def _reasons(verdicts: list[Verdict], judgements: Sequence[Status], layer: Layer | None = None) -> str:
+def _reasons(verdicts: list[Verdict], statuses: Sequence[Status], layer: Layer | None = None) -> str:
     return "; ".join(
         f"{verdict.id}: {verdict.reason}"
         for verdict in verdicts
-        if verdict.verdict in judgements and layer in (None, verdict.layer)
+        if verdict.status in statuses and layer in (None, verdict.layer)
     )

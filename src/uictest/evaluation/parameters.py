@@ -7,10 +7,17 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Annotated, Any, Final
+
+from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
+
+from uictest.evaluation.json_form import from_json_form, to_json_form
 
 _DIGITS = 12
 """Hexadecimal digits of a digest: of ten thousand parts two share one with a probability below 1e-6."""
+
+Setting = bool | int | float | str
+"""Value of a parameter: a number in its unit, a text or a truth value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,23 +40,25 @@ class Parameter:
     """
 
     key: str
-    value: float | str
+    value: Setting
     unit: str
     written: str
     mark: str
     source: str = ""
     differs: bool = False
-    library_value: float | str | None = None
+    library_value: Setting | None = None
     library_written: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form: `library_value` and `library_written` only where the parameter differs."""
-        names = _OF_EVERY_PARAMETER if not self.differs else (*_OF_EVERY_PARAMETER, *_OF_A_CHANGED_ONE)
-        return {name: getattr(self, name) for name in names}
+
+def _without_library(parameter: Parameter, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = write(parameter)
+    if not parameter.differs:
+        del form["library_value"], form["library_written"]
+    return form
 
 
-_OF_EVERY_PARAMETER = ("key", "value", "unit", "written", "mark", "source", "differs")
-_OF_A_CHANGED_ONE = ("library_value", "library_written")
+WrittenParameter = Annotated[Parameter, WrapSerializer(_without_library)]
+"""In JSON `library_value` and `library_written` stand only where the parameter differs."""
 
 
 @dataclass(frozen=True)
@@ -72,14 +81,14 @@ class EffectivePart:
     key: str
     name: str
     based_on: str | None
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[WrittenParameter, ...]
     removed: tuple[str, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def id(self) -> str:
         """Kind and digest of the content, e.g. `controller/3f2a91c0b2d4`."""
-        text = json.dumps(self.to_dict(), sort_keys=True)
+        text = json.dumps(parts_form({"": self})[""], sort_keys=True)
         return f"{self.kind}/{hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()[:_DIGITS]}"
 
     @cached_property
@@ -87,25 +96,29 @@ class EffectivePart:
         """The parameters that differ from the part it is based on; in a scenario, from the defaults."""
         return tuple(parameter for parameter in self.parameters if parameter.differs)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form."""
-        return {
-            "kind": self.kind,
-            "key": self.key,
-            "name": self.name,
-            "based_on": self.based_on,
-            "parameters": [parameter.to_dict() for parameter in self.parameters],
-            "removed": list(self.removed),
-            "sources": dict(self.sources),
-        }
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> EffectivePart:
-        """Return the part whose `to_dict` is `content`."""
-        parameters = tuple(Parameter(**each) for each in content["parameters"])
-        return cls(**{**content, "parameters": parameters, "removed": tuple(content["removed"])})
-
 
 def parts_table(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, EffectivePart]:
     """Return every distinct part of some cases by its id, in the order of its first use."""
     return {part.id: part for parts in cases for part in parts.values()}
+
+
+_PARTS: Final = TypeAdapter(dict[str, EffectivePart], config=ConfigDict(extra="forbid", defer_build=True))
+
+
+def parts_form(parts: Mapping[str, EffectivePart]) -> dict[str, Any]:
+    """Return the JSON form of parts, under the keys given."""
+    form: dict[str, Any] = to_json_form(_PARTS, parts)
+    return form
+
+
+def parts_document(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, Any]:
+    """Return the JSON form of every distinct part of some cases, by id."""
+    return parts_form(parts_table(cases))
+
+
+def parts_of(document: Mapping[str, Any]) -> dict[str, EffectivePart]:
+    """Return the parts in a document by id; none where an earlier version wrote it.
+
+    Raises ValueError where a part lacks or adds a field, or a value is of another type.
+    """
+    return from_json_form(_PARTS, document.get("parts", {}), place="parts")

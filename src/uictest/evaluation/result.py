@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
-from uictest.evaluation.json_form import json_form, or_nan
+from pydantic import AfterValidator, BeforeValidator, Field, PlainSerializer, PlainValidator, ValidationInfo
+
+from uictest.evaluation.json_form import Number, finite_or_none, nan_for_none
 from uictest.evaluation.parameters import EffectivePart
 from uictest.evaluation.verdict import Verdict
 
@@ -26,30 +28,30 @@ def unit_of(figure: str) -> str:
     return _UNITS.get(words[-2] if words[-1].isdigit() else words[-1], "1")
 
 
+def whole(count: float) -> float:
+    """Return a count as a whole number; NaN where nothing was counted."""
+    return count if math.isnan(count) else int(count)
+
+
+Count = Annotated[
+    float, BeforeValidator(nan_for_none), AfterValidator(whole), PlainSerializer(finite_or_none)
+]
+
+
 @dataclass(frozen=True, slots=True)
 class CaseMeasures:
     """The figures of one stop, units in the names (nl: litres at 20 degC and 1 bar). NaN: not reached."""
 
-    braking_distance_m: float
-    braking_time_s: float
-    mean_deceleration_mps2: float
-    initial_adhesion_g: float
-    minimum_deceleration_mps2: float
-    maximum_deceleration_mps2: float
-    reservoir_minimum_bar: float
-    air_consumed_nl: float
-    energy_residual: float
-    air_residual: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form, NaN as None."""
-        form: dict[str, Any] = json_form(asdict(self))
-        return form
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> CaseMeasures:
-        """Return the figures whose `to_dict` is `content`."""
-        return cls(**{name: or_nan(value) for name, value in content.items()})
+    braking_distance_m: Number
+    braking_time_s: Number
+    mean_deceleration_mps2: Number
+    initial_adhesion_g: Number
+    minimum_deceleration_mps2: Number
+    maximum_deceleration_mps2: Number
+    reservoir_minimum_bar: Number
+    air_consumed_nl: Number
+    energy_residual: Number
+    air_residual: Number
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,27 +61,31 @@ class CaseWheelsetMeasures:
     `valve_actuations` is a whole number, NaN where a record does not hold the valve's commands.
     """
 
-    maximum_slide: float
-    locked_time_s: float
-    valve_actuations: float
-    maximum_clamping_force_n: float
-    air_vented_nl: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form, NaN as None."""
-        form: dict[str, Any] = json_form(asdict(self))
-        return form
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> CaseWheelsetMeasures:
-        """Return the figures whose `to_dict` is `content`."""
-        numbers: dict[str, Any] = {name: or_nan(value) for name, value in content.items()}
-        return cls(**{**numbers, "valve_actuations": whole(numbers["valve_actuations"])})
+    maximum_slide: Number
+    locked_time_s: Number
+    valve_actuations: Count
+    maximum_clamping_force_n: Number
+    air_vented_nl: Number
 
 
-def whole(count: float) -> float:
-    """Return a count as a whole number; NaN where nothing was counted."""
-    return count if math.isnan(count) else int(count)
+def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
+    return {role: part.id for role, part in parts.items()}
+
+
+def _parts_by_role(part_ids: object, info: ValidationInfo) -> dict[str, EffectivePart]:
+    """Return the parts that a case names by their ids; the context of the validation holds all by id."""
+    if not isinstance(part_ids, Mapping):
+        raise ValueError("Input should be a mapping from roles to ids of parts")
+    parts: Mapping[str, EffectivePart] = info.context or {}
+    if missing := [part_id for part_id in part_ids.values() if part_id not in parts]:
+        raise ValueError(f"the document has no part {missing[0]!r}")
+    return {role: parts[part_id] for role, part_id in part_ids.items()}
+
+
+NamedParts = Annotated[
+    Mapping[str, EffectivePart], PlainValidator(_parts_by_role), PlainSerializer(_part_ids)
+]
+"""In JSON a case names its parts by their ids: the document holds each part once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,47 +103,14 @@ class CaseResult:
     parameters: dict[str, str]
     expect: Expectation
     outcome: Outcome
+    reason: str = ""
     criteria: tuple[Verdict, ...] = ()
     measures: CaseMeasures | None = None
     wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
-    reason: str = ""
-    parts: Mapping[str, EffectivePart] = field(default_factory=dict)
-    duration: float = field(default=0.0, compare=False)
+    parts: NamedParts = field(default_factory=dict)
+    duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
     def met(self) -> bool:
         """Whether the outcome is the expected one; a skipped case meets only the expectation `pass`."""
         return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form: the fields of the result document, NaN as None, without `duration`.
-
-        Parts are named by their ids; :func:`parts_table` has them in full.
-        """
-        return {
-            "id": self.id,
-            "scenario": self.scenario,
-            "parameters": dict(self.parameters),
-            "expect": self.expect,
-            "outcome": self.outcome,
-            "reason": self.reason,
-            "criteria": [verdict.to_dict() for verdict in self.criteria],
-            "measures": self.measures.to_dict() if self.measures else None,
-            "wheelsets": [wheelset.to_dict() for wheelset in self.wheelsets],
-            "parts": {role: part.id for role, part in self.parts.items()},
-        }
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any], parts: Mapping[str, EffectivePart]) -> CaseResult:
-        """Return the result whose `to_dict` is `content` (None in a figure becomes NaN).
-
-        `parts` are those that it may name, by id. Raises KeyError where it names another.
-        """
-        measures = content["measures"]
-        own = {
-            "criteria": tuple(map(Verdict.from_dict, content["criteria"])),
-            "measures": CaseMeasures.from_dict(measures) if measures else None,
-            "wheelsets": tuple(map(CaseWheelsetMeasures.from_dict, content["wheelsets"])),
-            "parts": {role: parts[part_id] for role, part_id in content.get("parts", {}).items()},
-        }
-        return cls(**{**content, **own})

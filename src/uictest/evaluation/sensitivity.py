@@ -29,8 +29,8 @@ def sensitivity(
     decided = [(point, decide(point)) for point in points]
     if not step:
         decided = _refined(decided, decide)
-    stretches = tuple(_stretches([(in_unit(point, unit), decision.verdict) for point, decision in decided]))
-    return Sensitivity(name, unit, round(in_unit(lower, unit), 6), round(in_unit(upper, unit), 6), stretches)
+    intervals = tuple(_intervals([(in_unit(point, unit), decision.status) for point, decision in decided]))
+    return Sensitivity(name, unit, round(in_unit(lower, unit), 6), round(in_unit(upper, unit), 6), intervals)
 
 
 def _classes(lower: float, upper: float, step: float) -> list[float]:
@@ -62,9 +62,9 @@ def _flips_between(
 
 
 def _same(one: Decision, other: Decision) -> bool:
-    return (one.verdict, one.side) == (other.verdict, other.side)
+    return (one.status, one.side) == (other.status, other.side)
 
 
-def _stretches(decided: list[tuple[float, Status]]) -> list[VerdictInterval]:
+def _intervals(decided: list[tuple[float, Status]]) -> list[VerdictInterval]:
     runs = (list(run) for _, run in groupby(decided, key=lambda point: point[1]))
     return [VerdictInterval(round(run[0][0], 6), round(run[-1][0], 6), run[0][1]) for run in runs]

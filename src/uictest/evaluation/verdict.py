@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal
 
-from uictest.evaluation.json_form import json_form
+from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
+
+from uictest.evaluation.json_form import Number, OptionalNumber
 
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.
@@ -20,56 +22,57 @@ Layer = Literal["validity", "requirement"]
 
 @dataclass(frozen=True, slots=True)
 class VerdictInterval:
-    """A part of a definition's range over which the verdict stays the same; both ends belong to it."""
+    """An interval of a definition's range in which the verdict stays the same; both ends belong to it."""
 
-    first: float
-    last: float
-    verdict: Status
+    first: Number
+    last: Number
+    status: Annotated[Status, Field(alias="verdict")]
 
     def __str__(self) -> str:
-        """Return the stretch for a reader, as in "pass 2 .. 3.41"."""
+        """Return the interval for a reader, as in "pass 2 .. 3.41"."""
         ends = f"{self.first:.4g}" if self.first == self.last else f"{self.first:.4g} .. {self.last:.4g}"
-        return f"{self.verdict.replace('_', ' ')} {ends}"
+        return f"{self.status.replace('_', ' ')} {ends}"
 
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity:
-    """How a verdict moves while one definition runs through its stated range, all others held.
+    """How a verdict changes while one definition runs through its stated range, all others held.
 
-    `lower`, `upper` and the ends of the stretches are in `unit`. Stretches come in rising order. A definition
-    that moves in classes (the low-speed cut-off) leaves gaps between stretches: there is nothing between.
+    `lower`, `upper` and the ends of the intervals are in `unit`. Intervals come in rising order. A definition
+    that moves in classes (the low-speed cut-off) leaves gaps between intervals: there is nothing between.
     """
 
     definition: str
     unit: str
-    lower: float
-    upper: float
-    stretches: tuple[VerdictInterval, ...]
+    lower: Number
+    upper: Number
+    intervals: Annotated[tuple[VerdictInterval, ...], Field(alias="stretches")]
 
     @property
     def flips(self) -> bool:
         """Whether the verdict is not the same all over the range."""
-        return len({stretch.verdict for stretch in self.stretches}) > 1
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form; `flips` stands beside the stretches for those who only ask that."""
-        form: dict[str, Any] = json_form(asdict(self))
-        return {**form, "flips": self.flips}
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> Sensitivity:
-        """Return the sensitivity whose `to_dict` is `content`."""
-        own = {key: value for key, value in content.items() if key != "flips"}
-        return cls(
-            **{**own, "stretches": tuple(VerdictInterval(**stretch) for stretch in content["stretches"])}
-        )
+        return len({interval.status for interval in self.intervals}) > 1
 
     def __str__(self) -> str:
         """Return a line for a reader: "low_speed_cutoff 10 .. 60 km/h: pass 10 .. 40, fail 50 .. 60"."""
         scope = f"{self.definition} {self.lower:.4g} .. {self.upper:.4g} {self.unit}"
         if not self.flips:
-            return f"{scope}: {self.stretches[0].verdict.replace('_', ' ')} throughout"
-        return f"{scope}: {', '.join(map(str, self.stretches))}"
+            return f"{scope}: {self.intervals[0].status.replace('_', ' ')} throughout"
+        return f"{scope}: {', '.join(map(str, self.intervals))}"
+
+
+def _with_flips(sensitivity: Sensitivity, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    return {**write(sensitivity), "flips": sensitivity.flips}
+
+
+def _without_flips(content: object) -> object:
+    if isinstance(content, Mapping):
+        return {key: value for key, value in content.items() if key != "flips"}
+    return content
+
+
+WrittenSensitivity = Annotated[Sensitivity, WrapSerializer(_with_flips), BeforeValidator(_without_flips)]
+"""In JSON `flips` stands beside the intervals, for readers that need no more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,11 +84,11 @@ class AppliedDefinition:
     """
 
     name: str
-    value: float
+    value: Number
     unit: str
     mark: str
-    lowest: float | None = None
-    highest: float | None = None
+    lowest: OptionalNumber = None
+    highest: OptionalNumber = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,21 +97,21 @@ class Verdict:
 
     `value`, `lower`, `upper` and `margin` are in `unit`; None where a bound is not set or there is no value.
     `margin` is the distance to the nearest bound, positive on the good side. For a criterion over wheelsets
-    `value` is the one of the wheelset that decides. `definition` maps each definition used to its text,
-    `measure` and `definitions` hold the name of the measure and the definitions that are numbers.
+    `value` is the one of the wheelset that decides. `measure` and `definitions` hold the name of the measure
+    and the definitions that are numbers. `definition` maps each definition to its text, for people only.
     """
 
     id: str
     layer: Layer
-    value: float | None
+    value: OptionalNumber
     unit: str
-    lower: float | None
-    upper: float | None
-    margin: float | None
-    verdict: Status
+    lower: OptionalNumber
+    upper: OptionalNumber
+    margin: OptionalNumber
+    status: Annotated[Status, Field(alias="verdict")]
     reason: str
     definition: dict[str, str] = field(default_factory=dict)
-    sensitivity: tuple[Sensitivity, ...] = ()
+    sensitivity: tuple[WrittenSensitivity, ...] = ()
     measure: str = ""
     definitions: tuple[AppliedDefinition, ...] = ()
 
@@ -117,20 +120,6 @@ class Verdict:
         """Whether the verdict stays the same over the stated range of every definition."""
         return not any(sensitivity.flips for sensitivity in self.sensitivity)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form: the fields under their names, NaN and infinity as None."""
-        form: dict[str, Any] = json_form(asdict(self))
-        return {**form, "sensitivity": [sensitivity.to_dict() for sensitivity in self.sensitivity]}
-
     def defined(self, name: str) -> float | None:
         """Return the SI value of a definition, None where the verdict has none of this name."""
         return next((each.value for each in self.definitions if each.name == name), None)
-
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> Verdict:
-        """Return the verdict whose `to_dict` is `content`."""
-        parts = {
-            "sensitivity": tuple(map(Sensitivity.from_dict, content["sensitivity"])),
-            "definitions": tuple(AppliedDefinition(**each) for each in content.get("definitions", ())),
-        }
-        return cls(**{**content, **parts})

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Final
+
+from pydantic import ConfigDict, TypeAdapter
+
+from uictest import evaluation
+from uictest.evaluation import required
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,18 +25,25 @@ class CaseDescription:
     settings: Mapping[str, str] = field(default_factory=dict)
     recorded: Mapping[str, str] = field(default_factory=dict)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form."""
-        return asdict(self)
 
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> CaseDescription:
-        """Return the subject whose `to_dict` is `content`. Raises ValueError for anything else."""
-        try:
-            texts = (
-                {str(key): str(text) for key, text in each.items()}
-                for each in (content["settings"], content.get("recorded", {}))
-            )
-            return cls(str(content["title"]), tuple(map(str, content["tags"])), *texts)
-        except (KeyError, TypeError, AttributeError) as error:
-            raise ValueError(f"not the subject of a case: {error}") from error
+_SUBJECTS: Final = TypeAdapter(
+    dict[str, Annotated[CaseDescription, required("title", "tags", "settings")]],
+    config=ConfigDict(defer_build=True),
+)
+
+
+def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
+    """Return the JSON form of the subjects of cases, by the ids of the cases."""
+    form: dict[str, Any] = evaluation.to_json_form(_SUBJECTS, subjects)
+    return form
+
+
+def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
+    """Return the subjects of the cases in a document; none where an earlier version wrote it.
+
+    Raises ValueError where one lacks a field, or a field holds something else.
+    """
+    try:
+        return evaluation.from_json_form(_SUBJECTS, document.get("subjects", {}), place="subjects")
+    except ValueError as error:
+        raise ValueError(f"not the subject of a case: {error}") from error

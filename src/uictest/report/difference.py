@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, Final
+
+from pydantic import BeforeValidator, ConfigDict, PlainSerializer, TypeAdapter
 
 from uictest import evaluation
+from uictest.evaluation import OptionalNumber
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity
 
 Value = float | str
 """A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
+
+WrittenValue = Annotated[
+    int | float | str, BeforeValidator(evaluation.nan_for_none), PlainSerializer(evaluation.finite_or_none)
+]
+"""A value, NaN as null in JSON."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,28 +35,27 @@ class Difference:
 
     case: str
     quantity: str
-    first: Value
-    second: Value
+    first: WrittenValue
+    second: WrittenValue
     within: bool
     unit: str = ""
-    deviation: float | None = None
-    allowed: float | None = None
+    deviation: OptionalNumber = None
+    allowed: OptionalNumber = None
     remark: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the JSON form, NaN as None."""
-        form: dict[str, Any] = evaluation.json_form(dataclasses.asdict(self))
-        return form
 
-    @classmethod
-    def from_dict(cls, content: Mapping[str, Any]) -> Difference:
-        """Return the difference whose `to_dict` is `content`."""
-        sides = {side: _value(content[side]) for side in ("first", "second")}
-        return cls(**{**content, **sides})
+_DIFFERENCES: Final = TypeAdapter(list[Difference], config=ConfigDict(extra="forbid", defer_build=True))
 
 
-def _value(written: Value | None) -> Value:
-    return math.nan if written is None else written
+def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
+    """Return the JSON form of differences, NaN as None."""
+    form: list[dict[str, Any]] = evaluation.to_json_form(_DIFFERENCES, list(differences))
+    return form
+
+
+def differences_of(content: object) -> list[Difference]:
+    """Return the differences whose JSON form is `content`. Raises ValueError for anything else."""
+    return evaluation.from_json_form(_DIFFERENCES, content)
 
 
 def value_text(value: Value) -> str:

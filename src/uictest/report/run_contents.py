@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from uictest import evaluation, recording
-from uictest.report.baseline import BaselineComparison
-from uictest.report.case_description import CaseDescription
+from uictest.report.baseline import read_baseline
+from uictest.report.case_description import read_subjects
 from uictest.report.content import RunContent
 from uictest.report.run_report import RECORDINGS, RESULTS
 from uictest.report.traces.trace import Trace, trace_of
@@ -37,12 +37,10 @@ def run_content(document: Mapping[str, Any], name: str) -> RunContent:
     """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
     try:
         results = evaluation.results_of(document)
-        subjects = {
-            name: CaseDescription.from_dict(each) for name, each in document.get("subjects", {}).items()
-        }
+        subjects = read_subjects(document)
         manifest: Any = dict(document.get("manifest", {}))
-        baseline = BaselineComparison.from_dict(each) if (each := document.get("baseline")) else None
-    except (ValueError, KeyError, AttributeError, TypeError) as error:
+        baseline = read_baseline(document)
+    except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error
     complete = bool(document.get("complete", True))
     return RunContent(name, results, manifest, complete, subjects, baseline=baseline)

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from uictest import evaluation
+from uictest.report.baseline import BaselineComparison, baseline_form
+from uictest.report.case_description import CaseDescription, subjects_form
 from uictest.report.junit import junit_xml
 from uictest.report.manifest import digest
 from uictest.report.tables import criteria_csv, summary_csv, wheelsets_csv
 
 if TYPE_CHECKING:
     from uictest.recording import Recording
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.case_description import CaseDescription
 
 RESULTS = "results.json"
 RECORDINGS = "recordings"
@@ -42,10 +42,9 @@ def write_reports(
     """
     from uictest.recording import write_text_atomic
 
-    about = {case_id: subject.to_dict() for case_id, subject in (subjects or {}).items()}
-    header = {"manifest": dict(manifest), "complete": complete, "subjects": about}
+    header = {"manifest": dict(manifest), "complete": complete, "subjects": subjects_form(subjects or {})}
     if baseline is not None:
-        header["baseline"] = baseline.to_dict()
+        header["baseline"] = baseline_form(baseline)
     document = _encodable(evaluation.to_json(evaluation.result_document(results, **header)))
     texts = {
         "manifest.json": _encodable(evaluation.to_json(dict(manifest))),

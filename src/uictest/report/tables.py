@@ -12,7 +12,12 @@ from uictest.report.parameters import changed_parameters
 from uictest.report.wording import definition_sentence
 
 CHANGED = "changed_parameters"
-CRITERION_FIELDS = ("layer", "verdict", "value", "unit", "lower", "upper", "margin", "reason")
+_CRITERION_FIELDS = {
+    "layer": "layer",
+    "verdict": "status",
+    **{name: name for name in ("value", "unit", "lower", "upper", "margin", "reason")},
+}
+"""Column -> field of a verdict."""
 
 
 def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
@@ -39,7 +44,7 @@ def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
 
 def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
     """Return one row per case and criterion, with the definitions its verdict rests on."""
-    return csv_text(["id", "criterion", *CRITERION_FIELDS, "definition"], _criterion_rows(results))
+    return csv_text(["id", "criterion", *_CRITERION_FIELDS, "definition"], _criterion_rows(results))
 
 
 def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
@@ -58,9 +63,13 @@ def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[st
 def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for verdict in result.criteria:
-            fields = {name: getattr(verdict, name) for name in CRITERION_FIELDS}
             own = {"id": result.id, "criterion": verdict.id, "definition": definition_sentence(verdict)}
-            yield {**own, **fields}
+            yield {**own, **criterion_cells(verdict)}
+
+
+def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
+    """Return the cells of a verdict that every table of criteria has."""
+    return {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
 
 
 def _names(figures: Any) -> list[str]:

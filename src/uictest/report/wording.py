@@ -48,14 +48,14 @@ _MOST_URGENT = ("fail", "inconclusive", "pass", "not_applicable")
 
 def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
     """Return verdicts with the failing ones first, then the inconclusive ones, then those that passed."""
-    return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.verdict))
+    return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.status))
 
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return one line that says what a criterion found: verdict and reason, or value, limits and margin."""
     value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
     found = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
-    return printable(f"{verdict.id} ({verdict.layer}) {verdict.verdict.replace('_', ' ')}: {found}")
+    return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {found}")
 
 
 def definition_sentence(verdict: evaluation.Verdict) -> str:
@@ -81,8 +81,8 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
 
 def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     for verdict in result.criteria:
-        undecided = verdict.verdict == "inconclusive" and result.outcome == "inconclusive"
-        if verdict.verdict == "fail" or undecided or result.outcome == "skipped":
+        undecided = verdict.status == "inconclusive" and result.outcome == "inconclusive"
+        if verdict.status == "fail" or undecided or result.outcome == "skipped":
             yield verdict
 
 

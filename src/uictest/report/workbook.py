@@ -12,7 +12,7 @@ from uictest import evaluation
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.parameters import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.tables import CHANGED, CRITERION_FIELDS
+from uictest.report.tables import CHANGED, criterion_cells
 from uictest.report.wording import definition_sentence
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def _criteria(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         for verdict in result.criteria:
             row: Row = {"case": result.id, "criterion": verdict.id}
-            row |= {name: getattr(verdict, name) for name in CRITERION_FIELDS}
+            row |= criterion_cells(verdict)
             firm = "; ".join(str(sensitivity) for sensitivity in verdict.sensitivity)
             yield row | {"definition": definition_sentence(verdict), "sensitivity": firm}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult
+from uictest.evaluation import CaseResult, cases_document
 from uictest.recording import Recording
 from uictest.report import write_recording
 from uictest.report.sweep.content import SweepContent
@@ -20,7 +20,7 @@ MakeSweep = Callable[..., SweepContent]
 def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
     """The folder of a finished sweep with one case worth looking at."""
     content = make_sweep()
-    document = {**content.document, "worst": [make_result().to_dict()]}
+    document = {**content.document, "worst": cases_document([make_result()])}
     (content.folder / "sweep.json").write_text(json.dumps(document))
     (content.folder / "manifest.json").write_text(json.dumps(content.manifest))
     return content.folder
@@ -30,7 +30,7 @@ def test_a_sweep_is_read_back(folder: Path, make_sweep: MakeSweep, make_result: 
     content = read_sweep(folder)
     assert {**content.document, "worst": []} == {**make_sweep().document, "worst": []}
     assert (content.folder, content.manifest) == (folder, make_sweep().manifest)
-    assert [result.to_dict() for result in content.worst] == [make_result().to_dict()]
+    assert cases_document(content.worst) == cases_document([make_result()])
     assert content.traces == {}
 
 

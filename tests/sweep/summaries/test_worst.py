@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.campaign import RecordingRequest, run_cases as examine
+from uictest.evaluation import cases_document
 from uictest.sweep.running.chunk import chunk_runner
 from uictest.sweep.summaries.worst import MOST, Worst, cases_of
 
@@ -57,7 +58,7 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     by_lanes = made.results(block)
     alone = examine(cases_of(plan, indices), recording=RecordingRequest("all"))
     for one, other in zip(by_lanes, alone.results, strict=True):
-        row, case = one.to_dict(), other.to_dict()
+        row, case = cases_document([one, other])
         for name in ("id", "outcome", "parameters", "measures", "wheelsets"):
             assert row[name] == case[name]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from uictest import evaluation
-from uictest.report.case_description import CaseDescription
+from uictest.report.case_description import read_subjects
 from uictest.report.run_contents import read_traces
 from uictest.report.sweep.content import SweepContent
 
@@ -32,9 +32,9 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
     document = _findings(path)
     try:
         parts = evaluation.parts_of(document)
-        worst = [evaluation.CaseResult.from_dict(case, parts) for case in document["worst"]]
+        worst = evaluation.cases_of(document["worst"], parts, "worst")
         base = {role: parts[part_id] for role, part_id in document.get("base", {}).items()}
-        subjects = {name: CaseDescription.from_dict(each) for name, each in document["subjects"].items()}
+        subjects = read_subjects(document)
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ValueError(f"{path}: not the result of a sweep: {error}") from error
     drawn = read_traces(folder, worst) if traces else {}

@@ -13,9 +13,18 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.evaluation import CaseResult, EffectiveParts, json_form, parts_document, to_json
+from uictest.evaluation import CaseResult, EffectiveParts, cases_document, json_form, parts_document, to_json
 from uictest.recording import atomic_path, write_text_atomic
-from uictest.report import TREND_COLUMNS, CaseDescription, Cell, counted, csv_cell, csv_text, trend_rows
+from uictest.report import (
+    TREND_COLUMNS,
+    CaseDescription,
+    Cell,
+    counted,
+    csv_cell,
+    csv_text,
+    subjects_form,
+    trend_rows,
+)
 from uictest.sweep.junit import junit_xml
 from uictest.sweep.plan.nominal import drawn_ranges
 from uictest.sweep.plan.plan import saltelli_sample
@@ -176,8 +185,8 @@ def result_document(findings: SweepFindings) -> dict[str, Any]:
         "base": {role: part.id for role, part in base.items()},
         "varied": list(tally.plan.keys),
         "parts": parts_document([base, *(result.parts for result in findings.worst)]),
-        "worst": [result.to_dict() for result in findings.worst],
-        "subjects": {name: subject.to_dict() for name, subject in findings.subjects.items()},
+        "worst": cases_document(findings.worst),
+        "subjects": subjects_form(findings.subjects),
         "sensitivities": [dataclasses.asdict(each) for each in findings.sensitivities],
         "frontier": {"parameter": findings.frontier_key, "stretches": stretches} if stretches else None,
         "notes": findings.notes,

@@ -60,14 +60,14 @@ def test_a_failing_criterion_is_drawn_whatever_it_measures(marks: Marks, measure
     defined = {**LOCKING, **FILTERING, "sliding_slide": 0.05, "sliding_slip": 0.3}
     defined |= {"first_phase_duration": 3.0, "low_speed_cutoff": 30 / 3.6}
     unit = MEASURES[measure].unit
-    found = marks(measure, defined, verdict="fail", value=5.0, upper=0.001, unit=unit, margin=-4.0)
+    found = marks(measure, defined, status="fail", value=5.0, upper=0.001, unit=unit, margin=-4.0)
     assert found
     assert {mark.status for mark in found} == {"fail"}
     assert any(mark.x0 is not None or mark.y is not None for mark in found)
 
 
 def test_a_locked_wheelset_is_an_interval_in_its_row(marks: Marks) -> None:
-    (mark,) = marks("longest_lock", LOCKING, verdict="fail", upper=1.0, value=2.0, unit="s", id="locked")
+    (mark,) = marks("longest_lock", LOCKING, status="fail", upper=1.0, value=2.0, unit="s", id="locked")
     assert (mark.plot, mark.kind, mark.y) == ("locked", "interval", 3.0)
     # From the sample before the lock to its last, as the measure counts it.
     assert (mark.x0, mark.x1) == (pytest.approx(19.99), pytest.approx(21.99))
@@ -79,7 +79,7 @@ def test_a_lock_below_the_moving_speed_is_none(marks: Marks) -> None:
 
 
 def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Marks, trace: Trace) -> None:
-    (mark,) = marks("standstill", verdict="fail", lower=1.0, value=0.0, unit="1", id="standstill")
+    (mark,) = marks("standstill", status="fail", lower=1.0, value=0.0, unit="1", id="standstill")
     assert (mark.plot, mark.kind, mark.x0) == ("speed", "instant", trace.end)
     assert mark.label == "standstill: the record ends at 0 km/h"
     assert marks("standstill", lower=1.0, value=1.0, unit="1") == []
@@ -88,7 +88,7 @@ def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Mar
 def test_the_largest_slide_of_each_wheelset_is_marked_where_it_was_too_small(marks: Marks) -> None:
     cutoff = {"low_speed_cutoff": 30 / 3.6}
     limit, *points = marks(
-        "maximum_slide_above_cutoff", cutoff, unit="%", lower=60.0, value=40.0, verdict="fail"
+        "maximum_slide_above_cutoff", cutoff, unit="%", lower=60.0, value=40.0, status="fail"
     )
     assert limit.kind == "limit"
     assert [(mark.kind, mark.label) for mark in points] == [
@@ -101,7 +101,7 @@ def test_the_largest_slide_of_each_wheelset_is_marked_where_it_was_too_small(mar
 
 
 def test_vents_too_many_are_marked_from_the_first_to_the_last(marks: Marks) -> None:
-    found = marks("valve_actuations", unit="1", upper=0.0, value=1.0, verdict="fail")
+    found = marks("valve_actuations", unit="1", upper=0.0, value=1.0, status="fail")
     assert [(mark.plot, mark.y) for mark in found] == [
         ("valves", 1.0),
         ("valves", 2.0),
@@ -134,7 +134,7 @@ def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
 
 def test_failing_criteria_come_first_then_inconclusive_ones(make_verdict: MakeVerdict, trace: Trace) -> None:
     verdicts = [
-        make_verdict(id=status, verdict=status, measure="braking_distance")
+        make_verdict(id=status, status=status, measure="braking_distance")
         for status in ("pass", "not_applicable", "inconclusive", "fail")
     ]
     drawn = dict.fromkeys(mark.criterion for mark in marks_of(verdicts, trace))
@@ -145,7 +145,7 @@ def test_failing_criteria_come_first_then_inconclusive_ones(make_verdict: MakeVe
 def test_a_mark_says_in_words_that_a_criterion_was_not_decided(
     marks: Marks, status: str, ending: str
 ) -> None:
-    band, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, verdict=status)
+    band, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, status=status)
     assert (band.label, reached.label) == (f"braking-distance: 440 .. 490 m{ending}", f"510 m{ending}")
 
 
@@ -155,7 +155,7 @@ def test_a_value_at_a_bound_misses_it_where_the_bound_itself_does_not_pass(
 ) -> None:
     cutoff = {"low_speed_cutoff": 30 / 3.6}
     _, first, *_ = marks(
-        "maximum_slide_above_cutoff", cutoff, unit="%", upper=40.0, value=40.0, margin=margin, verdict="fail"
+        "maximum_slide_above_cutoff", cutoff, unit="%", upper=40.0, value=40.0, margin=margin, status="fail"
     )
     assert first.label == label
 
@@ -185,7 +185,7 @@ def test_the_braking_distance_is_a_band_over_the_distance(marks: Marks) -> None:
 
 
 def test_a_distance_outside_its_band_is_marked_in_it(marks: Marks) -> None:
-    _, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, verdict="fail")
+    _, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, status="fail")
     assert (reached.kind, reached.x0, reached.label) == ("instant", 510.0, "510 m")
 
 
@@ -195,4 +195,4 @@ def test_a_deceleration_bound_is_drawn_in_g(marks: Marks) -> None:
 
 
 def test_a_criterion_that_does_not_apply_is_not_drawn(marks: Marks) -> None:
-    assert marks("braking_distance", lower=440.0, upper=490.0, verdict="not_applicable") == []
+    assert marks("braking_distance", lower=440.0, upper=490.0, status="not_applicable") == []

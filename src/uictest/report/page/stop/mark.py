@@ -52,7 +52,7 @@ def misses(verdict: evaluation.Verdict, value: float) -> bool:
 
     A criterion that fails with a margin of 0 is one whose bounds themselves do not pass.
     """
-    strict = verdict.verdict == "fail" and verdict.margin == 0.0
+    strict = verdict.status == "fail" and verdict.margin == 0.0
     margins = [
         *([] if verdict.lower is None else [value - verdict.lower]),
         *([] if verdict.upper is None else [verdict.upper - value]),

@@ -44,11 +44,11 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: Trace) -> list[Mark]
         replace(
             mark,
             criterion=verdict.id,
-            status=verdict.verdict,
-            label=_with_status(mark.label, verdict.verdict),
+            status=verdict.status,
+            label=_with_status(mark.label, verdict.status),
         )
         for verdict in failing_first(verdicts)
-        if verdict.verdict != "not_applicable" and verdict.measure in DRAWN
+        if verdict.status != "not_applicable" and verdict.measure in DRAWN
         for mark in DRAWN[verdict.measure](verdict, trace)
     ]
 

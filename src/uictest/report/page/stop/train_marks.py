@@ -33,7 +33,7 @@ def mean_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mar
 
 def standstill(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield the end of a record in which the train does not come to a standstill."""
-    if verdict.verdict != "pass":
+    if verdict.status != "pass":
         yield instant("speed", trace.end, f"{verdict.id}: the record ends at {_last_speed(trace)}")
 
 
@@ -86,12 +86,12 @@ def energy_residual(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]
 def _band(verdict: evaluation.Verdict, plot: str) -> Iterator[Mark]:
     label = printable(f"{verdict.id}: {limits(verdict, word='')}")
     yield Mark(plot, "band", label, verdict.lower, verdict.upper)
-    if verdict.value is not None and verdict.verdict != "pass":
+    if verdict.value is not None and verdict.status != "pass":
         yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
 
 
 def _sum_at_the_end(verdict: evaluation.Verdict, trace: Trace, plot: str) -> Iterator[Mark]:
-    if verdict.verdict != "pass":
+    if verdict.status != "pass":
         yield instant(plot, trace.end, f"{verdict.id}: {value_and_limits(verdict)}")
 
 

@@ -38,7 +38,7 @@ def sliding(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
 
 def vented(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
     """Yield, unless it passed, from the first to the last vent of each wheelset."""
-    if verdict.verdict != "pass":
+    if verdict.status != "pass":
         spans = {n: [(bars[0][0], bars[-1][1])] for n in WHEELSETS if (bars := vents(trace, n))}
         yield from _intervals(verdict, "valves", spans)
 
@@ -53,14 +53,14 @@ def _intervals(
     """Yield intervals in a strip; the longest carries the value, where the criterion did not pass."""
     rows = [(last - first, first, last, n) for n, own in intervals.items() for first, last in own]
     longest = max(rows, default=None)
-    label = "" if verdict.verdict == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
+    label = "" if verdict.status == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
     for row in rows:
         _, first, last, n = row
         yield Mark(strip, "interval", label if row == longest else "", first, last, float(n))
 
 
 def _largest(verdict: evaluation.Verdict, trace: Trace, plot: str) -> Iterator[Mark]:
-    if verdict.verdict != "pass":
+    if verdict.status != "pass":
         for n, (time, value) in _moments(verdict, trace).extremes.items():
             label = f"{n}: {quantity(value, verdict.unit)}" if misses(verdict, value) else ""
             yield point(plot, time, value, label)
