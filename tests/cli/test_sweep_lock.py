@@ -42,7 +42,7 @@ def test_a_second_one_is_refused_and_touches_nothing(call: Call, folder: Path, o
         assert [path.name for path in folder.iterdir()] == [".lock"]
 
 
-def test_shards_share_a_folder_and_nobody_discards_their_parts(call: Call, folder: Path) -> None:
+def test_shards_share_a_folder_and_nobody_discards_their_chunks(call: Call, folder: Path) -> None:
     with FolderLock(folder, shared=True):
         assert call(*COMMAND, "--shard", "1/2").code == 0
         for options in ((), ("--shard", "2/2", "--restart")):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.sweep import ChunkRunner, Plan, load_sweep
-from uictest.sweep.running.assembling import Assembler
+from uictest.sweep.running.case_blocks import BlockAssembler
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -67,5 +67,5 @@ def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArra
 
 @pytest.fixture
 def made_up() -> Callable[[Plan], ChunkRunner]:
-    """A worker whose stops are the formula."""
-    return lambda plan: ChunkRunner(Assembler(plan), formula, plan)
+    """A runner whose stops are the formula."""
+    return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan)

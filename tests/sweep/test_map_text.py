@@ -8,19 +8,19 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.sweep.map_text import fold, folded_label, map_lines
-from uictest.sweep.summaries.classes import Classes
-from uictest.sweep.summaries.maps import MapOf
+from uictest.sweep.summaries.bins import ParameterBins
+from uictest.sweep.summaries.maps import MapSums
 
 _RANGE = re.compile(r"(\S+) \.\. (\S+) \((\d+) values\)")
 
 
-def _map(rows: int, columns: int, measure: str = "braking_distance_m") -> MapOf:
+def _map(rows: int, columns: int, measure: str = "braking_distance_m") -> MapSums:
     """A map of one case per cell whose figure is 1000 x row + column."""
     axes = [
-        Classes(key, tuple(f"{0.06 + 0.005 * k:.3f}" for k in range(count)), (0, 0))
+        ParameterBins(key, tuple(f"{0.06 + 0.005 * k:.3f}" for k in range(count)), (0, 0))
         for key, count in (("rail.friction", rows), ("brake.command", columns))
     ]
-    made: Any = MapOf(None, *axes, measure)  # type: ignore[arg-type]
+    made: Any = MapSums(None, *axes, measure)  # type: ignore[arg-type]
     made._sum += 1000.0 * np.arange(rows)[:, None] + np.arange(columns)
     made._known += 1
     return made

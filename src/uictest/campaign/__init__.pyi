@@ -10,3 +10,4 @@ from .parts import (
 )
 from .replay import replay as replay, shortest_cycle as shortest_cycle
 from .selection import by_expression as by_expression, by_id as by_id, by_tag as by_tag
+from .threaded_map import ThreadedMap as ThreadedMap, map_on_threads as map_on_threads

@@ -1,12 +1,12 @@
-"""Stops simulated once more to be looked at. A stop repeats itself exactly, so nothing is judged again."""
+"""Simulate stops again to record them. A stop repeats itself exactly, so nothing is judged again."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 
 from uictest import recording, rig, scenario
+from uictest.campaign.threaded_map import map_on_threads
 
 
 def shortest_cycle(cases: Iterable[scenario.Case]) -> float:
@@ -18,8 +18,7 @@ def replay(
     cases: Sequence[scenario.Case], *, every: float, jobs: int
 ) -> Iterator[tuple[scenario.Case, recording.Recording]]:
     """Yield each case with its recording, one sample every so many seconds, in the order of the cases."""
-    with ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="rig") as pool:
-        stops = pool.map(lambda case: rig.simulate(case, record_every=every), cases)
-        for case, stop in zip(cases, stops, strict=True):
-            if stop.recording is not None:
-                yield case, stop.recording
+    stops = map_on_threads(lambda case: rig.simulate(case, record_every=every), cases, jobs=jobs)
+    for case, stop in zip(cases, stops, strict=True):
+        if stop.recording is not None:
+            yield case, stop.recording

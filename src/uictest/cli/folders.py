@@ -10,7 +10,7 @@ from uictest import report, sweep
 def holds_sweep(folder: Path) -> bool:
     """Return whether a folder is that of a sweep, finished or not."""
     try:
-        manifest = sweep.Store(folder).manifest()
+        manifest = sweep.ChunkStore(folder).manifest()
     except OSError:
         return False
     return manifest is not None and manifest.get("schema") == sweep.SCHEMA

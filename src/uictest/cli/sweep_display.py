@@ -53,7 +53,7 @@ def _rates(tally: sweep.Tally) -> Iterator[str]:
     yield ""
 
 
-def _share(count: sweep.Count) -> str:
+def _share(count: sweep.OutcomeCount) -> str:
     if not count.cases:
         return "-"
     words = not_judged_words(count.outcomes)

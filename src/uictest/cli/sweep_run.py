@@ -1,14 +1,14 @@
-"""A sweep from its parts to its findings."""
+"""Run a sweep: its chunks, then its findings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from uictest import recording, report, sweep
+from uictest import recording, report, rig, sweep
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
@@ -16,7 +16,14 @@ from uictest.cli.streams import message
 from uictest.cli.sweep_display import reason_missed
 from uictest.cli.sweep_progress import sweep_progress
 from uictest.report import counted
-from uictest.sweep import ChangedInputsError, ChunkRunner, FrontierSearch, Selection, Shard, Store, run_parts
+from uictest.sweep import (
+    CaseSelection,
+    ChangedInputsError,
+    ChunkRunner,
+    ChunkStore,
+    FrontierSearch,
+    Shard,
+)
 
 if TYPE_CHECKING:
     from uictest.campaign import CaseRun
@@ -24,15 +31,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SweepRun:
-    """What is to be swept, how, and where its results go."""
+    """The cases of a sweep, how to run them, and where the results go."""
 
-    selection: Selection
+    selection: CaseSelection
     manifest: dict[str, Any]
     folder: Path
     jobs: int
     shard: Shard = field(default_factory=Shard)
-    shares: Sequence[Path] = ()
-    """Folders of shares to be put together."""
+    merged: Sequence[Path] = ()
+    """Folders of shards to merge."""
     cluster: str | None = None
     restart: bool = False
     maxfail: int | None = None
@@ -45,139 +52,147 @@ class SweepRun:
 
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
-    """As many cases as are tolerated did not meet their expectation; the message says how many and which."""
+    """`--maxfail` cases missed their expectation; the message has their number and the first."""
 
 
-def simulate_parts(run: SweepRun, store: Store) -> None:
-    """Work out what is missing of the run's share, and keep it.
+def run_missing_chunks(run: SweepRun, store: ChunkStore) -> None:
+    """Run the chunks of the run's shard that are not finished, and write them to the store.
 
-    Raises InvalidInputError where the folder holds the parts of other inputs, OSError where it takes no more,
-    KeyboardInterrupt, and MaxfailReached; whatever it is, finished parts are kept.
+    Finished chunks are kept whatever is raised: InvalidInputError where the folder holds the chunks of other
+    inputs, OSError where it cannot be written, KeyboardInterrupt, MaxfailReached.
     """
-    _begin(run, store)
+    _open_store(run, store)
     finished, damaged = store.finished()
     for path in damaged:
-        message(f"uictest: {path} is damaged; its part is worked out again")
-    mine = run.shard.of(run.selection.parts)
-    missing = [number for number in mine if number not in finished]
-    cases = sum(run.selection.part(number).size for number in mine)
-    left = sum(run.selection.part(number).size for number in missing)
-    _announce(run, cases, left)
-    with sweep_progress(cases, cases - left, quiet=run.quiet) as advance:
+        message(f"uictest: {path} is damaged: recomputing this chunk")
+    own_chunks = run.shard.chunk_numbers(run.selection.chunks)
+    missing_chunks = [number for number in own_chunks if number not in finished]
+    cases, missing_cases = (_cases_in(run, numbers) for numbers in (own_chunks, missing_chunks))
+    _announce(run, cases, missing_cases)
+    with sweep_progress(cases, cases - missing_cases, quiet=run.quiet) as advance:
         failures = _Failures(run.maxfail)
 
-        def keep(number: int, content: bytes) -> None:
+        def write_chunk(number: int, content: bytes) -> None:
             store.write(number, content)
-            advance(run.selection.part(number).size)
-            failures.take(content)
+            advance(run.selection.chunk(number).size)
+            failures.add(content)
 
-        if missing:
-            _work(run, missing, keep)
-
-
-def _announce(run: SweepRun, cases: int, left: int) -> None:
-    """Say what there is already; or what no share brought: it may be hours of work that nobody expects."""
-    if run.shares and left:
-        verb = "is in no share: it is" if left == 1 else "are in no share: they are"
-        message(f"uictest: {left} of {counted(cases, 'case')} {verb} worked out here")
-    elif left < cases and not run.quiet:
-        message(f"uictest: {cases - left} of {counted(cases, 'case')} are finished already")
+        if missing_chunks:
+            _run_chunks(run, missing_chunks, write_chunk)
 
 
-def _begin(run: SweepRun, store: Store) -> None:
+def _cases_in(run: SweepRun, numbers: Sequence[int]) -> int:
+    return sum(run.selection.chunk(number).size for number in numbers)
+
+
+def _announce(run: SweepRun, cases: int, missing: int) -> None:
+    """Report how many cases are already finished, or how many no shard provided."""
+    if run.merged and missing:
+        verb = "is" if missing == 1 else "are"
+        pronoun = "it" if missing == 1 else "them"
+        message(
+            f"uictest: {missing} of {counted(cases, 'case')} {verb} missing from the shards: "
+            f"simulating {pronoun} here"
+        )
+    elif missing < cases and not run.quiet:
+        message(f"uictest: {cases - missing} of {counted(cases, 'case')} are already finished")
+
+
+def _open_store(run: SweepRun, store: ChunkStore) -> None:
     try:
-        store.begin(run.manifest, restart=run.restart)
+        store.open(run.manifest, restart=run.restart)
     except ChangedInputsError as error:
         raise InvalidInputError(
-            f"uictest: {run.folder} holds parts of this sweep with other inputs ({error}); "
+            f"uictest: {run.folder} holds chunks of this sweep with other inputs ({error}); "
             "--restart discards them, -o names another folder"
         ) from error
-    for folder in run.shares:
-        try:
-            taken, damaged = store.take(Store(folder))
-        except ChangedInputsError as error:
-            raise InvalidInputError(f"uictest: not a share of this sweep: {error}") from error
-        for path in damaged:
-            message(f"uictest: {path} is damaged and left behind")
-        message(f"uictest: {counted(taken, 'part')} from {folder}")
+    for folder in run.merged:
+        _merge_shard(store, folder)
 
 
-def _work(run: SweepRun, missing: Sequence[int], keep: Callable[[int, bytes], None]) -> None:
-    if run.cluster is not None:
-        _work_on_cluster(run, run.cluster, missing, keep)
-        return
-    worker = prepared_worker(run)
-    run_parts(
-        missing, lambda number: worker.part(run.selection.part(number)), min(run.jobs, len(missing)), keep
-    )
+def _merge_shard(store: ChunkStore, folder: Path) -> None:
+    try:
+        merged_chunks, damaged = store.merge(ChunkStore(folder))
+    except ChangedInputsError as error:
+        raise InvalidInputError(f"uictest: not a shard of this sweep: {error}") from error
+    for path in damaged:
+        message(f"uictest: {path} is damaged: skipped")
+    message(f"uictest: {counted(merged_chunks, 'chunk')} from {folder}")
 
 
-def _work_on_cluster(
-    run: SweepRun, address: str, missing: Sequence[int], keep: Callable[[int, bytes], None]
+def _run_chunks(run: SweepRun, numbers: Sequence[int], write_chunk: sweep.WriteChunk) -> None:
+    if run.cluster is None:
+        sweep.run_on_threads(prepared_runner(run), run.selection, numbers, run.jobs, write_chunk)
+    else:
+        _run_on_cluster(run, run.cluster, numbers, write_chunk)
+
+
+def _run_on_cluster(
+    run: SweepRun, address: str, numbers: Sequence[int], write_chunk: sweep.WriteChunk
 ) -> None:
-    def wait() -> None:
+    def on_wait() -> None:
         message(f"uictest: waiting for workers at {address}")
 
     try:
-        sweep.run_on_cluster(run.selection, missing, address, keep, wait)
+        sweep.run_on_cluster(run.selection, numbers, address, write_chunk, on_wait)
     except ImportError as error:
         raise InvalidInputError("uictest: --dask needs the extra: pip install 'uictest[dask]'") from error
     except sweep.ClusterError as error:
         raise OSError(str(error)) from error
 
 
-def prepared_worker(run: SweepRun) -> ChunkRunner:
-    """Return a worker whose rig is compiled, having said so where that takes time.
+def prepared_runner(run: SweepRun) -> ChunkRunner:
+    """Return a runner whose rig is compiled, after a message where that takes time.
 
-    Raises InvalidInputError where there is no GPU and one is asked for.
+    Raises InvalidInputError where the sweep needs a GPU and there is none.
     """
     if run.selection.device == "cuda":
-        return _worker_on_gpu(run)
-    announce_compilation(warm=sweep.is_warm(), quiet=run.quiet)
-    made = sweep.chunk_runner(run.selection.plan)
-    made.prepare()
-    return made
+        return _runner_on_gpu(run)
+    announce_compilation(warm=rig.lanes_are_warm(), quiet=run.quiet)
+    runner = sweep.chunk_runner(run.selection.plan)
+    runner.prepare()
+    return runner
 
 
-def _worker_on_gpu(run: SweepRun) -> ChunkRunner:
+def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
     try:
-        made = sweep.chunk_runner(run.selection.plan, "cuda")
-        made.prepare()
+        runner = sweep.chunk_runner(run.selection.plan, "cuda")
+        runner.prepare()
     except sweep.NoDeviceError as error:
         raise InvalidInputError(
             f"uictest: no CUDA device found ({error}); leave --device out to use the processor"
         ) from error
     except ImportError as error:
-        # The compiler for GPUs is looked for at its first use, and belongs to the extra, too.
+        # The compiler for GPUs is imported at its first use, and belongs to the extra, too.
         raise InvalidInputError(
             "uictest: --device cuda needs the extra: pip install 'uictest[cuda]'"
         ) from error
-    return made
+    return runner
 
 
 class _Failures:
-    """Counts the cases that are not met, part by part, until there are as many as are tolerated."""
+    """Counts the missed cases, chunk by chunk, up to `--maxfail`."""
 
-    def __init__(self, tolerated: int | None) -> None:
-        self._tolerated = tolerated
+    def __init__(self, maxfail: int | None) -> None:
+        self._maxfail = maxfail
         self._count = 0
         self._first = ""
 
-    def take(self, content: bytes) -> None:
-        """Count those of a finished part. Raises MaxfailReached."""
-        if self._tolerated is None:
+    def add(self, content: bytes) -> None:
+        """Count the missed cases of a finished chunk. Raises MaxfailReached."""
+        if self._maxfail is None:
             return
         missed = _missed(content)
         if missed and not self._first:
             outcome, name, reason = missed[0]
             self._first = f"{name}: {outcome}, {reason_missed(reason)}"
         self._count += len(missed)
-        if self._count >= self._tolerated:
+        if self._count >= self._maxfail:
             raise MaxfailReached(f"{counted(self._count, 'case')} not met, the first: {self._first}")
 
 
 def _missed(content: bytes) -> list[tuple[str, str, str]]:
-    """Return outcome, id and reason of the cases in a part that are not met."""
+    """Return outcome, id and reason of the missed cases in a chunk."""
     import io
 
     import pyarrow.parquet as pq
@@ -188,10 +203,10 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
     return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
 
 
-def publish(run: SweepRun, store: Store) -> tuple[sweep.SweepFindings, str, report.SweepContent]:
-    """Write what the finished sweep says; return it, the text of the result document and what reports show.
+def publish(run: SweepRun, store: ChunkStore) -> tuple[sweep.SweepFindings, str, report.SweepContent]:
+    """Write the findings of a finished sweep; return them, the result document, and what reports show.
 
-    Raises OSError, and MissingPartsError where a share is missing.
+    Raises OSError, and MissingChunksError.
     """
     findings = sweep.gather(run.selection, store, run.pair, run.measures)
     if run.search is not None:
@@ -201,14 +216,14 @@ def publish(run: SweepRun, store: Store) -> tuple[sweep.SweepFindings, str, repo
     content = _write_reports(run, store.folder)
     if run.junit is not None:
         recording.write_text_atomic(run.junit, sweep.junit_xml(findings.tally))
-    store.tidy()
+    store.remove_partial_files()
     return findings, document, content
 
 
 def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
     content = report.read_sweep(folder, traces=report.ReportFormat.HTML in run.formats)
     report.write_sweep_formats(folder, content, run.formats)
-    # The findings are written by now: a summary that cannot be written does not undo them.
+    # The findings are written already: a step summary that cannot be written is no reason to fail.
     try:
         report.append_sweep_step_summary(content)
     except OSError as error:
@@ -217,16 +232,16 @@ def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
 
 
 def _examine_worst(run: SweepRun, findings: sweep.SweepFindings, folder: Path) -> None:
-    """Run the cases most worth looking at once more, in full, and keep their recordings beside the tables.
+    """Run the worst cases again, with explanations and recordings, which go beside the tables.
 
-    Raises OSError, and KeyboardInterrupt where it was interrupted.
+    Raises OSError, and KeyboardInterrupt where it is interrupted.
     """
     import shutil
 
     from uictest.campaign import (
         RecordingRequest,
         parts_of_cases,
-        run_cases as examine,
+        run_cases,
         shortest_cycle,
         subjects_of,
     )
@@ -234,22 +249,23 @@ def _examine_worst(run: SweepRun, findings: sweep.SweepFindings, folder: Path) -
     cases = sweep.cases_of(run.selection.plan, findings.worst_indices)
     shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
 
-    def keep(examined: CaseRun) -> None:
-        if examined.recording is not None:
-            report.write_recording(folder, examined.result.id, examined.recording)
+    def write_recording(case_run: CaseRun) -> None:
+        if case_run.recording is not None:
+            report.write_recording(folder, case_run.result.id, case_run.recording)
 
-    wish = RecordingRequest("all")
-    wish = replace(wish, every=min(wish.every, shortest_cycle(cases)))
-    campaign = examine(cases, jobs=run.jobs, recording=wish, parts=parts_of_cases(cases), on_result=keep)
-    if campaign.interrupted:
+    request = RecordingRequest("all")
+    request = replace(request, every=min(request.every, shortest_cycle(cases)))
+    parts = parts_of_cases(cases)
+    batch = run_cases(cases, jobs=run.jobs, recording=request, parts=parts, on_result=write_recording)
+    if batch.interrupted:
         raise KeyboardInterrupt
-    findings.worst, findings.subjects = campaign.results, subjects_of(cases)
+    findings.worst, findings.subjects = batch.results, subjects_of(cases)
 
 
 def _add_frontier(run: SweepRun, findings: sweep.SweepFindings, search: FrontierSearch) -> None:
     if not run.quiet:
-        message(f"uictest: looking for the frontier along {search.key}")
-    simulate = prepared_worker(run).simulate
+        message(f"uictest: searching the frontier along {search.key}")
+    simulate = prepared_runner(run).simulate
     findings.frontier_key = search.key
     findings.frontier = search.run(
         findings.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
@@ -257,7 +273,7 @@ def _add_frontier(run: SweepRun, findings: sweep.SweepFindings, search: Frontier
 
 
 def exit_code(findings: sweep.SweepFindings) -> ExitCode:
-    """Return the exit code of a complete sweep: an error outweighs a missed case."""
+    """Return the exit code of a complete sweep: an error takes precedence over a missed case."""
     total = findings.tally.total()
     if total.outcomes["error"]:
         return ExitCode.ERROR
@@ -265,7 +281,7 @@ def exit_code(findings: sweep.SweepFindings) -> ExitCode:
 
 
 def sum_up(run: SweepRun, findings: sweep.SweepFindings, started: float) -> None:
-    """Say on stderr what the sweep came to and where its files are."""
+    """Report on stderr the counts of the sweep and the folder of its files."""
     total = findings.tally.total()
     shown = report.sweep_tally({"cases": total.cases, "met": total.met, "outcomes": total.outcomes})
     seconds = perf_counter() - started

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from uictest import rig
+from uictest import campaign, rig
 from uictest.scenario import Case, load
 
 if TYPE_CHECKING:
@@ -56,8 +55,7 @@ class StopRunner:
 
     def each(self, work: Callable[[Argument], Result], arguments: Sequence[Argument]) -> list[Result]:
         """Return what `work` makes of each, in order. The compiled rig needs no interpreter's lock."""
-        with ThreadPoolExecutor(max_workers=self._jobs, thread_name_prefix="study") as pool:
-            return list(pool.map(work, arguments))
+        return list(campaign.map_on_threads(work, arguments, jobs=self._jobs))
 
 
 def seeded(case: Case, seed: int) -> Case:

@@ -1,6 +1,6 @@
-"""Sweeps: one scenario with many values of its parameters, worked out in parts that survive anything.
+"""Sweeps: one scenario with many values of its parameters, run in chunks that survive an interruption.
 
-Names are imported when they are first used: checking a sweep file takes a fraction of what running it does.
+Names are imported when they are first used: checking a sweep file takes a fraction of the time of a run.
 """
 
 import lazy_loader

@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
 from uictest.report import xml_text
-from uictest.sweep.summaries.tally import Count, Tally
+from uictest.sweep.summaries.tally import OutcomeCount, Tally
 
 
 def junit_xml(tally: Tally) -> str:
@@ -26,7 +26,7 @@ def junit_xml(tally: Tally) -> str:
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
-def _testcase(tally: Tally, key: str, count: Count) -> ElementTree.Element:
+def _testcase(tally: Tally, key: str, count: OutcomeCount) -> ElementTree.Element:
     path = PurePosixPath(tally.plan.file).with_suffix("")
     dotted = ".".join(part for part in path.parts if part not in ("/", "..", "."))
     name = xml_text(f"{tally.plan.name}[{key}={count.label}]")
@@ -38,7 +38,7 @@ def _testcase(tally: Tally, key: str, count: Count) -> ElementTree.Element:
     return element
 
 
-def _child_tag(count: Count) -> str | None:
+def _child_tag(count: OutcomeCount) -> str | None:
     if count.cases == 0:
         return "skipped"
     if count.outcomes["error"]:
@@ -46,7 +46,7 @@ def _child_tag(count: Count) -> str | None:
     return None if count.met == count.cases else "failure"
 
 
-def _explanation(tally: Tally, count: Count) -> Iterator[str]:
+def _explanation(tally: Tally, count: OutcomeCount) -> Iterator[str]:
     yield f"{count.cases - count.met} of {count.cases} cases did not meet their expectation"
     yield ", ".join(f"{name}: {number}" for name, number in count.outcomes.items() if number)
     if tally.missed and count.met < count.cases:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report import STRETCH
-from uictest.sweep.summaries.maps import MET, MapOf, mean_of
+from uictest.sweep.summaries.maps import MET, MapSums, mean_of
 
 _MOST_SHOWN: Final = 24
 """Rows or columns that a reader takes in."""
@@ -20,7 +20,7 @@ Fold = list[range]
 """Which values stand together, as their places."""
 
 
-def map_lines(grid: MapOf, width: int | None) -> Iterator[str]:
+def map_lines(grid: MapSums, width: int | None) -> Iterator[str]:
     """Yield the map in lines of at most `width` characters, None for any width.
 
     A row or column that stands for several values is labelled by its first and its last value.
@@ -52,7 +52,7 @@ def folded_label(labels: Sequence[str]) -> str:
     return ends if STRETCH in labels[0] else f"{ends} ({len(labels)} values)"
 
 
-def _remark(grid: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
+def _remark(grid: MapSums, rows: Fold, columns: Fold) -> Iterator[str]:
     folded = [
         f"{len(axis.labels)} values of {axis.key} in {len(places)} {name}"
         for axis, places, name in ((grid.rows, rows, "rows"), (grid.columns, columns, "columns"))
@@ -62,7 +62,7 @@ def _remark(grid: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
         yield f"folded: {', '.join(folded)}; map-{grid.measure}.csv has every value"
 
 
-def _table(grid: MapOf, rows: Fold, columns: Fold) -> Iterator[str]:
+def _table(grid: MapSums, rows: Fold, columns: Fold) -> Iterator[str]:
     sums, cases = (_folded(each, rows, columns) for each in grid.sums())
     cells = [[_shown(grid.measure, mean) for mean in row] for row in mean_of(sums, cases).tolist()]
     names = [folded_label([grid.rows.labels[place] for place in places]) for places in rows]

@@ -35,7 +35,7 @@ FILE = "study.sweep.yaml"
 
 @pytest.fixture
 def study(scenario: Callable[..., Path]) -> Path:
-    """A sweep of 96 stops from 15 km/h in six parts."""
+    """A sweep of 96 stops from 15 km/h in six chunks."""
     scenario("stop", "rail: {condition: wet}\n")
     path = Path("scenarios/stop.yaml")
     path.write_text(path.read_text().replace("30 km/h", "15 km/h"))
@@ -53,15 +53,15 @@ def contents(folder: str | Path = "reports/study") -> dict[str, bytes]:
 
 @pytest.fixture
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """The numbers of cases that were simulated, part by part."""
+    """The numbers of cases that were simulated, chunk by chunk."""
     sizes: list[int] = []
-    part = ChunkRunner.part
+    run = ChunkRunner.run
 
     def counting(self: ChunkRunner, indices: Any) -> bytes:
         sizes.append(len(indices))
-        return part(self, indices)
+        return run(self, indices)
 
-    monkeypatch.setattr(ChunkRunner, "part", counting)
+    monkeypatch.setattr(ChunkRunner, "run", counting)
     return sizes
 
 
@@ -73,7 +73,7 @@ def test_results_are_the_same_for_any_number_of_threads(call: Call, study: Path)
     assert {"manifest.json", "summary.csv", "summary.parquet", "rates.csv", "sweep.json", "junit.xml"} <= set(
         one
     )
-    assert sum(name.startswith("parts/") for name in one) == 6
+    assert sum(name.startswith("chunks/") for name in one) == 6
 
 
 def test_a_finished_sweep_is_not_done_again(call: Call, study: Path, counted: list[int]) -> None:
@@ -82,22 +82,22 @@ def test_a_finished_sweep_is_not_done_again(call: Call, study: Path, counted: li
     counted.clear()
     answer = call("sweep", study)
     assert (answer.code, counted) == (0, [])
-    assert "96 of 96 cases are finished already" in answer.err
+    assert "96 of 96 cases are already finished" in answer.err
     assert contents() == before
 
 
-def test_shares_put_together_are_the_whole(call: Call, study: Path, counted: list[int]) -> None:
+def test_merged_shards_are_the_whole(call: Call, study: Path, counted: list[int]) -> None:
     call("sweep", study, "-o", "whole")
     for number in (1, 2, 3):
-        answer = call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
+        answer = call("sweep", study, "--shard", f"{number}/3", "-o", f"shard{number}")
         assert answer.code == 0
-        assert f"share {number} of 3 is finished" in answer.err
+        assert f"shard {number} of 3 is finished" in answer.err
     counted.clear()
-    shares = [word for number in (1, 2, 3) for word in ("--merge", f"share{number}/study")]
-    assert call("sweep", study, "-o", "merged", *shares).code == 0
+    shards = [word for number in (1, 2, 3) for word in ("--merge", f"shard{number}/study")]
+    assert call("sweep", study, "-o", "merged", *shards).code == 0
     assert counted == []
     assert contents("merged/study") == contents("whole/study")
-    assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "share1/study").code == 4
+    assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "shard1/study").code == 4
 
 
 def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:
@@ -105,42 +105,42 @@ def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:
     assert "holds a sweep that is not finished" in call("report", "reports/study").err
 
 
-def test_a_share_without_a_part_says_so_and_can_be_merged(
+def test_a_shard_without_a_chunk_is_reported_and_can_be_merged(
     call: Call, study: Path, counted: list[int]
 ) -> None:
-    answer = call("sweep", study, "--shard", "77/100", "-o", "share77")
+    answer = call("sweep", study, "--shard", "77/100", "-o", "shard77")
     assert (answer.code, counted) == (0, [])
-    assert "share 77 of 100 has no cases: they are dealt in 6 parts" in answer.err
+    assert "shard 77 of 100 has no cases: the sweep has only 6 chunks" in answer.err
     assert "is finished" not in answer.err
-    assert "0 parts from share77/study" in call("sweep", study, "--merge", "share77/study").err
+    assert "0 chunks from shard77/study" in call("sweep", study, "--merge", "shard77/study").err
 
 
-def test_what_no_share_brings_is_told_before_it_is_worked_out(
+def test_cases_missing_from_the_shards_are_reported_before_they_are_run(
     call: Call, study: Path, counted: list[int]
 ) -> None:
     for number in (1, 2):
-        call("sweep", study, "--shard", f"{number}/3", "-o", f"share{number}")
-    damaged = min(Path("share2/study/parts").iterdir())
+        call("sweep", study, "--shard", f"{number}/3", "-o", f"shard{number}")
+    damaged = min(Path("shard2/study/chunks").iterdir())
     damaged.write_bytes(b"")
     counted.clear()
-    shares = ("--merge", "share1/study", "--merge", "share2/study")
-    answer = call("sweep", study, "-q", *shares)
+    shards = ("--merge", "shard1/study", "--merge", "shard2/study")
+    answer = call("sweep", study, "-q", *shards)
     assert (answer.code, counted) == (0, [16, 16, 16])
-    assert f"{damaged} is damaged and left behind" in answer.err
-    assert "48 of 96 cases are in no share: they are worked out here" in answer.err
-    assert "in no share" not in call("sweep", study, *shares).err
+    assert f"{damaged} is damaged: skipped" in answer.err
+    assert "48 of 96 cases are missing from the shards: simulating them here" in answer.err
+    assert "missing from the shards" not in call("sweep", study, *shards).err
 
 
-def test_a_share_made_from_another_working_folder_is_taken(
+def test_a_shard_run_from_another_working_folder_is_merged(
     call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Path("below").mkdir()
     with monkeypatch.context() as patch:
         patch.chdir("below")
-        assert call("sweep", f"../{study}", "--shard", "1/2", "-o", "share1").code == 0
-    call("sweep", study, "--shard", "2/2", "-o", "share2")
-    shares = ("--merge", "below/share1/study", "--merge", "share2/study")
-    assert call("sweep", study, "-o", "merged", *shares).code == 0
+        assert call("sweep", f"../{study}", "--shard", "1/2", "-o", "shard1").code == 0
+    call("sweep", study, "--shard", "2/2", "-o", "shard2")
+    shards = ("--merge", "below/shard1/study", "--merge", "shard2/study")
+    assert call("sweep", study, "-o", "merged", *shards).code == 0
     call("sweep", study, "-o", "whole")
     assert contents("merged/study") == contents("whole/study")
 
@@ -157,15 +157,15 @@ def test_changed_inputs_are_refused_until_told_otherwise(call: Call, study: Path
     assert sum(counted) == 96
 
 
-def test_a_damaged_part_is_found_and_done_again(call: Call, study: Path, counted: list[int]) -> None:
+def test_a_damaged_chunk_is_found_and_run_again(call: Call, study: Path, counted: list[int]) -> None:
     call("sweep", study)
     before = contents()
-    damaged = sorted(Path("reports/study/parts").iterdir())[2]
+    damaged = sorted(Path("reports/study/chunks").iterdir())[2]
     damaged.write_bytes(damaged.read_bytes()[:-100])
     counted.clear()
     answer = call("sweep", study)
     assert (answer.code, counted) == (0, [16])
-    assert "is damaged; its part is worked out again" in answer.err
+    assert "is damaged: recomputing this chunk" in answer.err
     assert contents() == before
 
 
@@ -176,7 +176,7 @@ def test_a_damaged_part_is_found_and_done_again(call: Call, study: Path, counted
         (
             KeyboardInterrupt(),
             2,
-            "uictest: interrupted\nuictest: finished parts are kept in reports/study, the same",
+            "uictest: interrupted\nuictest: finished chunks are kept in reports/study; the same",
         ),
     ],
 )
@@ -184,19 +184,19 @@ def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
     call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: Any, code: int, said: str
 ) -> None:
     call("sweep", study, "-o", "whole")
-    write = room.Store.write
+    write = room.ChunkStore.write
 
-    def breaks(self: room.Store, number: int, content: bytes) -> None:
+    def breaks(self: room.ChunkStore, number: int, content: bytes) -> None:
         if number == 3:
             raise error
         write(self, number, content)
 
     with monkeypatch.context() as patch:
-        patch.setattr(room.Store, "write", breaks)
+        patch.setattr(room.ChunkStore, "write", breaks)
         answer = call("sweep", study, "-n", "1")
     assert answer.code == code
     assert said in answer.err
-    kept = {path: path.stat().st_mtime_ns for path in Path("reports/study/parts").iterdir()}
+    kept = {path: path.stat().st_mtime_ns for path in Path("reports/study/chunks").iterdir()}
     assert len(kept) == 3
     assert not Path("reports/study/summary.csv").exists()
     assert call("sweep", study).code == 0
@@ -204,7 +204,7 @@ def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
     assert contents() == contents("whole/study")
 
 
-def test_ctrl_c_while_the_findings_are_written_keeps_the_parts(
+def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(
     call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*arguments: Any) -> None:
@@ -214,23 +214,23 @@ def test_ctrl_c_while_the_findings_are_written_keeps_the_parts(
         patch.setattr(room, "write_findings", interrupted)
         answer = call("sweep", study)
     assert answer.code == 2
-    assert "uictest: interrupted\nuictest: finished parts are kept in reports/study, the same" in answer.err
-    assert "96 of 96 cases are finished already" in call("sweep", study).err
+    assert "uictest: interrupted\nuictest: finished chunks are kept in reports/study; the same" in answer.err
+    assert "96 of 96 cases are already finished" in call("sweep", study).err
 
 
-def part_files(folder: str) -> list[Path]:
-    """The parts that are complete: one that is being written has a dot before its name."""
-    return list(Path(folder, "study", "parts").glob("[0-9]*"))
+def chunk_files(folder: str) -> list[Path]:
+    """The complete chunks: one that is being written has a dot before its name."""
+    return list(Path(folder, "study", "chunks").glob("[0-9]*"))
 
 
 def killed_at_random(start: Start, times: int) -> int:
-    """Start the sweep and kill it a random while after its next part, several times; how often it ran yet."""
+    """Start the sweep and kill it a random while after its next chunk, several times; return how often."""
     moments = random.Random(4)
     killed = 0
     for _ in range(times):
-        before = len(part_files("broken"))
+        before = len(chunk_files("broken"))
         process = start("sweep", FILE, "-n", "2", "-q", "-o", "broken")
-        while len(part_files("broken")) == before and process.poll() is None:
+        while len(chunk_files("broken")) == before and process.poll() is None:
             time.sleep(0.001)
         time.sleep(moments.uniform(0.0, 0.05))
         process.send_signal(signal.SIGKILL)
@@ -242,7 +242,7 @@ def killed_at_random(start: Start, times: int) -> int:
 def test_killed_and_resumed_gives_the_same_bytes(call: Call, start: Start, study: Path, times: int) -> None:
     Path(FILE).write_text(TEXT.replace("size: 32", f"size: {32 * times}"))
     assert call("sweep", study, "-o", "whole").code == 0
-    # After the first of many parts the sweep cannot be over within the while that it is given.
+    # After the first of many chunks the sweep cannot be over within the while that it is given.
     assert killed_at_random(start, times) > 0
     assert call("sweep", study, "-o", "broken").code == 0
     assert contents("broken/study") == contents("whole/study")
@@ -256,12 +256,12 @@ def test_ctrl_c_and_a_cancelled_job_are_2_and_resumable(
     # Minutes of work: it cannot be over before the signal, however late that is sent.
     Path(FILE).write_text(TEXT.replace("size: 32", "size: 65536"))
     process = start("sweep", FILE, stderr=subprocess.PIPE)
-    while not part_files("reports") and process.poll() is None:
+    while not chunk_files("reports") and process.poll() is None:
         time.sleep(0.02)
     process.send_signal(cancelled)
     _, err = process.communicate(timeout=HANGING)
     assert process.returncode == 2
-    assert "the same command goes on" in err
+    assert "the same command continues" in err
 
 
 def test_a_case_in_error_is_a_row_and_3(call: Call, study: Path) -> None:
@@ -283,8 +283,11 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     stopped, kept = answer.err.splitlines()[-2:]
     first = "study[friction=0.06,sample=0]: pass, another outcome was expected"
     assert stopped == f"uictest: stopped at --maxfail: 16 cases not met, the first: {first}"
-    assert kept == "uictest: finished parts are kept in reports/study, the same command without it goes on"
-    assert len(list(Path("reports/study/parts").iterdir())) == 1
+    assert (
+        kept
+        == "uictest: finished chunks are kept in reports/study; the same command without --maxfail continues"
+    )
+    assert len(list(Path("reports/study/chunks").iterdir())) == 1
     assert call("sweep", study, "--junitxml", "junit.xml").code == 1
     assert 'failures="3"' in Path("junit.xml").read_text()
 
@@ -374,7 +377,7 @@ def test_stdout_is_the_document_alone(call: Call, study: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--shard", "3/2"], "is not a share"),
+        (["--shard", "3/2"], "is not a shard"),
         (["--frontier", "initial_speed"], "needs two values or more"),
         (["--frontier", "rail.friction", "--tolerance", "x"], "is not a number"),
         (["--map", "rail.friction,brake"], "name two parameters of rail.friction, brake.command"),

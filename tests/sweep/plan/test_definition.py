@@ -7,7 +7,7 @@ import pytest
 
 from uictest.scenario import ScenarioErrors
 from uictest.sweep import Plan, load_sweep
-from uictest.sweep.plan.base import Base
+from uictest.sweep.plan.base_case import BaseCase
 
 from ..conftest import GRID, HEAD, Load
 
@@ -100,7 +100,7 @@ def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
         ("grid: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
         ("grid: {rail.friction: [0.1, 0.1]}\n", "is there twice"),
         ("grid: {name: [a, b]}\n", "cannot vary"),
-        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under ranges"),
+        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under `ranges`"),
         ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
         ("", "nothing varies"),
         ("grid: {rail.friction: [0.1]}\nzip: {rail.friction: [0.2]}\n", "is under grid as well"),
@@ -130,10 +130,10 @@ def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: 
 @pytest.mark.parametrize(
     ("distribution", "expected"),
     [
-        ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is refused"),
+        ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is rejected"),
         (
             "{choice: [0.1, 5, 7]}",
-            "5 is out of range: it must be at most 1; 1 more of the 3 values is refused",
+            "5 is out of range: it must be at most 1; 1 more of the 3 values is rejected",
         ),
         ("{uniform: [0.2]}", "expected two bounds, [lowest, highest], found 1"),
         ("{log-uniform: [0.1, 0.2, 0.3]}", "expected two bounds, [lowest, highest], found 3"),
@@ -199,14 +199,18 @@ def test_all_errors_are_told_at_once(load: Load) -> None:
     [
         ("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 29, "5 is out of range"),
         ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 25, "1.1 is out of range"),
-        ("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}", 25, "'0.001' does not suit"),
+        (
+            "ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}",
+            25,
+            "'0.001' is inconsistent with",
+        ),
         ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 10, "unknown key 'frictoin'"),
         ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 45, "0 is out of range"),
-        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 17, "'2' with '0.002' does not suit"),
+        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 17, "'2' with '0.002' is inconsistent with"),
         (
             "sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}",
             58,
-            "'0.001' does not suit",
+            "'0.001' is inconsistent with",
         ),
         ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 60, "no vehicle 'a'"),
     ],
@@ -220,9 +224,9 @@ def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, 
 
 
 def test_the_error_of_an_axis_counts_the_values_that_are_refused_too(load: Load) -> None:
-    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are refused"):
+    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
         load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
-    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are refused"):
+    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
         load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
     with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
         load("grid: {rail.frictoin: [1, 2, 3]}\n")
@@ -232,15 +236,17 @@ def test_only_the_first_refused_value_is_read_as_a_scenario(
     load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read: list[object] = []
-    original = Base.scenario_with
-    monkeypatch.setattr(Base, "scenario_with", lambda *given: read.append(given) or original(*given))
+    original = BaseCase.scenario_with
+    monkeypatch.setattr(BaseCase, "scenario_with", lambda *given: read.append(given) or original(*given))
     with pytest.raises(ScenarioErrors):
         load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
     assert len(read) == 1
 
 
 def test_what_a_value_makes_of_an_option_is_told_at_the_value(load: Load) -> None:
-    with pytest.raises(ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' does not suit initial_speed"):
+    with pytest.raises(
+        ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' is inconsistent with initial_speed"
+    ):
         load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
 
 

@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 from scipy.special import erfcx
 
-from uictest.sweep.plan.distribution import Shares, quantile
+from uictest.sweep.plan.distribution import Probabilities, quantile
 from uictest.sweep.plan.model import FARTHEST_END, Distribution
 
 SHARES = np.linspace(0.0, 0.999, 50)
@@ -56,7 +56,7 @@ TAILS: list[Normal] = [
 """Mean, deviation, lower and upper end: above the mean, the last ones far."""
 
 
-def drawn(normal: Normal, shares: Shares = SHARES) -> Shares:
+def drawn(normal: Normal, shares: Probabilities = SHARES) -> Probabilities:
     mean, deviation, lower, upper = normal
     given = {"mean": mean, "deviation": deviation, "lower": lower, "upper": upper}
     return quantile(Distribution.model_validate({"normal": given}))(shares)

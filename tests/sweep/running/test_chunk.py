@@ -1,4 +1,4 @@
-"""A part holds what its cases come to one by one, and every case has a row."""
+"""A chunk holds the results of its cases run one by one, and every case has a row."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from uictest.evaluation import evaluate
 from uictest.sweep import ChunkRunner, Plan
 
 from ..conftest import Load, formula
-from .test_assembling import written_out
+from .test_case_blocks import written_out
 
-MakeWorker = Callable[[Plan], ChunkRunner]
+MakeRunner = Callable[[Plan], ChunkRunner]
 
 
 def rows(content: bytes) -> list[dict[str, Any]]:
@@ -25,12 +25,12 @@ def rows(content: bytes) -> list[dict[str, Any]]:
     return found
 
 
-def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeWorker) -> None:
+def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> None:
     plan = load()
-    worker = made_up(plan)
-    found = rows(worker.part(np.arange(plan.size)))
+    runner = made_up(plan)
+    found = rows(runner.run(np.arange(plan.size)))
     for index, row in enumerate(found):
-        block = worker.assembler.block(np.array([index]))
+        block = runner.assembler.block(np.array([index]))
         measures, wheelsets = formula(block.parameters, block.rail)
         result = evaluate(written_out(plan, index), measures[0], wheelsets[0])
         assert (row["index"], row["id"]) == (index, result.id)
@@ -41,25 +41,25 @@ def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeWorker) -> N
     assert {row["outcome"] for row in found} == {"pass", "fail"}
 
 
-def test_a_figure_that_was_not_reached_is_null(load: Load, made_up: MakeWorker) -> None:
-    row = rows(made_up(load()).part(np.array([0])))[0]
+def test_a_measure_without_a_value_is_null(load: Load, made_up: MakeRunner) -> None:
+    row = rows(made_up(load()).run(np.array([0])))[0]
     assert row["initial_adhesion_g"] is None
     assert row["values.rail.friction"] == 0.08
 
 
-def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeWorker) -> None:
+def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeRunner) -> None:
     plan = load()
-    assert made_up(plan).part(np.arange(6)) == made_up(plan).part(np.arange(6))
+    assert made_up(plan).run(np.arange(6)) == made_up(plan).run(np.arange(6))
 
 
-def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeWorker) -> None:
+def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
     def breaks(parameters: Any, rail: Any) -> Any:
         if (rail[:, 1, 0] == 0.10).any():
             raise ZeroDivisionError("no wheel load")
         return formula(parameters, rail)
 
     plan = load()
-    found = rows(replace(made_up(plan), simulate=breaks).part(np.arange(plan.size)))
+    found = rows(replace(made_up(plan), simulate=breaks).run(np.arange(plan.size)))
     assert [row["outcome"] == "error" for row in found] == [
         row["values.rail.friction"] == 0.10 for row in found
     ]
@@ -67,9 +67,9 @@ def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeWor
     assert found[2]["braking_distance_m"] is None
 
 
-def test_a_refused_combination_is_a_row_with_its_reason(load: Load, made_up: MakeWorker) -> None:
+def test_a_rejected_combination_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
     plan = load("grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
-    found = rows(made_up(plan).part(np.arange(4)))
+    found = rows(made_up(plan).run(np.arange(4)))
     assert [row["outcome"] for row in found].count("error") == 1
     assert "does not divide the controller cycle" in found[3]["reason"]
     assert not math.isnan(found[0]["braking_distance_m"])

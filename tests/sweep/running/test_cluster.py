@@ -1,4 +1,4 @@
-"""A cluster of processes gives the parts that this process gives, though a worker dies on the way."""
+"""A cluster of processes computes the same chunks as this process, even if a worker dies."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.sweep import Selection, chunk_runner
+from uictest.sweep import CaseSelection, chunk_runner
 
 from ..conftest import Load
 
@@ -46,28 +46,28 @@ def cluster() -> Iterator[Any]:
         yield started
 
 
-def test_parts_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: Any) -> None:
+def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: Any) -> None:
     from uictest.sweep.running.cluster import run_on_cluster
 
-    selection = Selection(load(TEXT, "initial_speed=15 km/h"))
+    selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     here = chunk_runner(selection.plan)
     found: dict[int, bytes] = {}
 
-    def keep(number: int, content: bytes) -> None:
+    def write_chunk(number: int, content: bytes) -> None:
         found[number] = content
         if len(found) == 2:
             os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
 
-    run_on_cluster(selection, range(selection.parts), cluster.scheduler_address, keep)
+    run_on_cluster(selection, range(selection.chunks), cluster.scheduler_address, write_chunk)
     assert sorted(found) == list(range(6))
     for number, content in found.items():
-        assert content == here.part(selection.part(number))
+        assert content == here.run(selection.chunk(number))
 
 
-def test_only_missing_parts_are_asked_for(load: Load, cluster: Any) -> None:
+def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
     from uictest.sweep.running.cluster import run_on_cluster
 
-    selection = Selection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
+    selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
     found: list[int] = []
     run_on_cluster(selection, [2], cluster.scheduler_address, lambda number, content: found.append(number))
     assert found == [2]
@@ -76,15 +76,17 @@ def test_only_missing_parts_are_asked_for(load: Load, cluster: Any) -> None:
 def test_a_scheduler_that_does_not_answer_is_said(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
     from uictest.sweep.running import cluster as module
 
-    monkeypatch.setattr(module, "_PATIENCE", "1s")
+    monkeypatch.setattr(module, "_TIMEOUT", "1s")
     with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
-        module.run_on_cluster(Selection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None)
+        module.run_on_cluster(
+            CaseSelection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None
+        )
 
 
 def test_who_waits_for_workers_is_told_so_once(load: Load) -> None:
     from uictest.sweep.running.cluster import run_on_cluster
 
-    selection = Selection(load(TEXT, "initial_speed=15 km/h"))
+    selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     found: list[int] = []
     told: list[None] = []
     with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
@@ -121,7 +123,7 @@ def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
     address = announced_address(said, scheduler)
     with pytest.raises(module.ClusterError) as raised:
         module.run_on_cluster(
-            Selection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill
+            CaseSelection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill
         )
     scheduler.wait()
     assert str(raised.value).startswith(address)

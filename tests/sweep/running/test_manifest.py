@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from uictest.sweep import Plan, Selection, load_sweep, sweep_manifest
+from uictest.sweep import CaseSelection, Plan, load_sweep, sweep_manifest
 from uictest.sweep.running.manifest import differences
 
 Load = Callable[..., Plan]
 
 
 def manifest(plan: Plan) -> dict[str, Any]:
-    return sweep_manifest(Selection(plan), expression=None, overrides=(), seed=None)
+    return sweep_manifest(CaseSelection(plan), expression=None, overrides=(), seed=None)
 
 
 def test_a_sweep_has_one_manifest_from_every_working_folder(
@@ -38,10 +38,10 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "one", "other", "said"),
+    ("name", "one", "other", "message"),
     [
         ("cases", 10, 16, "cases: 10 before, 16 now"),
-        ("cases_in_a_part", 16, 32, "cases in a part: 16 before, 32 now"),
+        ("cases_in_a_part", 16, 32, "cases per chunk: 16 before, 32 now"),
         ("seed", None, 7, "--seed: none before, 7 now"),
         ("selected", "wet and cold", None, "-k: wet and cold before, none now"),
         ("set", [], ["a=1", "b=2"], "--set: none before, a=1 and b=2 now"),
@@ -50,5 +50,5 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
         ("program", "1", "2", "the program itself"),
     ],
 )
-def test_differences_are_said_as_a_reader_says_them(name: str, one: Any, other: Any, said: str) -> None:
-    assert list(differences({name: one}, {name: other})) == [said]
+def test_differences_are_named_as_users_know_them(name: str, one: Any, other: Any, message: str) -> None:
+    assert list(differences({name: one}, {name: other})) == [message]

@@ -1,4 +1,4 @@
-"""Shares of a sweep."""
+"""Shards of a sweep."""
 
 import pytest
 from hypothesis import given, strategies as st
@@ -7,10 +7,10 @@ from uictest.sweep import Shard, parse_shard
 
 
 @given(st.integers(0, 50), st.integers(1, 12))
-def test_shares_are_all_parts_once(parts: int, count: int) -> None:
-    shares = [Shard(number, count).of(parts) for number in range(1, count + 1)]
-    assert sorted(number for share in shares for number in share) == list(range(parts))
-    assert max(map(len, shares)) - min(map(len, shares)) <= 1
+def test_shards_are_all_chunks_once(chunks: int, count: int) -> None:
+    shards = [Shard(number, count).chunk_numbers(chunks) for number in range(1, count + 1)]
+    assert sorted(number for shard in shards for number in shard) == list(range(chunks))
+    assert max(map(len, shards)) - min(map(len, shards)) <= 1
 
 
 def test_written_form() -> None:
@@ -18,6 +18,6 @@ def test_written_form() -> None:
 
 
 @pytest.mark.parametrize("text", ["0/3", "4/3", "1", "1/0", "a/b", "1/2/3", "-1/2"])
-def test_what_is_no_share(text: str) -> None:
-    with pytest.raises(ValueError, match="is not a share"):
+def test_what_is_no_shard(text: str) -> None:
+    with pytest.raises(ValueError, match="is not a shard"):
         parse_shard(text)

@@ -14,28 +14,28 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.sweep import ChunkRunner, Plan, Selection, Store
+from uictest.sweep import CaseSelection, ChunkRunner, ChunkStore, Plan
 from uictest.sweep.map_text import map_lines
-from uictest.sweep.running.assembling import Assembler
+from uictest.sweep.running.case_blocks import BlockAssembler
 from uictest.sweep.summaries.findings import SweepFindings, gather, read_result, write_findings
 from uictest.sweep.summaries.trends import MOST_VALUES
 
 from ..conftest import GRID, Load, formula
 
-MakeWorker = Callable[[Plan], ChunkRunner]
+MakeRunner = Callable[[Plan], ChunkRunner]
 
 
 @pytest.fixture
-def finished(load: Load, made_up: MakeWorker, tmp_path: Path) -> Callable[..., tuple[SweepFindings, Path]]:
+def finished(load: Load, made_up: MakeRunner, tmp_path: Path) -> Callable[..., tuple[SweepFindings, Path]]:
     """The findings of a finished sweep and the folder they are written to."""
 
     def finish(text: str = GRID) -> tuple[SweepFindings, Path]:
-        selection = Selection(load(text))
-        store = Store(tmp_path / "out")
-        store.begin({}, restart=True)
-        worker = made_up(selection.plan)
-        for number in range(selection.parts):
-            store.write(number, worker.part(selection.part(number)))
+        selection = CaseSelection(load(text))
+        store = ChunkStore(tmp_path / "out")
+        store.open({}, restart=True)
+        runner = made_up(selection.plan)
+        for number in range(selection.chunks):
+            store.write(number, runner.run(selection.chunk(number)))
         keys = selection.plan.keys
         findings = gather(selection, store, (keys[0], keys[1]), ["braking_distance_m"])
         write_findings(store.folder, findings)
@@ -57,12 +57,12 @@ def unstopped(parameters: Any, rail: Any) -> Any:
 def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
     load: Load, tmp_path: Path
 ) -> None:
-    selection = Selection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
-    store = Store(tmp_path / "out")
-    store.begin({}, restart=True)
-    worker = ChunkRunner(Assembler(selection.plan), unstopped, selection.plan)
-    for number in range(selection.parts):
-        store.write(number, worker.part(selection.part(number)))
+    selection = CaseSelection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
+    store = ChunkStore(tmp_path / "out")
+    store.open({}, restart=True)
+    runner = ChunkRunner(BlockAssembler(selection.plan), unstopped, selection.plan)
+    for number in range(selection.chunks):
+        store.write(number, runner.run(selection.chunk(number)))
     findings = gather(selection, store, None, ["braking_distance_m"])
     write_findings(store.folder, findings)
     assert findings.tally.total().outcomes["inconclusive"] == 2
@@ -196,7 +196,7 @@ def test_one_row_per_case_in_both_summaries(finished: Callable[..., tuple[SweepF
     assert text["initial_adhesion_g"].isna().all()
 
 
-def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeWorker, tmp_path: Path) -> None:
+def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeRunner, tmp_path: Path) -> None:
     import pyarrow as pa
 
     from uictest.sweep.summaries.findings import _harmless

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uictest.sweep import FrontierError, FrontierSearch, Plan
-from uictest.sweep.plan.amount import parse_amount
+from uictest.sweep.plan.decimal_quantity import parse_decimal_quantity
 from uictest.sweep.summaries.frontier import FrontierScan, Verdicts
 
 from ..conftest import Load
@@ -33,7 +33,7 @@ def judged(holds: Holds) -> Callable[[Plan, np.ndarray], Verdicts]:
 
 def search(plan: Plan, holds: Holds, tolerance: str | None = None) -> list[FrontierScan]:
     judge = judged(holds)
-    wanted = None if tolerance is None else parse_amount(tolerance)
+    wanted = None if tolerance is None else parse_decimal_quantity(tolerance)
     return FrontierSearch(plan, "rail.friction", wanted).run(judge(plan, np.arange(plan.size)), judge)
 
 
@@ -89,4 +89,4 @@ def test_cases_that_were_not_run_are_no_flip(load: Load) -> None:
 )
 def test_what_has_no_frontier(load: Load, key: str, tolerance: str | None, message: str) -> None:
     with pytest.raises(FrontierError, match=message):
-        FrontierSearch(load(TEXT), key, None if tolerance is None else parse_amount(tolerance))
+        FrontierSearch(load(TEXT), key, None if tolerance is None else parse_decimal_quantity(tolerance))

@@ -7,9 +7,9 @@ import pyarrow as pa
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.sweep.summaries.histograms import Figure, MeasureHistogram, figures_to_show
+from uictest.sweep.summaries.histograms import MeasureHistogram, ReportedMeasure, reported_measures
 
-FIGURE = Figure("slide", "%", ("a", "b"), 100.0)
+FIGURE = ReportedMeasure("slide", "%", ("a", "b"), 100.0)
 values = st.one_of(st.none(), st.floats(-1e6, 1e6))
 rows = st.lists(
     st.tuples(values, values, st.sampled_from(["pass", "fail", "error"])), min_size=1, max_size=60
@@ -64,6 +64,6 @@ def test_one_value_alone_has_a_span() -> None:
 
 
 def test_a_figure_asked_for_is_shown_once() -> None:
-    names = [figure.name for figure in figures_to_show(["braking_distance_m", "locked_time_s_3"])]
+    names = [figure.name for figure in reported_measures(["braking_distance_m", "locked_time_s_3"])]
     assert names.count("braking distance") == 1
     assert names[-1] == "locked_time_s_3"

@@ -10,10 +10,10 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.campaign import RecordingRequest, run_cases as examine
+from uictest.campaign import RecordingRequest, run_cases
 from uictest.evaluation import cases_document
 from uictest.sweep.running.chunk import chunk_runner
-from uictest.sweep.summaries.worst import MOST, Worst, cases_of
+from uictest.sweep.summaries.worst import MOST, WorstCases, cases_of
 
 from ..conftest import Load
 
@@ -38,7 +38,7 @@ def table(found: list[tuple[bool, float | None, str]], first: int = 0) -> pa.Tab
 def test_those_not_met_come_first_then_the_narrowest(
     found: list[tuple[bool, float | None, str]], cut: int
 ) -> None:
-    worst = Worst()
+    worst = WorstCases()
     worst.take(table(found[:cut]))
     worst.take(table(found[cut:], min(cut, len(found))))
     seen = [
@@ -52,11 +52,11 @@ def test_those_not_met_come_first_then_the_narrowest(
 def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
     plan = load("grid:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
-    made = chunk_runner(plan)
+    runner = chunk_runner(plan)
     indices = [3, 0]
-    block = made.assembler.block(np.array(indices))
-    by_lanes = made.results(block)
-    alone = examine(cases_of(plan, indices), recording=RecordingRequest("all"))
+    block = runner.assembler.block(np.array(indices))
+    by_lanes = runner.results(block)
+    alone = run_cases(cases_of(plan, indices), recording=RecordingRequest("all"))
     for one, other in zip(by_lanes, alone.results, strict=True):
         row, case = cases_document([one, other])
         for name in ("id", "outcome", "parameters", "measures", "wheelsets"):
@@ -65,5 +65,5 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])
 def test_rows_name_the_narrowest_margin(load: Load, column: str) -> None:
-    rows = pq.read_table(io.BytesIO(chunk_runner(load()).part(np.arange(2))))
+    rows = pq.read_table(io.BytesIO(chunk_runner(load()).run(np.arange(2))))
     assert all(value is not None for value in rows.column(column).to_pylist())

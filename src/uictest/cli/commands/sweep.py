@@ -1,4 +1,4 @@
-"""`uictest sweep`: many cases of one scenario, in parts that survive an interruption."""
+"""`uictest sweep`: many cases of one scenario, in chunks that survive an interruption."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from uictest.scenario import yaml
 if TYPE_CHECKING:
     from uictest.cli.sweep_run import SweepRun
     from uictest.folder_lock import FolderLock
-    from uictest.sweep import FrontierSearch, Plan, Selection, Shard, Store
+    from uictest.sweep import CaseSelection, ChunkStore, FrontierSearch, Plan, Shard
 
 _IDS_AT_ONCE = 4096
 
@@ -74,7 +74,7 @@ Measures = Annotated[
     typer.Option(
         "--measure",
         metavar="NAME",
-        help="Figure to map, and to compute sensitivities of; a column of summary.csv. May be repeated.",
+        help="Measure to map and to compute sensitivities of: a column of summary.csv. May be repeated.",
     ),
 ]
 OnDevice = Annotated[Device, typer.Option("--device", help="What simulates.")]
@@ -103,22 +103,20 @@ def sweep(
     jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     shard: Annotated[
         str | None,
-        typer.Option(
-            "--shard", metavar="I/N", help="Work out share I of N only; --merge puts shares together."
-        ),
+        typer.Option("--shard", metavar="I/N", help="Run shard I of N only; --merge combines shards."),
     ] = None,
-    shares: Annotated[
+    merged: Annotated[
         list[Path] | None,
-        typer.Option(
-            "--merge", metavar="DIR", help="Take the parts of a share from its folder. May be repeated."
-        ),
+        typer.Option("--merge", metavar="DIR", help="Merge the chunks of the shard in DIR. May be repeated."),
     ] = None,
     dask: Annotated[
         str | None,
         typer.Option("--dask", metavar="ADDRESS", help="Simulate on the cluster of this scheduler."),
     ] = None,
     device: OnDevice = Device.CPU,
-    restart: Annotated[bool, typer.Option("--restart", help="Discard what is there and begin anew.")] = False,
+    restart: Annotated[
+        bool, typer.Option("--restart", help="Discard finished chunks and start again.")
+    ] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="List what would run, and run nothing.")] = False,
     frontier: Frontier = None,
     tolerance: Tolerance = None,
@@ -136,7 +134,7 @@ def sweep(
     quiet: Quiet = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Run a sweep. Interrupted, it goes on where it was when the same command is given again."""
+    """Run a sweep. After an interruption the same command continues it."""
     wanted = report_formats(formats, "--report")
     selection = selected_cases(load_plan(file, overrides, seed, trusted), expression, device)
     if selection.size == 0:
@@ -156,7 +154,7 @@ def sweep(
         folder=folder,
         jobs=1 if device is Device.CUDA else jobs,
         shard=_shard(shard),
-        shares=tuple(shares or ()),
+        merged=tuple(merged or ()),
         cluster=_cluster(dask),
         restart=restart,
         maxfail=1 if exit_first else maxfail,
@@ -172,7 +170,7 @@ def sweep(
 
 
 def _alone_in(folder: Path, *, shared: bool) -> FolderLock:
-    """Return the right to work in the folder of a sweep, which shards of it share."""
+    """Return the lock on the folder of a sweep; shards of the sweep share it."""
     from uictest.folder_lock import FolderInUseError, FolderLock
 
     folder.mkdir(parents=True, exist_ok=True)
@@ -186,31 +184,33 @@ def _alone_in(folder: Path, *, shared: bool) -> FolderLock:
 
 def _swept(run: SweepRun, shown: Format) -> ExitCode:
     from uictest.cli.sweep_run import MaxfailReached
-    from uictest.sweep import Store
+    from uictest.sweep import ChunkStore
 
-    store = Store(run.folder)
+    store = ChunkStore(run.folder)
     try:
         return _simulated_and_shown(run, store, shown)
     except MaxfailReached as reached:
         message(f"uictest: stopped at --maxfail: {reached}")
-        message(f"uictest: finished parts are kept in {run.folder}, the same command without it goes on")
+        message(
+            f"uictest: finished chunks are kept in {run.folder}; the same command without --maxfail continues"
+        )
         return ExitCode.MISSED
     except KeyboardInterrupt:
         message("uictest: interrupted")
-        _say_what_is_kept(store)
+        _report_finished_chunks(store)
         return ExitCode.INTERRUPTED
     except OSError:
-        _say_what_is_kept(store)
+        _report_finished_chunks(store)
         raise
 
 
-def _simulated_and_shown(run: SweepRun, store: Store, shown: Format) -> ExitCode:
-    from uictest.cli.sweep_run import exit_code, publish, simulate_parts, sum_up
+def _simulated_and_shown(run: SweepRun, store: ChunkStore, shown: Format) -> ExitCode:
+    from uictest.cli.sweep_run import exit_code, publish, run_missing_chunks, sum_up
 
     started = perf_counter()
-    simulate_parts(run, store)
+    run_missing_chunks(run, store)
     if run.shard.count > 1:
-        message(f"uictest: {_share_words(run)}")
+        message(f"uictest: {_shard_words(run)}")
         return ExitCode.MET
     findings, document, content = publish(run, store)
     show_findings(findings, document, shown, quiet=run.quiet)
@@ -221,16 +221,16 @@ def _simulated_and_shown(run: SweepRun, store: Store, shown: Format) -> ExitCode
     return exit_code(findings)
 
 
-def _say_what_is_kept(store: Store) -> None:
-    if store.holds_parts():
-        message(f"uictest: finished parts are kept in {store.folder}, the same command goes on")
+def _report_finished_chunks(store: ChunkStore) -> None:
+    if store.has_chunks():
+        message(f"uictest: finished chunks are kept in {store.folder}; the same command continues")
 
 
-def _share_words(run: SweepRun) -> str:
-    share, parts = f"share {run.shard.number} of {run.shard.count}", run.selection.parts
-    if run.shard.of(parts):
-        return f"{share} is finished in {run.folder}"
-    return f"{share} has no cases: they are dealt in {counted(parts, 'part')}"
+def _shard_words(run: SweepRun) -> str:
+    shard, chunks = f"shard {run.shard.number} of {run.shard.count}", run.selection.chunks
+    if run.shard.chunk_numbers(chunks):
+        return f"{shard} is finished in {run.folder}"
+    return f"{shard} has no cases: the sweep has only {counted(chunks, 'chunk')}"
 
 
 def load_plan(
@@ -245,29 +245,29 @@ def load_plan(
         raise InvalidInputError(str(errors)) from errors
 
 
-def selected_cases(plan: Plan, expression: str | None, device: Device = Device.CPU) -> Selection:
+def selected_cases(plan: Plan, expression: str | None, device: Device = Device.CPU) -> CaseSelection:
     """Return the cases that `-k` selects. Raises typer.BadParameter for a malformed expression."""
-    from uictest.sweep import select
+    from uictest.sweep import select_cases
 
     try:
-        return select(plan, expression, device.value)
+        return select_cases(plan, expression, device.value)
     except campaign.ExpressionError as error:
         raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
 
 
-def show_ids(selection: Selection) -> bool:
+def show_ids(selection: CaseSelection) -> bool:
     """Write the ids of the selected cases to stdout, one per line; return whether somebody read them all."""
     for first in range(0, selection.size, _IDS_AT_ONCE):
-        indices = selection.stretch(first, min(first + _IDS_AT_ONCE, selection.size))
+        indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
         if not data("\n".join(map(printable, selection.plan.ids(indices)))):
             return False
     return True
 
 
 def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -> None:
-    """Write the result document, or maps, rates and the frontier for a reader, to stdout.
+    """Write the result document, or maps, rates and the frontier as text, to stdout.
 
-    Where it is to be `quiet`, what did not meet its expectation is all; annotations say that by themselves.
+    If `quiet`, write only the cases that missed their expectation; annotations list these already.
     """
     from uictest.cli.sweep_display import finding_lines, missed_lines
 
@@ -313,12 +313,12 @@ def _cluster(address: str | None) -> str | None:
 
 
 def _search(plan: Plan, key: str | None, tolerance: str | None) -> FrontierSearch | None:
-    from uictest.sweep import FrontierError, FrontierSearch, parse_amount
+    from uictest.sweep import FrontierError, FrontierSearch, parse_decimal_quantity
 
     if key is None:
         return None
     try:
-        return FrontierSearch(plan, key, None if tolerance is None else parse_amount(tolerance))
+        return FrontierSearch(plan, key, None if tolerance is None else parse_decimal_quantity(tolerance))
     except FrontierError as error:
         raise typer.BadParameter(str(error), param_hint="--frontier") from error
     except ValueError as error:
@@ -340,12 +340,12 @@ def _pair(plan: Plan, text: str | None) -> tuple[str, str] | None:
 
 
 def _measures(names: Sequence[str] | None) -> tuple[str, ...]:
-    from uictest.sweep import figure_names
+    from uictest.sweep import measure_columns
 
     if not names:
         return ("braking_distance_m",)
     for name in names:
-        if name not in figure_names():
-            hint = yaml.suggestion(name, figure_names())
-            raise typer.BadParameter(f"no figure {name!r}; {hint}", param_hint="--measure")
+        if name not in measure_columns():
+            hint = yaml.suggestion(name, measure_columns())
+            raise typer.BadParameter(f"no measure {name!r}; {hint}", param_hint="--measure")
     return tuple(dict.fromkeys(names))

@@ -1,4 +1,4 @@
-"""From a sweep file to its plan."""
+"""Read a sweep file into a plan."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ from uictest.scenario.yaml import (
     single_error,
     validated,
 )
-from uictest.sweep.plan.axes import Axes, range_node
-from uictest.sweep.plan.base import Base, read_base
+from uictest.sweep.plan.base_case import BaseCase, read_base_case
+from uictest.sweep.plan.group_reader import GroupReader, range_node
 from uictest.sweep.plan.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
-from uictest.sweep.plan.plan import Group, Listed, Plan
+from uictest.sweep.plan.plan import Group, ListedGroup, Plan
 
-_BEGINNING: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
+_SCHEMA_HINT: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
 _SECTIONS: Final = ("grid", "ranges", "zip")
 SAMPLE_NAME: Final = "sample"
-"""What case ids call the number of a drawn point."""
+"""Name of the number of a drawn point in case ids."""
 
 
 def load_sweep(
@@ -49,7 +49,7 @@ def load_sweep(
     Args:
         path: a ``*.sweep.yaml``.
         overrides: ``key=value`` texts. One value fixes a key of the scenario, swept or not; a comma list or
-            ``range(first,last,step)`` sweeps it instead of what the file says.
+            ``range(first,last,step)`` replaces the values in the file.
         seed: of the sensors' noise in every case.
         trusted: folders that references may lead into, besides that of the file and the working folder.
 
@@ -57,14 +57,14 @@ def load_sweep(
         ScenarioErrors: with all errors of the file, or of the scenario that it names.
     """
     parsed = parse_overrides(overrides, seed)
-    tree = read_file(path, _BEGINNING)
-    _refuse_other_schema(tree)
-    _refuse_ranges_in_grid(tree)
+    tree = read_file(path, _SCHEMA_HINT)
+    _reject_other_schema(tree)
+    _reject_ranges_in_grid(tree)
     file: SweepFile = validated(SweepFile, plain(tree), tree)
     tree = _without_keys(tree, {each.key for each in parsed})
     fixed = [each for each in parsed if len(each.values) == 1]
     roots = Roots.of([path], trusted)
-    base = read_base(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
+    base = read_base_case(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
     reader = _Reader(base, tree, file)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
     return Plan(
@@ -74,58 +74,58 @@ def load_sweep(
         base=base.case,
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
-        inputs=_inputs(base, (tree.place.document, *reader.axes.documents)),
+        inputs=_inputs(base, (tree.place.document, *reader.group_reader.documents)),
     )
 
 
 @dataclass(frozen=True)
 class _Axis:
-    """Lists that go together, and the section they stand in."""
+    """Lists that change together, and the section that holds them."""
 
     section: str
     entries: Mapping[str, Entry]
 
 
 class _Reader:
-    """Reads the groups of a file, all errors at once."""
+    """Reads the groups of a file, and collects all errors."""
 
-    def __init__(self, base: Base, tree: Map, file: SweepFile) -> None:
-        self.axes = Axes(base)
+    def __init__(self, base: BaseCase, tree: Map, file: SweepFile) -> None:
+        self.group_reader = GroupReader(base)
         self._tree = tree
         self._file = file
 
     def groups(self, swept: Sequence[Override]) -> tuple[Group, ...]:
         """Return the groups in order: those of the command line, grid, ranges, zip, sample."""
         axes = [*_of_command_line(swept), *self._of_file()]
-        self._refuse_bad_keys(axes)
-        groups: list[Group | None] = [self.axes.listed(axis.entries) for axis in axes]
+        self._reject_bad_keys(axes)
+        groups: list[Group | None] = [self.group_reader.listed(axis.entries) for axis in axes]
         sample = self._tree.get("sample")
         if isinstance(sample, Map) and self._file.sample is not None:
             remaining = self._sample_without_overridden(sample)
             if remaining.parameters:
-                groups.append(self.axes.sampled(remaining, sample))
-        self._raise_found()
+                groups.append(self.group_reader.sampled(remaining, sample))
+        self._raise_diagnostics()
         complete = tuple(group for group in groups if group is not None)
-        self._refuse_size(complete)
+        self._reject_size(complete)
         return complete
 
     def _of_file(self) -> Iterator[_Axis]:
         for key, entry in _entries(self._tree, "grid"):
             yield _Axis("grid", {key: entry})
         for key, entry in _entries(self._tree, "ranges"):
-            given = (self._file.ranges or {})[key]
-            yield _Axis("ranges", {key: Entry(entry.key, range_node(given, entry.node))})
+            values = (self._file.ranges or {})[key]
+            yield _Axis("ranges", {key: Entry(entry.key, range_node(values, entry.node))})
         zipped = dict(_entries(self._tree, "zip"))
         if zipped:
             yield _Axis("zip", zipped)
 
     def _sample_without_overridden(self, sample: Map) -> Sample:
         assert self._file.sample is not None
-        left = dict(_entries(sample, "parameters"))
-        parameters = {key: each for key, each in self._file.sample.parameters.items() if key in left}
+        drawn = dict(_entries(sample, "parameters"))
+        parameters = {key: each for key, each in self._file.sample.parameters.items() if key in drawn}
         return self._file.sample.model_copy(update={"parameters": parameters})
 
-    def _refuse_bad_keys(self, axes: Sequence[_Axis]) -> None:
+    def _reject_bad_keys(self, axes: Sequence[_Axis]) -> None:
         sample = self._tree.get("sample")
         drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
         seen: dict[str, str] = {}
@@ -133,20 +133,24 @@ class _Reader:
             for key, entry in axis.entries.items():
                 if key in seen:
                     message = f"{quoted(key)} is under {seen[key]} as well"
-                    self.axes.found.append(diagnose(entry.key, message, f"{axis.section}.{key}"))
+                    self.group_reader.diagnostics.append(
+                        diagnose(entry.key, message, f"{axis.section}.{key}")
+                    )
                 if key.split(".")[0] in FIXED:
                     message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
-                    self.axes.found.append(diagnose(entry.key, message, f"{axis.section}.{key}"))
+                    self.group_reader.diagnostics.append(
+                        diagnose(entry.key, message, f"{axis.section}.{key}")
+                    )
                 seen[key] = axis.section
         if not any(map(sets_friction, seen)):
             for axis in (*axes, _Axis("sample", drawn)):
-                self.axes.refuse_conditions_alone(axis.entries)
+                self.group_reader.reject_conditions_alone(axis.entries)
         if not seen:
             hint = "give values under grid, ranges, zip or sample"
-            self.axes.found.append(diagnose(self._tree.place, "nothing varies", hint=hint))
-        self._raise_found()
+            self.group_reader.diagnostics.append(diagnose(self._tree.place, "nothing varies", hint=hint))
+        self._raise_diagnostics()
 
-    def _refuse_size(self, groups: Sequence[Group]) -> None:
+    def _reject_size(self, groups: Sequence[Group]) -> None:
         plan_size = 1
         for group in groups:
             plan_size *= group.size
@@ -161,9 +165,9 @@ class _Reader:
                 self._tree.place, f"case ids of up to {longest} characters; {LONGEST} are accepted"
             )
 
-    def _raise_found(self) -> None:
-        if self.axes.found:
-            raise ScenarioErrors(in_reading_order(self.axes.found))
+    def _raise_diagnostics(self) -> None:
+        if self.group_reader.diagnostics:
+            raise ScenarioErrors(in_reading_order(self.group_reader.diagnostics))
 
 
 def _of_command_line(swept: Sequence[Override]) -> Iterator[_Axis]:
@@ -172,7 +176,7 @@ def _of_command_line(swept: Sequence[Override]) -> Iterator[_Axis]:
 
 
 def _longest_label(group: Group) -> int:
-    if not isinstance(group, Listed):
+    if not isinstance(group, ListedGroup):
         return len(SAMPLE_NAME) + 1 + len(str(group.size))
     # A short key is at most the key itself; the comma after each counts too.
     return sum(
@@ -181,44 +185,44 @@ def _longest_label(group: Group) -> int:
     )
 
 
-def _refuse_other_schema(tree: Map) -> None:
+def _reject_other_schema(tree: Map) -> None:
     schema = tree.get("schema")
     if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", _BEGINNING)
+        raise single_error(tree.place, "missing key 'schema'", "schema", _SCHEMA_HINT)
     if not isinstance(schema, Scalar) or schema.value != SWEEP_SCHEMA:
-        found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        actual = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
         scenario = isinstance(schema, Scalar) and schema.text.startswith("uictest/scenario/")
-        hint = "a scenario is run with `uictest run`" if scenario else _BEGINNING
-        raise single_error(schema.place, f"expected {SWEEP_SCHEMA}, found {found}", "schema", hint)
+        hint = "a scenario is run with `uictest run`" if scenario else _SCHEMA_HINT
+        raise single_error(schema.place, f"expected {SWEEP_SCHEMA}, found {actual}", "schema", hint)
 
 
-def _refuse_ranges_in_grid(tree: Map) -> None:
-    """Say where a stretch of numbers belongs, which a list does not hold."""
-    found = [
+def _reject_ranges_in_grid(tree: Map) -> None:
+    """Reject a range in the section of lists, and name the section of ranges."""
+    diagnostics = [
         diagnose(
             entry.node.place,
             f"expected a list of values, found {describe(entry.node)}",
             f"grid.{key}",
-            "a stretch of numbers goes under ranges: {first, last, step} or {first, last, count}",
+            "a range of numbers goes under `ranges`: {first, last, step} or {first, last, count}",
         )
         for key, entry in _entries(tree, "grid")
         if isinstance(entry.node, Map)
     ]
-    if found:
-        raise ScenarioErrors(found)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
 
 
 def _without_keys(tree: Map, keys: set[str]) -> Map:
-    """The file as if it did not sweep what the command line decides."""
+    """Return the file without the swept keys that the command line sets."""
     for section in _SECTIONS:
-        tree = _thinned(tree, section, keys)
+        tree = _without_entries(tree, section, keys)
     sample = tree.entries.get("sample")
     if sample is not None and isinstance(sample.node, Map):
-        tree = tree.with_entry("sample", Entry(sample.key, _thinned(sample.node, "parameters", keys)))
+        tree = tree.with_entry("sample", Entry(sample.key, _without_entries(sample.node, "parameters", keys)))
     return tree
 
 
-def _thinned(tree: Map, section: str, keys: set[str]) -> Map:
+def _without_entries(tree: Map, section: str, keys: set[str]) -> Map:
     entry = tree.entries.get(section)
     if entry is None or not isinstance(entry.node, Map) or not keys & set(entry.node.entries):
         return tree
@@ -242,6 +246,6 @@ def _optional(tree: Map, key: str) -> Scalar | None:
     return node if isinstance(node, Scalar) and node.value is not None else None
 
 
-def _inputs(base: Base, documents: Sequence[Document]) -> dict[str, str]:
+def _inputs(base: BaseCase, documents: Sequence[Document]) -> dict[str, str]:
     read = {document.display: document.sha256 for document in documents if document.sha256}
     return dict(sorted(chain(base.case.inputs.items(), read.items())))

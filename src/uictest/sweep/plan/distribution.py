@@ -1,25 +1,23 @@
-"""From numbers between 0 and 1 to values of a distribution."""
+"""Quantile functions of the distributions."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from uictest.sweep.plan.model import Distribution, Normal
+from uictest.sweep.plan.model import Distribution, Normal
 
-Shares = NDArray[np.float64]
-Quantile = Callable[[Shares], NDArray[np.float64]]
+Probabilities = NDArray[np.float64]
+Quantile = Callable[[Probabilities], NDArray[np.float64]]
 
 
 def quantile(distribution: Distribution) -> Quantile:
-    """Return the function that turns shares (0 up to 1) into numbers, in the unit of the distribution.
+    """Return the quantile function: probabilities (0 up to 1) to numbers in the distribution's unit.
 
-    A choice gives the places of its values, from 0.
+    The numbers of a choice are the places of its values, from 0.
     """
     if distribution.choice is not None:
         return _place(len(distribution.choice))
@@ -34,24 +32,24 @@ def quantile(distribution: Distribution) -> Quantile:
 
 
 def _place(count: int) -> Quantile:
-    return lambda shares: np.minimum(np.floor(shares * count), count - 1.0)
+    return lambda probabilities: np.minimum(np.floor(probabilities * count), count - 1.0)
 
 
 def _uniform(low: float, high: float) -> Quantile:
-    return lambda shares: np.clip(low + shares * (high - low), low, high)
+    return lambda probabilities: np.clip(low + probabilities * (high - low), low, high)
 
 
 def _log_uniform(low: float, high: float) -> Quantile:
-    return lambda shares: np.clip(low * np.exp(shares * math.log(high / low)), low, high)
+    return lambda probabilities: np.clip(low * np.exp(probabilities * math.log(high / low)), low, high)
 
 
 def _triangular(low: float, mode: float, high: float) -> Quantile:
     span, below = high - low, mode - low
 
-    def at(shares: Shares) -> NDArray[np.float64]:
-        rising = low + np.sqrt(shares * span * below)
-        falling = high - np.sqrt((1.0 - shares) * span * (high - mode))
-        return np.clip(np.where(shares < below / span, rising, falling), low, high)
+    def at(probabilities: Probabilities) -> NDArray[np.float64]:
+        rising = low + np.sqrt(probabilities * span * below)
+        falling = high - np.sqrt((1.0 - probabilities) * span * (high - mode))
+        return np.clip(np.where(probabilities < below / span, rising, falling), low, high)
 
     return at
 
@@ -61,7 +59,7 @@ def _cut_off_normal(normal: Normal) -> Quantile:
         float(amount.number) for amount in (normal.mean, normal.deviation, normal.lower, normal.upper)
     )
     standard = _cut_off_standard_normal((low - mean) / deviation, (high - mean) / deviation)
-    return lambda shares: np.clip(mean + deviation * standard(shares), low, high)
+    return lambda probabilities: np.clip(mean + deviation * standard(probabilities), low, high)
 
 
 def _cut_off_standard_normal(low: float, high: float) -> Quantile:
@@ -71,24 +69,24 @@ def _cut_off_standard_normal(low: float, high: float) -> Quantile:
         return _upper_tail(low, high)
     if high <= 0.0:
         mirrored = _upper_tail(-high, -low)
-        return lambda shares: -mirrored(1.0 - shares)
+        return lambda probabilities: -mirrored(1.0 - probabilities)
     first, last = ndtr(low), ndtr(high)
-    return lambda shares: ndtri(first + shares * (last - first))
+    return lambda probabilities: ndtri(first + probabilities * (last - first))
 
 
 def _upper_tail(low: float, high: float) -> Quantile:
-    """The standard normal above its mean, by the logarithm of the probability to lie beyond a value.
+    """The standard normal above its mean, by the logarithm of the probability to exceed a value.
 
     The cumulative distribution itself rounds to one from 8.3 deviations on, and its complement to zero from
-    38; the logarithm, ln Q(x) = ln(Q(low) + s (Q(high) - Q(low))) at the share s, does neither.
+    38; the logarithm, ln Q(x) = ln(Q(low) + s (Q(high) - Q(low))) at the probability s, does neither.
     """
     from scipy.special import log_ndtr, ndtri_exp
 
     beyond_low, beyond_high = log_ndtr(-low), log_ndtr(-high)
 
-    def at(shares: Shares) -> NDArray[np.float64]:
-        with np.errstate(divide="ignore"):  # nothing may lie beyond the last share: its value is cut off
-            beyond = beyond_low + np.log1p(shares * np.expm1(beyond_high - beyond_low))
+    def at(probabilities: Probabilities) -> NDArray[np.float64]:
+        with np.errstate(divide="ignore"):  # the last value may be infinite: it is cut off
+            beyond = beyond_low + np.log1p(probabilities * np.expm1(beyond_high - beyond_low))
         value: NDArray[np.float64] = -ndtri_exp(beyond)
         return value
 

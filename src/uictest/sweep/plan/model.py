@@ -1,4 +1,4 @@
-"""What a sweep file says: the scenario, the values of its parameters, how they are combined or drawn."""
+"""The models of a sweep file: the scenario, the values of its parameters, how they are combined or drawn."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from uictest.scenario import Slug
 from uictest.scenario.yaml import Inconsistency, Model
-from uictest.sweep.plan.amount import WrittenAmount, common_unit
+from uictest.sweep.plan.decimal_quantity import DecimalQuantityField, common_unit
 
 SWEEP_SCHEMA: Final = "uictest/sweep/1"
 MOST_CASES: Final = 100_000_000
@@ -25,22 +25,22 @@ _ONE_UNIT = "write all numbers of it with the same unit"
 
 
 class Range(Model):
-    """Numbers from the first to the last, by a step or as many as counted."""
+    """Numbers from the first to the last, given by a step or by their count."""
 
-    first: WrittenAmount = Field(description="First number, with its unit.")
-    last: WrittenAmount = Field(description="Last number; reached where a step lands on it.")
-    step: WrittenAmount | None = Field(default=None, description="Difference between neighbours.")
+    first: DecimalQuantityField = Field(description="First number, with its unit.")
+    last: DecimalQuantityField = Field(description="Last number; included if a step reaches it.")
+    step: DecimalQuantityField | None = Field(default=None, description="Difference between neighbours.")
     count: Annotated[int, Field(ge=1, le=1_000_000, strict=True)] | None = Field(
-        default=None, description="How many numbers, equally far apart, both ends included."
+        default=None, description="How many numbers, evenly spaced, both ends included."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield two ways or no way to divide the range, mixed units, and steps that lead nowhere."""
+        """Yield both or neither of step and count, mixed units, and steps away from the last number."""
         if (self.step is None) == (self.count is None):
             yield Inconsistency((), "give either 'step' or 'count'", "count: 11, or step: 0.01")
             return
-        given = [self.first, self.last, *([self.step] if self.step else [])]
-        if common_unit(given) is None:
+        numbers = [self.first, self.last, *([self.step] if self.step else [])]
+        if common_unit(numbers) is None:
             yield Inconsistency(("last",), "the numbers of a range have different units", _ONE_UNIT)
         elif self.step is not None and not 0 <= self._steps() < MOST_POINTS:
             yield Inconsistency(
@@ -55,15 +55,15 @@ class Range(Model):
 
 
 class Normal(Model):
-    """A normal distribution, cut off at both ends."""
+    """A normal distribution, truncated at both ends."""
 
-    mean: WrittenAmount = Field(description="Mean before the ends are cut off.")
-    deviation: WrittenAmount = Field(description="Standard deviation before the ends are cut off.")
-    lower: WrittenAmount = Field(description="Smallest value.")
-    upper: WrittenAmount = Field(description="Largest value.")
+    mean: DecimalQuantityField = Field(description="Mean before the ends are cut off.")
+    deviation: DecimalQuantityField = Field(description="Standard deviation before the ends are cut off.")
+    lower: DecimalQuantityField = Field(description="Smallest value.")
+    upper: DecimalQuantityField = Field(description="Largest value.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield mixed units, no spread, ends in the wrong order."""
+        """Yield mixed units, a deviation that is not above zero, bounds in the wrong order."""
         if common_unit([self.mean, self.deviation, self.lower, self.upper]) is None:
             yield Inconsistency(("mean",), "the numbers of a distribution have different units", _ONE_UNIT)
         elif self.deviation.number <= 0:
@@ -76,7 +76,7 @@ class Normal(Model):
     def _ends_too_far_off(self) -> Iterator[Inconsistency]:
         farthest = FARTHEST_END * self.deviation.number
         above, below = self.lower.number - self.mean.number, self.mean.number - self.upper.number
-        hint = "nothing but this value would be drawn; move it or the mean, or widen the deviation"
+        hint = "only this value would be drawn; move it or the mean, or widen the deviation"
         for key, end, side, distance in (
             ("lower", self.lower, "above", above),
             ("upper", self.upper, "below", below),
@@ -87,13 +87,13 @@ class Normal(Model):
 
 
 def _numbers(words: str, *names: str) -> BeforeValidator:
-    """Return a check that a list has an entry for each of the names, which have no keys to be told by."""
+    """Return a check that a list has an entry for each of the names."""
 
-    def check(given: object) -> object:
-        if isinstance(given, list | tuple) and len(given) == len(names):
-            return given
-        found = f"{len(given)}" if isinstance(given, list | tuple) else "no list"
-        message = f"expected {words}, [{', '.join(names)}], found {found}"
+    def check(entry: object) -> object:
+        if isinstance(entry, list | tuple) and len(entry) == len(names):
+            return entry
+        actual = f"{len(entry)}" if isinstance(entry, list | tuple) else "no list"
+        message = f"expected {words}, [{', '.join(names)}], found {actual}"
         raise PydanticCustomError("numbers", "{message}", {"message": message})
 
     return BeforeValidator(check)
@@ -104,20 +104,23 @@ _THREE_VALUES: Final = _numbers("three values", "lowest", "likeliest", "highest"
 
 
 class Distribution(Model):
-    """How the values of one parameter are spread: one of five ways."""
+    """The distribution of one parameter: exactly one of five."""
 
-    uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
+    uniform: Annotated[tuple[DecimalQuantityField, DecimalQuantityField], _TWO_BOUNDS] | None = Field(
         default=None,
         description="Smallest and largest value; everything between is equally likely.",
         examples=[[0.08, 0.16]],
     )
-    log_uniform: Annotated[tuple[WrittenAmount, WrittenAmount], _TWO_BOUNDS] | None = Field(
+    log_uniform: Annotated[tuple[DecimalQuantityField, DecimalQuantityField], _TWO_BOUNDS] | None = Field(
         default=None,
         alias="log-uniform",
         description="Smallest and largest value, above zero; the logarithm is uniform.",
         examples=[["0.8e-8 m3/(s Pa)", "1.6e-8 m3/(s Pa)"]],
     )
-    triangular: Annotated[tuple[WrittenAmount, WrittenAmount, WrittenAmount], _THREE_VALUES] | None = Field(
+    triangular: (
+        Annotated[tuple[DecimalQuantityField, DecimalQuantityField, DecimalQuantityField], _THREE_VALUES]
+        | None
+    ) = Field(
         default=None,
         description="Smallest, likeliest and largest value; the density is a triangle.",
         examples=[["80 %", "100 %", "100 %"]],
@@ -137,9 +140,9 @@ class Distribution(Model):
 
     @model_validator(mode="before")
     @classmethod
-    def _named(cls, given: Any) -> Any:
-        if isinstance(given, dict | cls):
-            return given
+    def _named(cls, value: Any) -> Any:
+        if isinstance(value, dict | cls):
+            return value
         hint = f"accepted: {', '.join(cls._forms())}; such as {{uniform: [0.08, 0.16]}}"
         context = {"message": "expected a distribution by its name", "hint": hint}
         raise PydanticCustomError("distribution", "{message}", context)
@@ -150,12 +153,12 @@ class Distribution(Model):
 
     @property
     def form(self) -> str:
-        """Which of the five it is."""
-        return next(name for name, given in self if given is not None)
+        """Name of the distribution that is given."""
+        return next(name for name, value in self if value is not None)
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield no way or several ways at once, mixed units, ends in the wrong order."""
-        if sum(given is not None for _, given in self) != 1:
+        """Yield none or several distributions at once, mixed units, bounds in the wrong order."""
+        if sum(value is not None for _, value in self) != 1:
             yield Inconsistency((), "give exactly one distribution", f"accepted: {', '.join(self._forms())}")
             return
         amounts = self.uniform or self.log_uniform or self.triangular
@@ -182,7 +185,7 @@ class Sample(Model):
         ge=1,
         le=MOST_POINTS,
         strict=True,
-        description="How many points; saltelli makes (parameters + 2) cases of each.",
+        description="Number of points; saltelli makes (parameters + 2) cases of each.",
     )
     seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the draws.")
     parameters: dict[str, Distribution] = Field(
@@ -191,11 +194,11 @@ class Sample(Model):
 
     @property
     def cases(self) -> int:
-        """How many cases the sample makes."""
+        """Number of cases in the sample."""
         return self.size * (len(self.parameters) + 2) if self.method == "saltelli" else self.size
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield sizes that leave a low-discrepancy sequence unbalanced."""
+        """Yield sizes for which a Sobol sequence is unbalanced."""
         if self.method in ("sobol", "saltelli") and self.size & (self.size - 1):
             below = 1 << (self.size.bit_length() - 1)
             yield Inconsistency(
@@ -212,7 +215,7 @@ class SweepFile(Model):
     """
 
     schema_id: Literal["uictest/sweep/1"] = Field(
-        alias="schema", description="What the file holds and in which version: uictest/sweep/1."
+        alias="schema", description="Format and version of the file: uictest/sweep/1."
     )
     name: Slug = Field(description="Name of the sweep; its results go into a folder of this name.")
     title: str = Field(
@@ -226,7 +229,7 @@ class SweepFile(Model):
     )
     scenario: str = Field(description="Relative path of the scenario that is swept.")
     case: str | None = Field(
-        default=None, description="Id of the case to start from, where the scenario has several."
+        default=None, description="Id of the case to vary, where the scenario has several."
     )
     grid: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
         default=None,

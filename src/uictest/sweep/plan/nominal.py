@@ -1,4 +1,4 @@
-"""Where the scenario's own value of a drawn parameter lies in the range that it is drawn from."""
+"""Compare the scenario's own value of a drawn parameter with the range that it is drawn from."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from uictest.scenario.yaml import Quantity, parse_quantity
-from uictest.sweep.plan.axes import ends_of
-from uictest.sweep.plan.plan import Draw, Plan, saltelli_sample
-from uictest.sweep.plan.variation import value_at
+from uictest.sweep.plan.group_reader import bounds_of
+from uictest.sweep.plan.plan import ParameterDraw, Plan, saltelli_sample
+from uictest.sweep.plan.scenario_values import value_at
 
 
 @dataclass(frozen=True, slots=True)
 class DrawnRange:
-    """The ends of a distribution, as written, and the value that the scenario has without the sweep."""
+    """The bounds of a distribution, as written, and the scenario's own value."""
 
     key: str
     low: Quantity
@@ -26,7 +26,7 @@ class DrawnRange:
         return self.low <= self.nominal <= self.high
 
     def __str__(self) -> str:
-        """Return a sentence for people."""
+        """Return one sentence."""
         lies = "lies inside" if self.contains_nominal else "lies OUTSIDE"
         return (
             f"{self.key}: the scenario's own {self.nominal.text} {lies} the range"
@@ -35,12 +35,12 @@ class DrawnRange:
 
 
 def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
-    """Yield the ranges of a sample for sensitivities; values that are chosen from a list have none."""
+    """Yield the ranges of a sample for sensitivities; a choice from a list has none."""
     sample = saltelli_sample(plan)
     for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
         nominal = value_at(plan.base.scenario, key)
         if not draw.choices and isinstance(nominal, Quantity):
-            yield DrawnRange(key, *_ends(draw), nominal)
+            yield DrawnRange(key, *_bounds(draw), nominal)
 
 
 def _shown(quantity: Quantity) -> str:
@@ -48,6 +48,6 @@ def _shown(quantity: Quantity) -> str:
     return f"{float(number):g} {unit}".rstrip()
 
 
-def _ends(draw: Draw) -> tuple[Quantity, Quantity]:
-    low, high = (parse_quantity(str(end), draw.kind) for end in ends_of(draw.distribution))
+def _bounds(draw: ParameterDraw) -> tuple[Quantity, Quantity]:
+    low, high = (parse_quantity(str(bound), draw.kind) for bound in bounds_of(draw.distribution))
     return low, high

@@ -1,4 +1,4 @@
-"""A sweep worked out: which values each of its cases has, as a function of the number of the case alone."""
+"""The plan of a sweep: the values of each case, as a function of the number of the case alone."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from uictest.scenario import Case
 from uictest.scenario.yaml import Quantity, parse_quantity
-from uictest.sweep.plan.amount import rounded, written
+from uictest.sweep.plan.decimal_quantity import quantity_text, rounded_decimal
 from uictest.sweep.plan.model import Distribution, Method
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class ParameterValue:
     """A value of a parameter: as written, as the scenario holds it, and as case ids show it."""
 
     text: str
@@ -30,69 +30,69 @@ class Value:
 
     @property
     def number(self) -> float:
-        """The value in SI units, NaN where it is no number."""
-        known = isinstance(self.content, float | int) and not isinstance(self.content, bool)
-        return float(self.content) if known else math.nan
+        """The value in SI units, NaN where it is not a number."""
+        is_number = isinstance(self.content, float | int) and not isinstance(self.content, bool)
+        return float(self.content) if is_number else math.nan
 
 
 @dataclass(frozen=True)
-class Listed:
-    """Parameters that move together through listed rows of values; usually it is one parameter."""
+class ListedGroup:
+    """Listed rows of values of parameters that change together; usually of one parameter."""
 
     keys: tuple[str, ...]
-    rows: tuple[tuple[Value, ...], ...]
+    rows: tuple[tuple[ParameterValue, ...], ...]
 
     @property
     def size(self) -> int:
-        """How many rows."""
+        """Number of rows."""
         return len(self.rows)
 
-    def at(self, numbers: Numbers) -> list[list[Value]]:
+    def at(self, numbers: Numbers) -> list[list[ParameterValue]]:
         """Return the values of each parameter in the rows of the given numbers."""
         return [[self.rows[k][place] for k in numbers.tolist()] for place in range(len(self.keys))]
 
     def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
-        """Return what the rows of the given numbers contribute to a case id."""
-        each = [
+        """Return the part of a case id for the rows of the given numbers."""
+        labels = [
             ",".join(f"{short[key]}={value.label}" for key, value in zip(self.keys, row, strict=True))
             for row in self.rows
         ]
-        return [each[k] for k in numbers.tolist()]
+        return [labels[k] for k in numbers.tolist()]
 
 
 @dataclass(frozen=True)
-class Draw:
-    """How one parameter is drawn: numbers with a unit, of a kind of quantity, or one of several values."""
+class ParameterDraw:
+    """The distribution of one parameter: of numbers with a unit, or a choice among values."""
 
     distribution: Distribution
     unit: str = ""
     kind: str = ""
-    choices: tuple[Value, ...] = ()
+    choices: tuple[ParameterValue, ...] = ()
 
-    def values(self, shares: NDArray[np.float64]) -> list[Value]:
-        """Return the values that stand for the given shares (0 up to 1)."""
+    def values(self, probabilities: NDArray[np.float64]) -> list[ParameterValue]:
+        """Return the quantiles for the given probabilities (0 up to 1)."""
         from uictest.sweep.plan.distribution import quantile
 
-        numbers = quantile(self.distribution)(shares).tolist()
+        numbers = quantile(self.distribution)(probabilities).tolist()
         if self.choices:
             return [self.choices[int(number)] for number in numbers]
-        texts = [written(rounded(number), self.unit) for number in numbers]
+        texts = [quantity_text(rounded_decimal(number), self.unit) for number in numbers]
         # A value is read back from its text, so that a scenario with that text gives the same case.
-        return [Value(text, parse_quantity(text, self.kind)) for text in texts]
+        return [ParameterValue(text, parse_quantity(text, self.kind)) for text in texts]
 
 
 @dataclass(frozen=True)
-class Sampled:
+class SampledGroup:
     """Parameters drawn together, point by point."""
 
     keys: tuple[str, ...]
-    draws: tuple[Draw, ...]
+    draws: tuple[ParameterDraw, ...]
     method: Method
     size: int
     points: int
     seed: int
 
-    def at(self, numbers: Numbers) -> list[list[Value]]:
+    def at(self, numbers: Numbers) -> list[list[ParameterValue]]:
         """Return the values of each parameter in the rows of the given numbers."""
         from uictest.sweep.plan.sampling import points
 
@@ -100,11 +100,11 @@ class Sampled:
         return [draw.values(drawn[:, place]) for place, draw in enumerate(self.draws)]
 
     def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
-        """Return what the rows of the given numbers contribute to a case id."""
+        """Return the part of a case id for the rows of the given numbers."""
         return [f"sample={k}" for k in numbers.tolist()]
 
 
-Group = Listed | Sampled
+Group = ListedGroup | SampledGroup
 
 
 @dataclass(frozen=True)
@@ -119,13 +119,13 @@ class Plan:
     """The case whose values are varied."""
     groups: tuple[Group, ...]
     short: dict[str, str]
-    """What ids call each key."""
+    """The name of each key in case ids."""
     inputs: dict[str, str] = field(default_factory=dict)
-    """Every file read, by shown name, and its SHA-256."""
+    """SHA-256 of every file read, by the name shown to users."""
 
     @property
     def size(self) -> int:
-        """How many cases."""
+        """Number of cases."""
         return math.prod(group.size for group in self.groups)
 
     @cached_property
@@ -135,42 +135,42 @@ class Plan:
 
     def rows(self, indices: Numbers) -> list[Numbers]:
         """Return for each group which of its rows the cases with the given indices have."""
-        found: list[Numbers] = []
+        rows: list[Numbers] = []
         for group in reversed(self.groups):
-            found.append(indices % group.size)
+            rows.append(indices % group.size)
             indices = indices // group.size
-        return found[::-1]
+        return rows[::-1]
 
-    def settings(self, indices: Numbers) -> dict[str, list[Value]]:
+    def settings(self, indices: Numbers) -> dict[str, list[ParameterValue]]:
         """Return the values of the cases with the given indices, by key."""
-        columns: dict[str, list[Value]] = {}
+        columns: dict[str, list[ParameterValue]] = {}
         for group, rows in zip(self.groups, self.rows(indices), strict=True):
             columns.update(zip(group.keys, group.at(rows), strict=True))
         return columns
 
     def ids(self, indices: Numbers) -> list[str]:
         """Return the ids of the cases with the given indices: unique, and the same for ever."""
-        parts = [
+        labels_by_group = [
             group.labels(rows, self.short)
             for group, rows in zip(self.groups, self.rows(indices), strict=True)
         ]
-        return [f"{self.name}[{','.join(labels)}]" for labels in zip(*parts, strict=True)]
+        return [f"{self.name}[{','.join(labels)}]" for labels in zip(*labels_by_group, strict=True)]
 
-    def listed(self) -> dict[str, tuple[Value, ...]]:
+    def listed(self) -> dict[str, tuple[ParameterValue, ...]]:
         """Return the values of every parameter that has a group of its own."""
         return {
             group.keys[0]: tuple(row[0] for row in group.rows)
             for group in self.groups
-            if isinstance(group, Listed) and len(group.keys) == 1
+            if isinstance(group, ListedGroup) and len(group.keys) == 1
         }
 
 
-def saltelli_sample(plan: Plan) -> Sampled | None:
-    """Return the sample of a plan that indices can be computed from, None where there is none."""
+def saltelli_sample(plan: Plan) -> SampledGroup | None:
+    """Return the sample of a plan that Sobol indices can be computed from, None where there is none."""
     last = plan.groups[-1]
-    return last if isinstance(last, Sampled) and last.method == "saltelli" else None
+    return last if isinstance(last, SampledGroup) and last.method == "saltelli" else None
 
 
-def is_numeric(values: Sequence[Value]) -> bool:
+def is_numeric(values: Sequence[ParameterValue]) -> bool:
     """Return whether all values are quantities or whole numbers."""
     return all(isinstance(value.content, Quantity | int) for value in values)

@@ -1,19 +1,18 @@
-"""Points of the unit cube, each a function of seed and number: no draw depends on those before it."""
+"""Points of the unit cube, each a function of seed and number alone: points can be computed in any order."""
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from uictest.sweep.plan.model import Method
+from uictest.sweep.plan.model import Method
 
 Points = NDArray[np.float64]
 _BLOCK = 1024
-"""Points of one random stream: each block has a generator of its own, so any point is a few draws away."""
+"""Points of one random stream: each block has its own generator, so that any point takes few draws."""
 
 
 def points(method: Method, size: int, dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
@@ -42,15 +41,15 @@ def _random(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
 
 def _sobol(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
     first, last = int(numbers.min()), int(numbers.max())
-    return _sobol_stretch(dimensions, seed, first, last + 1 - first)[numbers - first]
+    return _sobol_run(dimensions, seed, first, last + 1 - first)[numbers - first]
 
 
-def _sobol_stretch(dimensions: int, seed: int, first: int, count: int) -> Points:
+def _sobol_run(dimensions: int, seed: int, first: int, count: int) -> Points:
     from scipy.stats import qmc
 
     engine: Any = qmc.Sobol(dimensions, scramble=True, rng=seed)
     if first == 0:
-        # Drawing a number of first points that is no power of two would be warned of; the whole is one.
+        # scipy warns of a first draw whose size is not a power of two.
         count = 1 << (count - 1).bit_length()
     else:
         engine.fast_forward(first)
@@ -60,7 +59,7 @@ def _sobol_stretch(dimensions: int, seed: int, first: int, count: int) -> Points
 
 @lru_cache(maxsize=1)
 def _latin_hypercube(size: int, dimensions: int, seed: int) -> Points:
-    """Every stratum of every parameter once: the design exists only as a whole."""
+    """Return the whole design, which has every stratum of every parameter once."""
     from scipy.stats import qmc
 
     design: Points = qmc.LatinHypercube(dimensions, rng=seed).random(size)

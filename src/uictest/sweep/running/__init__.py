@@ -1,1 +1,1 @@
-"""How a sweep is run: chunks, the store that keeps them, shards and clusters."""
+"""Run a sweep: chunks, the store on disk, shards and clusters."""

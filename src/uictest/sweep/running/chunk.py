@@ -1,85 +1,125 @@
-"""One part of a sweep: a fixed stretch of its cases, worked out to the bytes of a file."""
+"""Run one chunk of a sweep and encode its results as Parquet."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections import namedtuple
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.evaluation import CaseResult
+from uictest.campaign import ThreadedMap
+from uictest.evaluation import CaseResult, error_result, evaluate_simulated
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.running.assembling import Assembler, Block
-from uictest.sweep.running.judging import judged
-from uictest.sweep.running.simulating import Device, Measures, Simulate, simulator
+from uictest.sweep.running.case_blocks import BlockAssembler, CaseBlock
+from uictest.sweep.running.case_selection import CaseSelection
+from uictest.sweep.running.device import Device, Measures, Simulate, simulator
 from uictest.sweep.running.table import rows
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
+WriteChunk = Callable[[int, bytes], None]
+"""Takes the number of a finished chunk and its results."""
+_CHUNKS_AHEAD = 2
+"""Chunks that wait or are ready beyond those in progress: bounds memory."""
+# Reading a field of a numpy record takes ten times as long as one of a tuple, and judging reads many.
+_tuple_of: Any = namedtuple
+_Stop = _tuple_of("_Stop", STOP_MEASURES.names)
+_Wheelset = _tuple_of("_Wheelset", WHEELSET_MEASURES.names)
+
 
 @dataclass(frozen=True)
 class ChunkRunner:
-    """Works out cases of one plan; several threads may share one."""
+    """Simulates and judges the cases of one chunk; several threads may share a runner."""
 
-    assembler: Assembler
+    assembler: BlockAssembler
     simulate: Simulate
     plan: Plan
 
-    def part(self, indices: NDArray[np.int64]) -> bytes:
+    def run(self, indices: NDArray[np.int64]) -> bytes:
         """Return the rows of the cases with the given indices as a Parquet file."""
         block = self.assembler.block(indices)
         return parquet_bytes(rows(self.plan, block, self.results(block)))
 
     def prepare(self) -> None:
-        """Compile the rig before several threads ask for it at once."""
+        """Compile the rig before several threads need it at once."""
         block = self.assembler.block(np.zeros(1, np.int64))
         block.parameters["cycles"] = 1
         self.simulate(block.parameters, block.rail)
 
-    def results(self, block: Block) -> list[CaseResult]:
-        """Return the results of a block; whatever goes wrong with a case is its result."""
-        places = [place for place, reason in enumerate(block.refused) if not reason]
+    def results(self, block: CaseBlock) -> list[CaseResult]:
+        """Return the results of a block; an error in a case is its result."""
+        places = [place for place, reason in enumerate(block.rejections) if not reason]
         if not places:
-            return judged(self.assembler, block, [], _none())
+            return self._judge(block, [], _no_measures())
         try:
             measures = self.simulate(block.parameters[places], block.rail[places])
         except Exception as error:
-            return self._one_by_one(block, error)
-        return judged(self.assembler, block, places, measures)
+            return self._run_one_by_one(block, error)
+        return self._judge(block, places, measures)
 
-    def _one_by_one(self, block: Block, error: Exception) -> list[CaseResult]:
-        """Find out which case the block fell over."""
+    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
+        """Find the case that caused the error of the block."""
         if len(block.ids) == 1:
-            block.refused[0] = f"{type(error).__name__}: {error}"
-            return judged(self.assembler, block, [], _none())
+            block.rejections[0] = f"{type(error).__name__}: {error}"
+            return self._judge(block, [], _no_measures())
         return [result for place in range(len(block.ids)) for result in self.results(_single(block, place))]
+
+    def _judge(self, block: CaseBlock, places: Sequence[int], measures: Measures) -> list[CaseResult]:
+        """Return the results of all cases; those not among the simulated `places` were rejected."""
+        stops = dict(zip(places, zip(*(each.tolist() for each in measures), strict=True), strict=True))
+        return [self._judge_case(block, place, stops.get(place)) for place in range(len(block.ids))]
+
+    def _judge_case(self, block: CaseBlock, place: int, stop: Any) -> CaseResult:
+        case = self.assembler.case(block, place)
+        if stop is None:
+            return error_result(case, block.rejections[place])
+        try:
+            wheelsets = [_Wheelset(*wheelset) for wheelset in stop[1]]
+            return evaluate_simulated(case, _Stop(*stop[0]), wheelsets, explain=False)
+        except Exception as error:  # one case that cannot be judged is a row, never the end of the sweep
+            return error_result(case, f"{type(error).__name__}: {error}")
 
 
 def chunk_runner(plan: Plan, device: Device = "cpu") -> ChunkRunner:
-    """Return a worker for a plan."""
-    return ChunkRunner(Assembler(plan), simulator(device), plan)
+    """Return a runner for a plan."""
+    return ChunkRunner(BlockAssembler(plan), simulator(device), plan)
 
 
-def _none() -> Measures:
-    from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+def run_on_threads(
+    runner: ChunkRunner, selection: CaseSelection, numbers: Sequence[int], jobs: int, write_chunk: WriteChunk
+) -> None:
+    """Run the chunks with the given numbers; `write_chunk` gets each in this thread, in this order.
 
+    Whatever ends this function, a KeyboardInterrupt too, the chunks that `write_chunk` got are kept.
+    """
+    jobs = min(jobs, len(numbers)) or 1
+    with ThreadedMap(
+        lambda number: runner.run(selection.chunk(number)), numbers, jobs=jobs, pending=jobs + _CHUNKS_AHEAD
+    ) as contents:
+        for number, content in zip(numbers, contents, strict=True):
+            write_chunk(number, content)
+
+
+def _no_measures() -> Measures:
     return np.zeros(0, STOP_MEASURES), np.zeros((0, 4), WHEELSET_MEASURES)
 
 
-def _single(block: Block, place: int) -> Block:
+def _single(block: CaseBlock, place: int) -> CaseBlock:
     at: Sequence[int] = [place]
-    return Block(
+    return CaseBlock(
         block.indices[at],
         [block.ids[place]],
         {key: [values[place]] for key, values in block.settings.items()},
         block.parameters[at],
         block.rail[at],
         [block.judged_as[place]],
-        [block.refused[place]],
+        [block.rejections[place]],
     )
 
 

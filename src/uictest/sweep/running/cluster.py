@@ -1,4 +1,4 @@
-"""The parts of a sweep on a dask.distributed cluster."""
+"""Run the chunks of a sweep on a dask.distributed cluster."""
 
 from __future__ import annotations
 
@@ -13,66 +13,66 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.running.chunk import ChunkRunner, chunk_runner
-from uictest.sweep.running.execution import OnPart
+from uictest.sweep.running.case_selection import CaseSelection
+from uictest.sweep.running.chunk import ChunkRunner, WriteChunk, chunk_runner
 from uictest.sweep.running.manifest import program_digest
-from uictest.sweep.running.selection import Selection
 
 _PER_THREAD: Final = 3
-"""Parts in flight per thread of the cluster: none idles, and the client holds few results."""
+"""Chunks in flight per thread of the cluster: no thread idles, and the client holds few results."""
 _RETRIES: Final = 5
-_PATIENCE: Final[str] = "10s"
-"""How long the scheduler may take to answer."""
+_TIMEOUT: Final[str] = "10s"
+"""Time that the scheduler may take to answer."""
 
 
 class ClusterError(Exception):
-    """The cluster cannot be reached, or gave a part up."""
+    """The cluster cannot be reached, or gave up a chunk."""
 
 
 def check_address(address: str) -> None:
     """Raise ValueError for what cannot be the address of a scheduler: no host, no port, or no such port."""
-    form = f"{address!r} is not an address such as tcp://127.0.0.1:8786"
+    message = f"{address!r} is not an address such as tcp://127.0.0.1:8786"
     try:
         parts = urlsplit(address if "://" in address else f"tcp://{address}")
         usable = parts.hostname is not None and parts.port is not None
     except ValueError as error:
-        raise ValueError(form) from error
+        raise ValueError(message) from error
     if not usable:
-        raise ValueError(form)
+        raise ValueError(message)
 
 
 def run_on_cluster(
-    selection: Selection,
+    selection: CaseSelection,
     numbers: Iterable[int],
     address: str,
-    on_part: OnPart,
+    write_chunk: WriteChunk,
     on_wait: Callable[[], None] = lambda: None,
 ) -> None:
-    """Work out parts on the cluster whose scheduler is at `address`; `on_part` gets each as it comes.
+    """Run chunks on the cluster whose scheduler is at `address`; `write_chunk` gets each when it is finished.
 
-    A part whose worker dies is given to another; where there is none at the start, `on_wait` is called once.
+    A chunk whose worker dies is given to another worker. Where there is no worker at the start, `on_wait` is
+    called once.
     Raises ClusterError; ImportError without the extra `dask`.
     """
     with _connected(address) as client:
         results = _results(client, selection, iter(numbers), on_wait)
-        for number, content in _translated(address, results):
-            on_part(number, content)
+        for number, content in _with_cluster_errors(address, results):
+            write_chunk(number, content)
 
 
-def _translated(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[tuple[int, bytes]]:
-    """Pass results on; what the cluster fails by becomes a ClusterError, what `on_part` raises does not."""
+def _with_cluster_errors(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[tuple[int, bytes]]:
+    """Pass results on. An error of the cluster becomes a ClusterError, one of the caller's does not."""
     try:
         yield from results
     except _errors() as error:
-        raise ClusterError(f"{address}: {_first_line(error)}") from error
+        raise ClusterError(f"{address}: {_summary_of(error)}") from error
 
 
-def _first_line(error: Exception) -> str:
+def _summary_of(error: Exception) -> str:
     return f"{type(error).__name__}: {error}".partition("\n")[0]
 
 
-def _silence() -> None:
-    """Keep what distributed logs off stderr: what matters of it arrives as an error."""
+def _silence_distributed() -> None:
+    """Keep the log of distributed off stderr: what matters arrives as an error."""
     for name in list(logging.root.manager.loggerDict):
         if name.partition(".")[0] == "distributed":
             logging.getLogger(name).setLevel(logging.CRITICAL)
@@ -81,13 +81,13 @@ def _silence() -> None:
 def _connected(address: str) -> Any:
     import distributed
 
-    _silence()
+    _silence_distributed()
     client: Any = distributed.Client
     try:
-        return client(address, timeout=_PATIENCE, set_as_default=False)
+        return client(address, timeout=_TIMEOUT, set_as_default=False)
     except OSError as error:
         raise ClusterError(f"no scheduler answers at {address}") from error
-    except ValueError as error:  # a scheme that distributed does not speak
+    except ValueError as error:  # a protocol that distributed does not support
         raise ClusterError(f"{address}: {error}") from error
 
 
@@ -101,7 +101,7 @@ def _errors() -> tuple[type[Exception], ...]:
 
 
 def _results(
-    client: Any, selection: Selection, waiting: Iterator[int], on_wait: Callable[[], None]
+    client: Any, selection: CaseSelection, numbers: Iterator[int], on_wait: Callable[[], None]
 ) -> Iterator[tuple[int, bytes]]:
     import distributed
 
@@ -109,40 +109,40 @@ def _results(
         on_wait()
         client.wait_for_workers(1)
     token, program = secrets.token_hex(8), program_digest()
-    flying: dict[str, int] = {}
+    in_flight: dict[str, int] = {}
 
     def submit(number: int) -> Any:
         name = f"uictest-{token}-{number}"
-        flying[name] = number
-        arguments = (token, program, selection.plan, selection.part(number))
-        return client.submit(_part, *arguments, key=name, pure=False, retries=_RETRIES)
+        in_flight[name] = number
+        arguments = (token, program, selection.plan, selection.chunk(number))
+        return client.submit(_run_chunk, *arguments, key=name, pure=False, retries=_RETRIES)
 
     futures: Any = distributed.as_completed
-    running = futures(loop=client.loop)
+    completed = futures(loop=client.loop)
     threads = max(1, sum(client.nthreads().values()))
-    for number in islice(waiting, _PER_THREAD * threads):
-        running.add(submit(number))
-    for future in running:
-        yield flying.pop(future.key), future.result()
-        for number in islice(waiting, 1):
-            running.add(submit(number))
+    for number in islice(numbers, _PER_THREAD * threads):
+        completed.add(submit(number))
+    for future in completed:
+        yield in_flight.pop(future.key), future.result()
+        for number in islice(numbers, 1):
+            completed.add(submit(number))
 
 
-def _part(token: str, program: str, plan: Plan, indices: NDArray[np.int64]) -> bytes:
-    """Runs on a worker of the cluster. Raises RuntimeError where that has another version of this program."""
+def _run_chunk(token: str, program: str, plan: Plan, indices: NDArray[np.int64]) -> bytes:
+    """Run a chunk, on a worker of the cluster. Raises RuntimeError if its uictest is another version."""
     if program != program_digest():
         raise RuntimeError("the worker has another version of uictest")
-    return _worker(token, plan).part(indices)
+    return _cached_runner(token, plan).run(indices)
 
 
-_WORKERS: dict[str, ChunkRunner] = {}
-"""The worker of the sweep that this process of the cluster works on: records are assembled from one base."""
+_RUNNERS: dict[str, ChunkRunner] = {}
+"""The runner of the sweep that this process of the cluster works on, by the token of the sweep."""
 
 
-def _worker(token: str, plan: Plan) -> ChunkRunner:
-    if token not in _WORKERS:
-        made = chunk_runner(plan)
-        _WORKERS.clear()
-        _WORKERS[token] = made
-        return made
-    return _WORKERS[token]
+def _cached_runner(token: str, plan: Plan) -> ChunkRunner:
+    if token not in _RUNNERS:
+        runner = chunk_runner(plan)
+        _RUNNERS.clear()
+        _RUNNERS[token] = runner
+        return runner
+    return _RUNNERS[token]

@@ -1,4 +1,4 @@
-"""What the results of a sweep depend on: where two manifests agree, so do the results."""
+"""Everything that the results of a sweep depend on: equal manifests mean equal results."""
 
 from __future__ import annotations
 
@@ -13,23 +13,29 @@ from typing import Any, Final
 
 from uictest.evaluation import EffectiveParts
 from uictest.report import named_parts
-from uictest.sweep.running.selection import Selection
+from uictest.sweep.running.case_selection import CaseSelection
 
 SCHEMA: Final = "uictest/sweep-manifest/1"
 _ROOMS: Final = ("physics", "controllers", "measures", "lanes", "rig", "evaluation", "scenario", "sweep")
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
 _LIBRARY: Final = "library:"
-_OPTIONS: Final = {"selected": "-k", "set": "--set", "seed": "--seed", "device": "--device"}
-"""What the user knows the entries as that come from the command line."""
+_LABELS: Final = {
+    "selected": "-k",
+    "set": "--set",
+    "seed": "--seed",
+    "device": "--device",
+    "cases_in_a_part": "cases per chunk",
+}
+"""Names that users know entries by, where these differ from the keys."""
 
 
 def sweep_manifest(
-    selection: Selection, *, expression: str | None, overrides: Sequence[str], seed: int | None
+    selection: CaseSelection, *, expression: str | None, overrides: Sequence[str], seed: int | None
 ) -> dict[str, Any]:
-    """Return the manifest of a sweep; it holds nothing of the machine.
+    """Return the manifest of a sweep, which does not depend on the machine.
 
-    Files are named as seen from the sweep file, so that it is the same from every working folder; but `file`,
-    which people and GitHub look up, is named as the user did.
+    Files are named relative to the sweep file, so that the manifest is the same from every working folder;
+    but `file`, which people and GitHub look up, is named as the user named it.
     """
     plan = selection.plan
     folder = Path(plan.file).parent
@@ -38,17 +44,17 @@ def sweep_manifest(
         "sweep": plan.name,
         "title": plan.title,
         "file": plan.file,
-        "scenario": _seen_from(folder, plan.base.path.as_posix()),
+        "scenario": _relative_to(folder, plan.base.path.as_posix()),
         "case": plan.base.id,
         "cases": selection.size,
-        "cases_in_a_part": selection.part_size,
+        "cases_in_a_part": selection.chunk_size,
         "selected": expression,
         "set": list(overrides),
         "seed": seed,
         "device": selection.device,
         "parameters": list(plan.keys),
         "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
-        "inputs": {_seen_from(folder, name): digest for name, digest in plan.inputs.items()},
+        "inputs": {_relative_to(folder, name): digest for name, digest in plan.inputs.items()},
         "versions": _versions(),
         "program": program_digest(),
     }
@@ -57,9 +63,9 @@ def sweep_manifest(
 def differences(
     one: Mapping[str, Any], other: Mapping[str, Any], whose: tuple[str, str] = ("before", "now")
 ) -> Iterator[str]:
-    """Yield in words what sets two manifests apart; `whose` says after a value which of them has it.
+    """Yield the differences of two manifests in words; `whose` says which of them has a value.
 
-    How the sweep file is named is not among it: what the file holds decides.
+    The name of the sweep file does not count, only its content.
     """
     for name in dict.fromkeys((*one, *other)):
         first, second = one.get(name), other.get(name)
@@ -70,8 +76,8 @@ def differences(
         elif name == "program":
             yield "the program itself"
         else:
-            said = _OPTIONS.get(name, name.replace("_", " "))
-            yield f"{said}: {_words(first)} {whose[0]}, {_words(second)} {whose[1]}"
+            label = _LABELS.get(name, name.replace("_", " "))
+            yield f"{label}: {_words(first)} {whose[0]}, {_words(second)} {whose[1]}"
 
 
 def _changed(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
@@ -87,7 +93,7 @@ def _words(value: Any) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _seen_from(folder: Path, name: str) -> str:
+def _relative_to(folder: Path, name: str) -> str:
     if name.startswith(_LIBRARY):
         return name
     try:
@@ -98,7 +104,7 @@ def _seen_from(folder: Path, name: str) -> str:
 
 @cache
 def program_digest() -> str:
-    """Return a digest of the sources that decide what a case comes to."""
+    """Return a digest of the sources that determine the result of a case."""
     digest = hashlib.sha256()
     package = Path(__file__).parents[2]
     for room in _ROOMS:

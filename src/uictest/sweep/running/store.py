@@ -1,4 +1,4 @@
-"""The finished parts of a sweep on disk: each a file that says in its name what it must hold."""
+"""The finished chunks of a sweep on disk: files whose names hold the digest of their content."""
 
 from __future__ import annotations
 
@@ -17,113 +17,115 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 MANIFEST: Final = "manifest.json"
-PARTS: Final = "parts"
+CHUNKS: Final = "chunks"
 _NAME: Final = re.compile(r"([0-9]{6,})-([0-9a-f]{32})\.parquet")
 
 
 class ChangedInputsError(Exception):
-    """The parts on disk are those of other inputs; the message says which."""
+    """The chunks on disk were computed from other inputs; the message names them."""
 
 
 class MissingChunksError(Exception):
-    """Parts are not there; the message says which."""
+    """Chunks are missing; the message names them."""
 
 
-class Store:
-    """The folder of one sweep: its manifest, and one file per finished part."""
+class ChunkStore:
+    """The folder of one sweep: its manifest, and one file per finished chunk."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def begin(self, manifest: Mapping[str, Any], *, restart: bool) -> None:
-        """Take up the work on a sweep with this manifest.
+    def open(self, manifest: Mapping[str, Any], *, restart: bool) -> None:
+        """Open the store for a sweep with this manifest; write the manifest where there is none yet.
 
         Raises:
-            ChangedInputsError: there are parts of a sweep with another manifest, and `restart` is not set.
+            ChangedInputsError: there are chunks of a sweep with another manifest, and `restart` is not set.
             OSError: the folder cannot be written.
         """
-        (self.folder / PARTS).mkdir(parents=True, exist_ok=True)
+        (self.folder / CHUNKS).mkdir(parents=True, exist_ok=True)
         if restart:
             self._discard()
-        kept = self.manifest()
-        changed = [] if kept is None else list(differences(kept, manifest))
-        if changed and self._files():
-            raise ChangedInputsError("; ".join(changed))
-        if kept is None or changed:
-            self._discard()  # parts that nothing vouches for
+        stored = self.manifest()
+        changes = [] if stored is None else list(differences(stored, manifest))
+        if changes and self._files():
+            raise ChangedInputsError("; ".join(changes))
+        if stored is None or changes:
+            self._discard()  # chunks without a manifest cannot be trusted
             text = json.dumps(manifest, indent=2, ensure_ascii=False)
             write_text_atomic(self.folder / MANIFEST, f"{text}\n")
 
     def manifest(self) -> dict[str, Any] | None:
         """Return the manifest, None where there is none that can be read."""
         try:
-            kept = json.loads((self.folder / MANIFEST).read_bytes())
+            manifest = json.loads((self.folder / MANIFEST).read_bytes())
         except (FileNotFoundError, ValueError):
             return None
-        return kept if isinstance(kept, dict) else None
+        return manifest if isinstance(manifest, dict) else None
 
     def finished(self) -> tuple[set[int], list[Path]]:
-        """Return the numbers of the parts that are whole, and the damaged files, which are removed."""
-        whole: set[int] = set()
+        """Return the numbers of the intact chunks, and the damaged files, which are removed."""
+        intact: set[int] = set()
         damaged: list[Path] = []
         for number, path in self._files():
-            if _is_whole(path):
-                whole.add(number)
+            if _is_intact(path):
+                intact.add(number)
             else:
                 damaged.append(path)
                 path.unlink()
-        return whole, damaged
+        return intact, damaged
 
-    def holds_parts(self) -> bool:
-        """Return whether there is a finished part, False where the folder cannot be read."""
+    def has_chunks(self) -> bool:
+        """Return whether there is a finished chunk, False where the folder cannot be read."""
         try:
             return bool(self._files())
         except OSError:
             return False
 
     def write(self, number: int, content: bytes) -> None:
-        """Keep a part. Raises OSError."""
-        write_bytes_atomic(self.folder / PARTS / f"{number:06d}-{_digest(content)}.parquet", content)
+        """Write a chunk. Raises OSError."""
+        write_bytes_atomic(self.folder / CHUNKS / f"{number:06d}-{_digest(content)}.parquet", content)
 
     def tables(self, numbers: Sequence[int], columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
-        """Yield the rows of parts, one part after the other. Raises MissingPartsError."""
+        """Yield the rows of chunks, one chunk after the other. Raises MissingChunksError."""
         import pyarrow.parquet as pq
 
         paths = dict(self._files())
         missing = [number for number in numbers if number not in paths]
         if missing:
             listed = ", ".join(map(str, missing[:10]))
-            raise MissingChunksError(f"{len(missing)} parts are not there: {listed}")
+            raise MissingChunksError(f"{len(missing)} chunks are missing: {listed}")
         for number in numbers:
             with paths[number].open("rb") as file, pq.ParquetFile(file) as parquet:
                 yield parquet.read(columns=None if columns is None else list(columns), use_threads=False)
 
-    def take(self, other: Store) -> tuple[int, list[Path]]:
-        """Copy the whole parts of another store of the same sweep; return their number and the damaged files.
+    def merge(self, other: ChunkStore) -> tuple[int, list[Path]]:
+        """Copy the intact chunks of another store of this sweep; return their number and the damaged files.
 
-        Raises ChangedInputsError where it is of another sweep, OSError.
+        Raises ChangedInputsError where the other store belongs to another sweep, OSError.
         """
-        found = other.manifest()
-        if found is None:
+        manifest = other.manifest()
+        if manifest is None:
             raise ChangedInputsError(f"{other.folder} holds no sweep")
-        if changed := list(differences(self.manifest() or {}, found, ("in this sweep", "in the share"))):
-            raise ChangedInputsError(f"{other.folder}: {'; '.join(changed)}")
+        changes = list(differences(self.manifest() or {}, manifest, ("in this sweep", "in the shard")))
+        if changes:
+            raise ChangedInputsError(f"{other.folder}: {'; '.join(changes)}")
         paths = [path for _, path in other._files()]
-        whole = [path for path in paths if _is_whole(path)]
-        for path in whole:
-            if not (self.folder / PARTS / path.name).exists():
-                write_bytes_atomic(self.folder / PARTS / path.name, path.read_bytes())
-        return len(whole), [path for path in paths if path not in whole]
+        intact = [path for path in paths if _is_intact(path)]
+        for path in intact:
+            if not (self.folder / CHUNKS / path.name).exists():
+                write_bytes_atomic(self.folder / CHUNKS / path.name, path.read_bytes())
+        return len(intact), [path for path in paths if path not in intact]
 
-    def tidy(self) -> None:
-        """Remove what interrupted writers left behind."""
-        for folder in (self.folder, self.folder / PARTS):
+    def remove_partial_files(self) -> None:
+        """Remove files that interrupted writers left."""
+        for folder in (self.folder, self.folder / CHUNKS):
             for path in folder.glob(".partial-*"):
                 path.unlink(missing_ok=True)
 
     def _files(self) -> list[tuple[int, Path]]:
-        found = ((_NAME.fullmatch(path.name), path) for path in sorted((self.folder / PARTS).iterdir()))
-        return [(int(match[1]), path) for match, path in found if match]
+        paths = sorted((self.folder / CHUNKS).iterdir())
+        matches = ((_NAME.fullmatch(path.name), path) for path in paths)
+        return [(int(match[1]), path) for match, path in matches if match]
 
     def _discard(self) -> None:
         with contextlib.suppress(FileNotFoundError):
@@ -132,7 +134,7 @@ class Store:
             path.unlink()
 
 
-def _is_whole(path: Path) -> bool:
+def _is_intact(path: Path) -> bool:
     match = _NAME.fullmatch(path.name)
     return match is not None and _digest(path.read_bytes()) == match[2]
 

@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, narrowest_margin
-from uictest.sweep.plan.plan import Listed, Plan, is_numeric
+from uictest.sweep.plan.plan import ListedGroup, Plan, is_numeric
+from uictest.sweep.running.case_blocks import CaseBlock
 
 if TYPE_CHECKING:
     import pyarrow as pa
-
-    from uictest.sweep.running.assembling import Block
 
 WHEELSETS: Final = 4
 _OWN: Final = ("expect", "outcome", "reason")
@@ -28,8 +27,8 @@ def number_column(key: str) -> str:
     return f"values.{key}"
 
 
-def figure_names() -> list[str]:
-    """Return the columns of figures: those of the stop, then those of each wheelset."""
+def measure_columns() -> list[str]:
+    """Return the columns of measures: those of the stop, then those of each wheelset."""
     return [
         *_names(CaseMeasures),
         *(each for name in _names(CaseWheelsetMeasures) for each in wheelset_columns(name)),
@@ -37,22 +36,22 @@ def figure_names() -> list[str]:
 
 
 def wheelset_columns(name: str) -> tuple[str, ...]:
-    """Return the columns of a figure of wheelsets, leading first."""
+    """Return the columns of a measure of wheelsets, leading wheelset first."""
     return tuple(f"{name}_{k}" for k in _numbers())
 
 
 def numeric_keys(plan: Plan) -> list[str]:
     """Return the parameters whose values are numbers."""
-    found: list[str] = []
+    keys: list[str] = []
     for group in plan.groups:
         for place, key in enumerate(group.keys):
-            if isinstance(group, Listed):
+            if isinstance(group, ListedGroup):
                 values: Sequence[Any] = [row[place] for row in group.rows]
             else:
                 values = group.draws[place].choices
             if is_numeric(values):
-                found.append(key)
-    return found
+                keys.append(key)
+    return keys
 
 
 def schema(plan: Plan) -> pa.Schema:
@@ -70,13 +69,13 @@ def schema(plan: Plan) -> pa.Schema:
             ("met", pa.bool_()),
             ("narrowest_margin", number),
             ("narrowest_criterion", text),
-            *((name, number) for name in figure_names()),
+            *((name, number) for name in measure_columns()),
         ]
     )
 
 
-def rows(plan: Plan, block: Block, results: Sequence[CaseResult]) -> pa.Table:
-    """Return the rows of a block; a figure that was not reached is null."""
+def rows(plan: Plan, block: CaseBlock, results: Sequence[CaseResult]) -> pa.Table:
+    """Return the rows of a block; a measure without a value is null."""
     import pyarrow as pa
 
     columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
@@ -88,20 +87,20 @@ def rows(plan: Plan, block: Block, results: Sequence[CaseResult]) -> pa.Table:
         columns[name] = [getattr(result, name) for result in results]
     margins = zip(*map(narrowest_margin, results), strict=True)
     columns["narrowest_margin"], columns["narrowest_criterion"] = margins
-    columns.update(zip(figure_names(), zip(*map(_figures, results), strict=True), strict=True))
-    arrays = [pa.array(columns[each.name], each.type, from_pandas=True) for each in schema(plan)]
+    columns.update(zip(measure_columns(), zip(*map(_measures, results), strict=True), strict=True))
+    arrays = [pa.array(columns[column.name], column.type, from_pandas=True) for column in schema(plan)]
     return pa.table(arrays, schema=schema(plan))
 
 
-def _figures(result: CaseResult) -> Iterator[float | None]:
+def _measures(result: CaseResult) -> Iterator[float | None]:
     for name in _names(CaseMeasures):
         yield getattr(result.measures, name, None)
     for name in _names(CaseWheelsetMeasures):
         yield from (getattr(wheelset, name, None) for wheelset in result.wheelsets or (None,) * WHEELSETS)
 
 
-def _names(figures: Any) -> list[str]:
-    return [field.name for field in dataclasses.fields(figures)]
+def _names(measures: Any) -> list[str]:
+    return [field.name for field in dataclasses.fields(measures)]
 
 
 def _numbers() -> range:

@@ -28,15 +28,15 @@ from uictest.report import (
 from uictest.sweep.junit import junit_xml
 from uictest.sweep.plan.nominal import drawn_ranges
 from uictest.sweep.plan.plan import saltelli_sample
-from uictest.sweep.running.selection import Selection
-from uictest.sweep.running.store import Store
+from uictest.sweep.running.case_selection import CaseSelection
+from uictest.sweep.running.store import ChunkStore
 from uictest.sweep.summaries.frontier import UNKNOWN, FrontierScan
-from uictest.sweep.summaries.histograms import MeasureHistogram, figures_to_show
-from uictest.sweep.summaries.maps import MET, MapOf
+from uictest.sweep.summaries.histograms import MeasureHistogram, reported_measures
+from uictest.sweep.summaries.maps import MET, MapSums
 from uictest.sweep.summaries.sensitivity import Sensitivity, doubts, sensitivities
-from uictest.sweep.summaries.tally import OUTCOMES, Count, Tally
+from uictest.sweep.summaries.tally import OUTCOMES, OutcomeCount, Tally
 from uictest.sweep.summaries.trends import MOST_VALUES, Trends
-from uictest.sweep.summaries.worst import Worst
+from uictest.sweep.summaries.worst import WorstCases
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -50,7 +50,7 @@ class SweepFindings:
     """What the rows of a finished sweep say."""
 
     tally: Tally
-    maps: list[MapOf]
+    maps: list[MapSums]
     verdicts: NDArray[np.int8]
     """Of every case of the plan: 1 met, 0 not met, -1 not run."""
     worst_indices: list[int]
@@ -67,7 +67,7 @@ class SweepFindings:
 
 
 def gather(
-    selection: Selection, store: Store, pair: tuple[str, str] | None, measures: Sequence[str]
+    selection: CaseSelection, store: ChunkStore, pair: tuple[str, str] | None, measures: Sequence[str]
 ) -> SweepFindings:
     """Read all parts: write summary.csv and summary.parquet, count, and work out what they tell.
 
@@ -85,13 +85,13 @@ def gather(
     tally = Tally(plan)
     maps = [] if pair is None else _maps(tally, pair, (MET, *measures))
     verdicts = np.full(plan.size, UNKNOWN, np.int8)
-    whole = saltelli_sample(plan) is not None and selection.chosen is None
+    whole = saltelli_sample(plan) is not None and selection.selected is None
     figures = {name: np.full(plan.size, np.nan) for name in measures} if whole else {}
-    shown = figures_to_show(measures)
-    worst, distributions = Worst(), [MeasureHistogram(each) for each in shown]
+    shown = reported_measures(measures)
+    worst, distributions = WorstCases(), [MeasureHistogram(each) for each in shown]
     trends = [Trends(plan, each, shown) for each in tally.classes.values() if len(each.labels) <= MOST_VALUES]
     with _summary_files(store.folder) as write:
-        for table in store.tables(range(selection.parts)):
+        for table in store.tables(range(selection.chunks)):
             write(table)
             tally.take(table)
             worst.take(table)
@@ -113,13 +113,13 @@ def gather(
 
 
 def _counted(
-    spanned: Sequence[MeasureHistogram], selection: Selection, store: Store
+    spanned: Sequence[MeasureHistogram], selection: CaseSelection, store: ChunkStore
 ) -> list[MeasureHistogram]:
     """Count the cases of each distribution that has any: the second reading of the parts."""
     found = [each for each in spanned if each.cases]
     for each in found:
         each.begin()
-    for table in store.tables(range(selection.parts)):
+    for table in store.tables(range(selection.chunks)):
         for each in found:
             each.take(table)
     return found
@@ -132,9 +132,9 @@ def _not_judged(outcomes: Mapping[str, int]) -> Iterator[str]:
         yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
 
 
-def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[MapOf]:
+def _maps(tally: Tally, pair: tuple[str, str], measures: Sequence[str]) -> list[MapSums]:
     rows, columns = (tally.classes[key] for key in pair)
-    return [MapOf(tally.plan, rows, columns, name) for name in measures]
+    return [MapSums(tally.plan, rows, columns, name) for name in measures]
 
 
 def _add_sensitivities(findings: SweepFindings, figures: Mapping[str, NDArray[np.float64]]) -> None:
@@ -193,11 +193,11 @@ def result_document(findings: SweepFindings) -> dict[str, Any]:
     }
 
 
-def _count_form(count: Count) -> dict[str, Any]:
+def _count_form(count: OutcomeCount) -> dict[str, Any]:
     return {"value": count.label, "cases": count.cases, "met": count.met, "outcomes": count.outcomes}
 
 
-def _map_form(found: MapOf) -> dict[str, Any]:
+def _map_form(found: MapSums) -> dict[str, Any]:
     met, cases = found.counts()
     return {
         "measure": found.measure,

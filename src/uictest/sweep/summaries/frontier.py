@@ -14,8 +14,14 @@ from numpy.typing import NDArray
 
 from uictest.scenario import Setting, value_label
 from uictest.scenario.yaml import Document, Entry, Place, Quantity, Scalar, parse_quantity
-from uictest.sweep.plan.amount import Amount, common_unit, parse_amount, rounded, written
-from uictest.sweep.plan.plan import Listed, Plan, Value
+from uictest.sweep.plan.decimal_quantity import (
+    DecimalQuantity,
+    common_unit,
+    parse_decimal_quantity,
+    quantity_text,
+    rounded_decimal,
+)
+from uictest.sweep.plan.plan import ListedGroup, ParameterValue, Plan
 from uictest.units import KINDS
 
 UNKNOWN: Final = -1
@@ -62,11 +68,11 @@ class _Bracket:
 class FrontierSearch:
     """The search along one parameter; the values that the sweep has for it are the scan."""
 
-    def __init__(self, plan: Plan, key: str, tolerance: Amount | None = None) -> None:
+    def __init__(self, plan: Plan, key: str, tolerance: DecimalQuantity | None = None) -> None:
         """Raises FrontierError."""
         self.plan, self.key = plan, key
         self._place, self._group = _scanned(plan, key)
-        self._amounts = [parse_amount(row[0].text) for row in self._group.rows]
+        self._amounts = [parse_decimal_quantity(row[0].text) for row in self._group.rows]
         unit = common_unit(self._amounts)
         if unit is None:
             raise FrontierError(f"the values of {key} have different units")
@@ -108,7 +114,7 @@ class FrontierSearch:
     def _narrow(self, brackets: Sequence[_Bracket], judge: Judge) -> None:
         """Halve all brackets together, so that one batch of stops serves all of them."""
         while wide := [each for each in brackets if each.high - each.low > self.tolerance]:
-            middles = [rounded(float((each.low + each.high) / 2)) for each in wide]
+            middles = [rounded_decimal(float((each.low + each.high) / 2)) for each in wide]
             plan, indices = self._cases([each.combination for each in wide], middles)
             for each, middle, met in zip(wide, middles, judge(plan, indices).tolist(), strict=True):
                 if bool(met) == each.met_at_low:
@@ -121,7 +127,7 @@ class FrontierSearch:
     ) -> tuple[Plan, NDArray[np.int64]]:
         """Return a plan with the given values of the parameter, and the indices of the cases meant."""
         distinct = sorted(set(numbers))
-        group = Listed((self.key,), tuple((self._value(number),) for number in distinct))
+        group = ListedGroup((self.key,), tuple((self._value(number),) for number in distinct))
         groups = list(self.plan.groups)
         others = [each.size for place, each in enumerate(groups) if place != self._place]
         groups[self._place] = group
@@ -130,16 +136,16 @@ class FrontierSearch:
         indices = np.ravel_multi_index(rows, [each.size for each in groups])
         return replace(self.plan, groups=tuple(groups)), np.asarray(indices, np.int64)
 
-    def _value(self, number: Decimal) -> Value:
-        text = written(number, self.unit)
+    def _value(self, number: Decimal) -> ParameterValue:
+        text = quantity_text(number, self.unit)
         like = self._group.rows[0][0].content
         place = Place(Document("--frontier", Path(), text))
         setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
-        return Value(text, parse_quantity(text, _kind_of(like, self.unit)), value_label(setting))
+        return ParameterValue(text, parse_quantity(text, _kind_of(like, self.unit)), value_label(setting))
 
     def _stretch(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
         flips = tuple(
-            Flip(written(each.low, self.unit), written(each.high, self.unit), each.met_at_low)
+            Flip(quantity_text(each.low, self.unit), quantity_text(each.high, self.unit), each.met_at_low)
             for each in brackets
             if each.combination == number
         )
@@ -150,11 +156,11 @@ class FrontierSearch:
         return {key: values[0].text for key, values in plan.settings(indices).items() if key != self.key}
 
 
-def _scanned(plan: Plan, key: str) -> tuple[int, Listed]:
+def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
     for place, group in enumerate(plan.groups):
         if group.keys != (key,):
             continue
-        if isinstance(group, Listed) and group.size > 1:
+        if isinstance(group, ListedGroup) and group.size > 1:
             if all(isinstance(row[0].content, Quantity) for row in group.rows):
                 return place, group
             raise FrontierError(f"{key} is no quantity")

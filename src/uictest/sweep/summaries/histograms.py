@@ -22,7 +22,7 @@ _MOST_WHOLE: Final = 40
 
 
 @dataclass(frozen=True)
-class Figure:
+class ReportedMeasure:
     """A figure to look at: the largest of some columns of the rows, times a scale."""
 
     name: str
@@ -40,25 +40,28 @@ class Figure:
 
 
 USUAL: Final = (
-    Figure("braking distance", "m", ("braking_distance_m",)),
-    Figure("braking time", "s", ("braking_time_s",)),
-    Figure("largest slide", "%", wheelset_columns("maximum_slide"), 100.0),
-    Figure("most valve actuations of a wheelset", "1", wheelset_columns("valve_actuations")),
-    Figure("initial adhesion", "g", ("initial_adhesion_g",)),
+    ReportedMeasure("braking distance", "m", ("braking_distance_m",)),
+    ReportedMeasure("braking time", "s", ("braking_time_s",)),
+    ReportedMeasure("largest slide", "%", wheelset_columns("maximum_slide"), 100.0),
+    ReportedMeasure("most valve actuations of a wheelset", "1", wheelset_columns("valve_actuations")),
+    ReportedMeasure("initial adhesion", "g", ("initial_adhesion_g",)),
 )
 
 
-def figures_to_show(measures: Sequence[str]) -> list[Figure]:
+def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
     """Return the usual figures and those columns of the rows that were asked for besides."""
     usual = {name for figure in USUAL for name in figure.columns}
-    return [*USUAL, *(Figure(name, unit_of(name), (name,)) for name in measures if name not in usual)]
+    return [
+        *USUAL,
+        *(ReportedMeasure(name, unit_of(name), (name,)) for name in measures if name not in usual),
+    ]
 
 
 @dataclass
 class MeasureHistogram:
     """Cases of a figure by bin and outcome; every part is first spanned, then counted."""
 
-    figure: Figure
+    figure: ReportedMeasure
     minimum: float = np.inf
     maximum: float = -np.inf
     cases: int = 0

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from uictest.report import Cell, csv_text
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.summaries.classes import Classes
+from uictest.sweep.summaries.bins import ParameterBins
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -19,10 +19,10 @@ MET: Final = "met"
 """Name of the map of verdicts."""
 
 
-class MapOf:
+class MapSums:
     """Sums over the cases of each cell, taken part by part."""
 
-    def __init__(self, plan: Plan, rows: Classes, columns: Classes, measure: str) -> None:
+    def __init__(self, plan: Plan, rows: ParameterBins, columns: ParameterBins, measure: str) -> None:
         self.rows, self.columns, self.measure = rows, columns, measure
         self._plan = plan
         shape = (len(rows.labels), len(columns.labels))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.summaries.classes import Classes, classes_of
+from uictest.sweep.summaries.bins import ParameterBins, bins_of_plan
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -20,7 +20,7 @@ COLUMNS: Final = ("index", "id", "outcome", "met", "reason")
 
 
 @dataclass(frozen=True)
-class Count:
+class OutcomeCount:
     """How the cases of one class came out."""
 
     label: str
@@ -39,12 +39,12 @@ class Tally:
     """Counts by outcome, overall and for each class of each parameter, with the first cases that missed."""
 
     plan: Plan
-    classes: dict[str, Classes] = field(init=False)
+    classes: dict[str, ParameterBins] = field(init=False)
     missed: list[tuple[str, str, str]] = field(default_factory=list)
     """Id, outcome and reason of the first cases that did not meet their expectation."""
 
     def __post_init__(self) -> None:
-        self.classes = classes_of(self.plan)
+        self.classes = bins_of_plan(self.plan)
         # The last column counts the cases that met their expectation.
         self._counts = {
             key: np.zeros((len(each.labels), len(OUTCOMES) + 1), np.int64)
@@ -62,11 +62,11 @@ class Tally:
             _count(self._counts[key], each.of(self.plan, indices, table), outcomes, met)
         self._keep_missed(table, met)
 
-    def total(self) -> Count:
+    def total(self) -> OutcomeCount:
         """Return the counts over all cases."""
         return _as_count("all", self._total)
 
-    def by_class(self, key: str) -> list[Count]:
+    def by_class(self, key: str) -> list[OutcomeCount]:
         """Return the counts for each class of a parameter."""
         labels = self.classes[key].labels
         return [_as_count(label, row) for label, row in zip(labels, self._counts[key], strict=True)]
@@ -82,7 +82,7 @@ def _count(counts: NDArray[np.int64], codes: Any, outcomes: Any, met: Any) -> No
     np.add.at(counts, (codes[met], len(OUTCOMES)), 1)
 
 
-def _as_count(label: str, row: NDArray[np.int64]) -> Count:
+def _as_count(label: str, row: NDArray[np.int64]) -> OutcomeCount:
     *outcomes, met = row.tolist()
     named = dict(zip(OUTCOMES, outcomes, strict=True))
-    return Count(label, sum(outcomes), met, named)
+    return OutcomeCount(label, sum(outcomes), met, named)

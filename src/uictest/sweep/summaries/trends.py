@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.summaries.classes import Classes
-from uictest.sweep.summaries.histograms import Figure
+from uictest.sweep.summaries.bins import ParameterBins
+from uictest.sweep.summaries.histograms import ReportedMeasure
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -21,7 +21,7 @@ MOST_VALUES: Final = 200
 class Trends:
     """Figures over the classes of one parameter, taken part by part."""
 
-    def __init__(self, plan: Plan, classes: Classes, figures: Sequence[Figure]) -> None:
+    def __init__(self, plan: Plan, classes: ParameterBins, figures: Sequence[ReportedMeasure]) -> None:
         self.classes, self.figures = classes, figures
         self._plan = plan
         shape = (len(figures), len(classes.labels))

@@ -8,7 +8,7 @@ import numpy as np
 
 from uictest.scenario import Case
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.running.assembling import Variants
+from uictest.sweep.running.case_blocks import ScenarioVariants
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -19,7 +19,7 @@ _UNSEEN: Final = ("error", "skipped")
 """Outcomes of cases of which there is nothing to look at."""
 
 
-class Worst:
+class WorstCases:
     """The first cases not met, then those that came closest to it; taken part by part."""
 
     def __init__(self) -> None:
@@ -46,7 +46,7 @@ def cases_of(plan: Plan, indices: list[int]) -> list[Case]:
     """Return cases of a plan with their whole scenarios, as `run` would examine them."""
     places = np.array(indices, np.int64)
     settings = plan.settings(places)
-    variants = Variants(plan.base.scenario, settings, len(indices))
+    variants = ScenarioVariants(plan.base.scenario, settings, len(indices))
     return [
         Case(
             name, variants.at(place), plan.base.path, {key: settings[key][place].text for key in settings}, {}

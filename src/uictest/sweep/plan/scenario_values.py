@@ -1,4 +1,4 @@
-"""One value of a resolved scenario changed, without reading the scenario again."""
+"""Change values of a resolved scenario, without reading the scenario again."""
 
 from __future__ import annotations
 
@@ -9,45 +9,45 @@ from uictest.scenario import Scenario
 from uictest.scenario.yaml import Inconsistency, Model
 
 
-def varied(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
-    """Return the scenario with the values at the dotted keys of `settings` changed, from the outside in.
+def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with other values at the dotted keys of `settings`.
 
-    Nothing is validated: the values must have been, and their combination is the matter of :func:`refusals`.
+    Nothing is validated: the values must be valid, and their combination is checked by :func:`refusals`.
     """
-    for key in outside_in(settings):
+    for key in outermost_first(settings):
         scenario = _changed(scenario, key.split("."), settings[key])
     return scenario
 
 
-def outside_in(keys: Iterable[str]) -> list[str]:
-    """Return keys in an order in which a part comes before what lies inside it."""
+def outermost_first(keys: Iterable[str]) -> list[str]:
+    """Return keys in an order in which a part comes before its parameters."""
     return sorted(keys, key=lambda key: key.count("."))
 
 
 def value_at(scenario: Scenario, key: str) -> Any:
-    """Return what stands at a dotted key. Raises KeyError where there is no such place."""
+    """Return the value at a dotted key. Raises KeyError for an unknown key."""
     value: Any = scenario
     for element in key.split("."):
         value = _inner(value, element)
     return value
 
 
-def refusals(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsistency]:
-    """Yield what is impossible about the values of the models on the way to `keys`, the scenario included."""
+def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsistency]:
+    """Yield the inconsistencies of the scenario and of its models on the way to `keys`."""
     seen: set[tuple[str, ...]] = set()
     for key in keys:
         elements = tuple(key.split("."))
         for depth in range(len(elements)):
             if elements[:depth] not in seen:
                 seen.add(elements[:depth])
-                yield from _contradictions(scenario, elements[:depth])
+                yield from _inconsistencies_of(scenario, elements[:depth])
 
 
-def _contradictions(scenario: Scenario, above: tuple[str, ...]) -> Iterator[Inconsistency]:
-    model = value_at(scenario, ".".join(above)) if above else scenario
+def _inconsistencies_of(scenario: Scenario, path: tuple[str, ...]) -> Iterator[Inconsistency]:
+    model = value_at(scenario, ".".join(path)) if path else scenario
     if isinstance(model, Model):
-        for found in model.inconsistencies():
-            yield found._replace(key=(*above, *found.key))
+        for inconsistency in model.inconsistencies():
+            yield inconsistency._replace(key=(*path, *inconsistency.key))
 
 
 def _changed(model: Any, elements: list[str], value: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The scenario that a sweep varies, as a tree: where a new value is written, and what it then means."""
+"""The case that a sweep varies, and the YAML tree that it comes from."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ from uictest.scenario.yaml import (
     suggestion,
     with_value,
 )
-from uictest.sweep.plan.variation import outside_in
+from uictest.sweep.plan.scenario_values import outermost_first
 
 DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
 
 @dataclass(frozen=True)
-class Base:
-    """A case and the tree that it came from."""
+class BaseCase:
+    """A case and the YAML tree that it comes from."""
 
     case: Case
     tree: Map
@@ -64,15 +64,25 @@ class Base:
 
     def _tree_with(self, settings: Mapping[str, Entry]) -> Map:
         tree = self.tree
-        for key in outside_in(settings):
+        for key in outermost_first(settings):
             tree = with_value(tree, key, settings[key], DOTTED_PART_KEYS)
         return tree
 
 
-def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Override], roots: Roots) -> Base:
-    """Return the case that the file named by `reference` holds, or the `wanted` one of several.
+def read_base_case(
+    reference: Scalar, case_id: Scalar | None, overrides: Sequence[Override], roots: Roots
+) -> BaseCase:
+    """Return the case of the scenario file that `reference` names.
 
-    `overrides` have one value each; `roots` are where references may lead. Raises ScenarioErrors.
+    Args:
+        reference: the key `scenario` of the sweep file.
+        case_id: which case, where the scenario has several.
+        overrides: with one value each.
+        roots: folders that references may lead into.
+
+    Raises:
+        ScenarioErrors: with all errors of the scenario.
+
     """
     files = Files(roots)
     if reference.text.endswith(SWEEP_SUFFIXES):
@@ -80,16 +90,13 @@ def read_base(reference: Scalar, wanted: Scalar | None, overrides: Sequence[Over
             reference.place, f"{quoted(reference.text)} is a sweep, not a scenario", "scenario"
         )
     own = files.beside(reference, "scenario")
-    texts = [each.place.document.text for each in overrides if each.place.document.display == "--set"]
-    seed = next((each.values[0] for each in overrides if each.place.document.display == "--seed"), None)
-    given = int(seed.text) if isinstance(seed, Scalar) else None
-    cases = load([reference.place.document.folder / reference.text], texts, given, roots.folders)
-    place = _wanted(cases, wanted, reference)
+    cases = _load_cases(reference, overrides, roots)
+    place = _place_of(case_id, cases, reference)
     merged, _ = inherit(own, lambda parent: files.beside(parent, "extends"))
     merged = merged.with_entry("name", own.entries["name"])
     tree = apply_overrides(with_default_parts(merged), overrides, DOTTED_PART_KEYS)
     variants = distinct(expand(tree)) if overrides else expand(tree)
-    return Base(cases[place], _fixed(tree.without(*EXPANSION_KEYS), variants[place]), Parts(files))
+    return BaseCase(cases[place], _fixed(tree.without(*EXPANSION_KEYS), variants[place]), Parts(files))
 
 
 def _fixed(tree: Map, variant: Variant) -> Map:
@@ -98,16 +105,23 @@ def _fixed(tree: Map, variant: Variant) -> Map:
     return tree
 
 
-def _wanted(cases: Sequence[Case], wanted: Scalar | None, reference: Scalar) -> int:
+def _load_cases(reference: Scalar, overrides: Sequence[Override], roots: Roots) -> list[Case]:
+    texts = [each.place.document.text for each in overrides if each.place.document.display == "--set"]
+    seed_node = next((each.values[0] for each in overrides if each.place.document.display == "--seed"), None)
+    seed = int(seed_node.text) if isinstance(seed_node, Scalar) else None
+    return load([reference.place.document.folder / reference.text], texts, seed, roots.folders)
+
+
+def _place_of(case_id: Scalar | None, cases: Sequence[Case], reference: Scalar) -> int:
     ids = [case.id for case in cases]
-    if wanted is None and len(ids) == 1:
+    if case_id is None and len(ids) == 1:
         return 0
-    if wanted is None:
+    if case_id is None:
         hint = f"add one of them as `case`: {', '.join(ids[:8])}{', ...' if len(ids) > 8 else ''}"
         message = f"{quoted(reference.text)} has {len(ids)} cases, a sweep starts from one"
         raise single_error(reference.place, message, "scenario", hint)
-    if wanted.text not in ids:
+    if case_id.text not in ids:
         raise single_error(
-            wanted.place, f"no case {quoted(wanted.text)} there", "case", suggestion(wanted.text, ids)
+            case_id.place, f"no case {quoted(case_id.text)} there", "case", suggestion(case_id.text, ids)
         )
-    return ids.index(wanted.text)
+    return ids.index(case_id.text)

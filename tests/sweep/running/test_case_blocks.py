@@ -15,7 +15,7 @@ from uictest.rig.assembly import FRICTION_KEYS, SECTIONS, assemble, friction_law
 from uictest.scenario import Case, Scenario, load as load_scenarios
 from uictest.scenario.yaml.model import Model
 from uictest.sweep import Plan
-from uictest.sweep.running.assembling import Assembler
+from uictest.sweep.running.case_blocks import BlockAssembler
 
 from ..conftest import GRID, Load
 
@@ -65,8 +65,8 @@ def written_out(plan: Plan, index: int) -> Case:
 @pytest.mark.parametrize("name", SWEEPS)
 def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) -> None:
     plan = load(SWEEPS[name])
-    block = Assembler(plan).block(np.arange(plan.size))
-    assert block.refused == [""] * plan.size
+    block = BlockAssembler(plan).block(np.arange(plan.size))
+    assert block.rejections == [""] * plan.size
     for place in range(plan.size):
         record, rail = assemble(written_out(plan, place))
         assert record.tobytes() == block.parameters[place].tobytes()
@@ -75,20 +75,20 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
 
 def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:
     plan = load(SWEEPS["sample"])
-    whole = Assembler(plan).block(np.arange(plan.size))
-    assembler = Assembler(plan)
+    whole = BlockAssembler(plan).block(np.arange(plan.size))
+    assembler = BlockAssembler(plan)
     for place in (31, 3, 17):
         alone = assembler.block(np.array([place]))
         assert alone.parameters.tobytes() == whole.parameters[[place]].tobytes()
 
 
-def test_what_cannot_be_together_is_refused_case_by_case(load: Load) -> None:
+def test_impossible_combinations_are_rejected_case_by_case(load: Load) -> None:
     plan = load(
         "grid:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
     )
-    refused = Assembler(plan).block(np.arange(6)).refused
-    assert [bool(reason) for reason in refused] == [False, False, False, True, False, False]
-    assert refused[3] == "simulation.time_step: 0.4 ms does not divide the controller cycle of 5 ms"
+    rejections = BlockAssembler(plan).block(np.arange(6)).rejections
+    assert [bool(reason) for reason in rejections] == [False, False, False, True, False, False]
+    assert rejections[3] == "simulation.time_step: 0.4 ms does not divide the controller cycle of 5 ms"
 
 
 class Watched:

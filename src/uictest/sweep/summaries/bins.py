@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report import STRETCH
-from uictest.sweep.plan.axes import ends_of
-from uictest.sweep.plan.plan import Draw, Listed, Plan
+from uictest.sweep.plan.group_reader import bounds_of
+from uictest.sweep.plan.plan import ListedGroup, ParameterDraw, Plan
 from uictest.sweep.running.table import text_column
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ STRETCHES: Final = 10
 
 
 @dataclass(frozen=True)
-class Classes:
+class ParameterBins:
     """The classes of one parameter."""
 
     key: str
@@ -35,7 +35,7 @@ class Classes:
 
     def of(self, plan: Plan, indices: NDArray[np.int64], table: pa.Table) -> NDArray[np.int64]:
         """Return the class of each row; `indices` are those of the rows of the table."""
-        if isinstance(plan.groups[self.place[0]], Listed):
+        if isinstance(plan.groups[self.place[0]], ListedGroup):
             found: NDArray[np.int64] = self.of_rows[plan.rows(indices)[self.place[0]]]
             return found
         texts = table.column(text_column(self.key)).to_pylist()
@@ -46,29 +46,29 @@ class Classes:
         return np.searchsorted(self.edges, values, side="right").astype(np.int64)
 
 
-def classes_of(plan: Plan) -> dict[str, Classes]:
+def bins_of_plan(plan: Plan) -> dict[str, ParameterBins]:
     """Return the classes of every parameter of a plan."""
-    found: dict[str, Classes] = {}
+    found: dict[str, ParameterBins] = {}
     for number, group in enumerate(plan.groups):
         for place, key in enumerate(group.keys):
-            if isinstance(group, Listed):
+            if isinstance(group, ListedGroup):
                 found[key] = _listed(key, [row[place].text for row in group.rows], (number, place))
             else:
                 found[key] = _drawn(key, group.draws[place], (number, place))
     return found
 
 
-def _listed(key: str, texts: Sequence[str], place: tuple[int, int]) -> Classes:
+def _listed(key: str, texts: Sequence[str], place: tuple[int, int]) -> ParameterBins:
     numbered = {text: number for number, text in enumerate(dict.fromkeys(texts))}
-    return Classes(key, tuple(numbered), place, of_rows=np.array([numbered[text] for text in texts]))
+    return ParameterBins(key, tuple(numbered), place, of_rows=np.array([numbered[text] for text in texts]))
 
 
-def _drawn(key: str, draw: Draw, place: tuple[int, int]) -> Classes:
+def _drawn(key: str, draw: ParameterDraw, place: tuple[int, int]) -> ParameterBins:
     if draw.choices:
-        return Classes(key, tuple(value.text for value in draw.choices), place)
-    low, high = ends_of(draw.distribution)
+        return ParameterBins(key, tuple(value.text for value in draw.choices), place)
+    low, high = bounds_of(draw.distribution)
     ends: Any = np.linspace(float(low.number), float(high.number), STRETCHES + 1).tolist()
     shown = [f"{end:.10g}" for end in ends]
     unit = f" {low.unit}" if low.unit else ""
     labels = tuple(f"{shown[k]}{STRETCH}{shown[k + 1]}{unit}" for k in range(STRETCHES))
-    return Classes(key, labels, place, tuple(ends[1:-1]))
+    return ParameterBins(key, labels, place, tuple(ends[1:-1]))

@@ -17,11 +17,11 @@ Simulate = Callable[[NDArray[Any], NDArray[np.float64]], Measures]
 
 
 class NoDeviceError(Exception):
-    """The device is not in this machine, or cannot be reached; the message says why."""
+    """The device is not in this machine, or cannot be reached; the message gives the reason."""
 
 
 def simulator(device: Device) -> Simulate:
-    """Return what simulates on a device; the first call compiles the rig for it.
+    """Return the function that simulates on a device; its first call compiles the rig.
 
     Raises NoDeviceError; ImportError without the extra of the device.
     """
@@ -34,16 +34,11 @@ def _on_gpu() -> Simulate:
     try:
         rig.cuda.current_context()
     except rig.cuda.CudaSupportError as error:
-        raise NoDeviceError(_why(error)) from error
+        raise NoDeviceError(_driver_message(error)) from error
     return rig.run_on_gpu
 
 
-def _why(error: Exception) -> str:
-    """Return the first line that says something: numba puts one of its own above what the driver says."""
+def _driver_message(error: Exception) -> str:
+    """Return the first line of the driver's message, which numba puts below one of its own."""
     text = str(error).removeprefix("Error at driver init:").strip()
     return text.partition("\n")[0].rstrip(".:") or type(error).__name__
-
-
-def is_warm() -> bool:
-    """Return whether the lanes lie compiled in the cache, so that the first part starts at once."""
-    return rig.lanes_are_warm()

@@ -1,0 +1,85 @@
+"""One function applied to many arguments on several threads, the results in the order of the arguments."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import islice
+from types import TracebackType
+from typing import Generic, TypeVar
+
+Argument = TypeVar("Argument")
+Result = TypeVar("Result")
+
+_PENDING_PER_THREAD = 4
+"""Calls handed to the pool per thread unless stated otherwise: bounds memory and wasted work."""
+
+
+class ThreadedMap(Generic[Argument, Result]):
+    """Applies `work` to each argument on `jobs` threads; iterate over it, inside `with`, for the results.
+
+    Leaving the `with` block cancels the calls that have not started. It waits for those in progress, but not
+    after an exception: a call cannot be broken off, and after an interrupt nobody waits for it.
+
+    Args:
+        work: the function; what it raises is raised where its result would be returned.
+        arguments: one for each call, read only as far as calls are pending.
+        jobs: number of threads.
+        pending: most calls that are submitted and whose results are not yet returned [default: 4 per thread].
+    """
+
+    def __init__(
+        self,
+        work: Callable[[Argument], Result],
+        arguments: Iterable[Argument],
+        *,
+        jobs: int,
+        pending: int | None = None,
+    ) -> None:
+        self._work = work
+        self._arguments = iter(arguments)
+        self._pool = ThreadPoolExecutor(max_workers=jobs, thread_name_prefix="uictest")
+        self._pending: deque[Future[Result]] = deque()
+        self._most_pending = pending or jobs * _PENDING_PER_THREAD
+
+    def __enter__(self) -> ThreadedMap[Argument, Result]:
+        """Submit the first calls."""
+        self._submit(self._most_pending)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Cancel the calls that have not started."""
+        self._pool.shutdown(wait=kind is None, cancel_futures=True)
+
+    def __iter__(self) -> Iterator[Result]:
+        """Yield the results in the order of the arguments."""
+        while self._pending:
+            result = self._pending[0].result()
+            # The result stays pending until the next call is submitted: an interrupt does not lose it.
+            self._submit(1)
+            self._pending.popleft()
+            yield result
+
+    def finished(self) -> Iterator[Result]:
+        """Yield the results that are there and were not yet returned, in the order of the arguments."""
+        for future in self._pending:
+            if future.done() and not future.cancelled():
+                yield future.result()
+
+    def _submit(self, count: int) -> None:
+        arguments = islice(self._arguments, count)
+        self._pending.extend(self._pool.submit(self._work, argument) for argument in arguments)
+
+
+def map_on_threads(
+    work: Callable[[Argument], Result], arguments: Iterable[Argument], *, jobs: int
+) -> Iterator[Result]:
+    """Yield the result of `work` for each argument, computed on `jobs` threads, in the order given."""
+    with ThreadedMap(work, arguments, jobs=jobs) as results:
+        yield from results

@@ -1,0 +1,71 @@
+"""Which cases of a sweep are selected, and how they are divided into chunks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.campaign import parse
+from uictest.sweep.plan.plan import Plan
+from uictest.sweep.running.device import Device
+
+_SMALLEST_CHUNK: Final = 16
+_CHUNKING: Final[dict[str, tuple[int, int]]] = {"cpu": (256, 32), "cuda": (65_536, 8)}
+"""Most cases in a chunk and the number of chunks to aim at, by device: a GPU needs many cases at once."""
+_IDS_AT_ONCE: Final = 4096
+
+
+@dataclass(frozen=True)
+class CaseSelection:
+    """The selected cases of a plan in order; `selected` holds their indices, None where all are selected."""
+
+    plan: Plan
+    selected: NDArray[np.int64] | None = None
+    device: Device = "cpu"
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        return self.plan.size if self.selected is None else int(self.selected.size)
+
+    @property
+    def chunk_size(self) -> int:
+        """Cases in a chunk: about a second of work, and the same on every machine."""
+        largest, chunks = _CHUNKING[self.device]
+        return min(largest, max(_SMALLEST_CHUNK, self.size // chunks))
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.size // self.chunk_size)
+
+    def chunk(self, number: int) -> NDArray[np.int64]:
+        """Return the indices of the cases in a chunk."""
+        first = number * self.chunk_size
+        return self.indices(first, min(first + self.chunk_size, self.size))
+
+    def indices(self, first: int, end: int) -> NDArray[np.int64]:
+        """Return the indices of the cases from place `first` to before place `end`."""
+        return np.arange(first, end) if self.selected is None else self.selected[first:end]
+
+
+def select_cases(plan: Plan, expression: str | None, device: Device = "cpu") -> CaseSelection:
+    """Return the cases for whose id, sweep file or tag an expression is true. Raises ExpressionError."""
+    if expression is None:
+        return CaseSelection(plan, device=device)
+    matches = parse(expression)
+    common_names = [name.casefold() for name in (PurePath(plan.file).name, *plan.base.scenario.tags)]
+    selected: list[NDArray[np.int64]] = []
+    for first in range(0, plan.size, _IDS_AT_ONCE):
+        indices = np.arange(first, min(first + _IDS_AT_ONCE, plan.size))
+        ids = [name.casefold() for name in plan.ids(indices)]
+        is_selected = [
+            matches(lambda word, id_=id_: any(word.casefold() in name for name in (id_, *common_names)))  # type: ignore[misc]
+            for id_ in ids
+        ]
+        selected.append(indices[np.array(is_selected)])
+    return CaseSelection(plan, np.concatenate(selected), device)
