@@ -51,7 +51,7 @@ def _shown(terminal: Terminal, colour: Colour = Colour.AUTO, *, quiet: bool = Fa
         display = chosen_display(Format.TEXT, colour, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
             display.case(result)
-        display.end(RunContent("run", [MET, MISSED], {}), "{}")
+        display.end(RunContent("run", [MET, MISSED]), "{}")
     return terminal.getvalue()
 
 

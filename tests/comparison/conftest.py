@@ -10,7 +10,7 @@ import pytest
 
 from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
 from uictest.recording import Recording
-from uictest.report import CaseDescription, RunContent
+from uictest.report import CaseDescription, RunContent, RunManifest
 
 FIGURES = CaseMeasures(465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
 VERDICT = Verdict("braking-distance", "validity", 465.0, "m", 440.0, 490.0, 25.0, "pass", "")
@@ -39,7 +39,7 @@ def make_run() -> Callable[..., RunContent]:
             measures=dataclasses.replace(FIGURES, **figures),
             wheelsets=(wheelset, wheelset),
         )
-        manifest = {"seed": 0, "versions": {"numba": "0.68.1"}, "inputs": {"dry.yaml": "a" * 64}}
+        manifest = RunManifest(seed=0, versions={"numba": "0.68.1"}, inputs={"dry.yaml": "a" * 64})
         subject = CaseDescription("", (), {"friction": friction})
         return RunContent(name, [result], manifest, subjects={case_id: subject})
 

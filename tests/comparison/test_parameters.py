@@ -4,7 +4,15 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
-from uictest.comparison import ParameterChange, Tolerances, compare_runs, comparison_html, comparison_lines
+from uictest.comparison import (
+    ParameterChange,
+    ParameterValue,
+    Tolerances,
+    compare_runs,
+    comparison_html,
+    comparison_lines,
+)
+from uictest.comparison.parameters import change_text
 from uictest.evaluation import EffectivePart, Parameter
 from uictest.report import RunContent
 
@@ -29,7 +37,12 @@ def compared(make_run: MakeRun, first: Any, second: Any, **changes: Any) -> Any:
 def test_the_parameter_that_changed_is_named(make_run: MakeRun) -> None:
     found = compared(make_run, controller(4), controller(3), braking_distance_m=470.0)
     assert found.parameters == [
-        ParameterChange("controller.slip_threshold", "4 km/h", "3 km/h", ("dry-120",))
+        ParameterChange(
+            "controller.slip_threshold",
+            ParameterValue(4 / 3.6, "m/s", "4 km/h"),
+            ParameterValue(3 / 3.6, "m/s", "3 km/h"),
+            ("dry-120",),
+        )
     ]
     assert "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in dry-120)" in comparison_lines(found)
     assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
@@ -44,7 +57,7 @@ def test_a_changed_parameter_is_an_explanation_and_no_difference(make_run: MakeR
 
 def test_another_part_is_named_as_well_as_its_parameters(make_run: MakeRun) -> None:
     found = compared(make_run, controller(4), controller(3, "mine"))
-    assert list(map(str, found.parameters)) == [
+    assert [change_text(change) for change in found.parameters] == [
         "controller: threshold -> mine",
         "controller.slip_threshold: 4 km/h -> 3 km/h",
     ]

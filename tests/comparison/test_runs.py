@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 
 import pytest
@@ -57,7 +58,7 @@ def test_a_case_on_one_side_only_is_a_difference_on_either_side(make_run: MakeRu
 
 def test_what_went_in_differently_is_noted_and_no_difference(make_run: MakeRun) -> None:
     other = make_run()
-    manifest = {**other.manifest, "seed": 1, "inputs": {"dry.yaml": "b" * 64}}
+    manifest = dataclasses.replace(other.manifest, seed=1, inputs={"dry.yaml": "b" * 64})
     found = compare_runs(make_run(), RunContent("run", other.results, manifest), DEFAULT)
     assert found.agrees
     assert found.notes == ["seed: 0 -> 1", "inputs: dry.yaml: aaaaaaaaaaaa... -> bbbbbbbbbbbb..."]

@@ -11,7 +11,7 @@ import pytest
 
 from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
 from uictest.recording import Recording
-from uictest.report import RunContent
+from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
 from uictest.report.traces.trace import Trace
 
@@ -56,7 +56,7 @@ def make_content() -> Callable[..., RunContent]:
     """A finished run of the given results."""
 
     def make(*results: CaseResult, **changes: object) -> RunContent:
-        manifest = {"command": ["uictest", "run"], "seed": None, "versions": {"uictest": "0.1.0"}}
+        manifest = RunManifest(command=("uictest", "run"), versions={"uictest": "0.1.0"})
         return RunContent(**({"name": "a-run", "results": results, "manifest": manifest} | changes))  # type: ignore[arg-type]
 
     return make

@@ -11,7 +11,7 @@ import pytest
 
 from uictest.evaluation import CaseResult, Verdict
 from uictest.recording import Recording
-from uictest.report import CaseDescription, RunContent
+from uictest.report import CaseDescription, RunContent, RunManifest
 from uictest.report.page import DRAWN, page_html
 from uictest.report.traces.trace import trace_of
 
@@ -113,7 +113,7 @@ def test_hostile_texts_are_shown_and_make_no_element(
     content = make_content(
         result,
         name=bad,
-        manifest={"command": [bad], "inputs": {bad: bad}, "versions": {bad: bad}, "seed": None},
+        manifest=RunManifest(command=(bad,), inputs={bad: bad}, versions={bad: bad}),
         subjects={bad: CaseDescription(bad, (bad,), {bad: bad})},
         traces={bad: trace_of(make_recording())},
     )

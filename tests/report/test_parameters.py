@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report import RunContent, case_annotations, junit_xml, manifest, part_lines
+from uictest.report import RunContent, case_annotations, junit_xml, part_lines, run_manifest
 from uictest.report.markdown import markdown_summary
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.parameter_tables import shown_parts
@@ -134,8 +134,8 @@ def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
 
 
 def test_the_manifest_names_the_parts_with_their_digests() -> None:
-    content = manifest([], None, {}, 2, [{"controller": CONTROLLER}, {"controller": PLAIN}])
-    assert content["parts"] == {
+    content = run_manifest([], None, {}, 2, [{"controller": CONTROLLER}, {"controller": PLAIN}])
+    assert content.parts == {
         CONTROLLER.id: f"threshold, changed: {CHANGE[11:]}",
         PLAIN.id: "threshold",
     }

@@ -9,6 +9,7 @@ import numpy as np
 
 from uictest.evaluation import CaseResult, results_of
 from uictest.recording import Recording, read_parquet
+from uictest.report import RunContent, RunManifest
 from uictest.report.run_report import run_name, write_recording, write_reports
 
 MakeResult = Callable[..., CaseResult]
@@ -16,15 +17,15 @@ MakeResult = Callable[..., CaseResult]
 
 def test_a_run_is_named_after_its_start_in_utc_and_its_manifest() -> None:
     started = datetime(2026, 3, 1, 1, 30, 5, tzinfo=timezone(timedelta(hours=9)))
-    name = run_name(started, {"seed": 1})
+    name = run_name(started, RunManifest(seed=1))
     assert name.startswith("20260228T163005Z-")
-    assert name == run_name(started.astimezone(UTC), {"seed": 1})
-    assert name != run_name(started, {"seed": 2})
+    assert name == run_name(started.astimezone(UTC), RunManifest(seed=1))
+    assert name != run_name(started, RunManifest(seed=2))
 
 
 def test_every_format_is_written_and_results_read_back(tmp_path: Path, make_result: MakeResult) -> None:
     results = [make_result(), make_result(id="other", outcome="fail")]
-    text = write_reports(tmp_path, results, {"seed": None}, complete=True)
+    text = write_reports(tmp_path, RunContent("a-run", results))
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "criteria.csv",
         "junit.xml",
@@ -36,13 +37,13 @@ def test_every_format_is_written_and_results_read_back(tmp_path: Path, make_resu
     assert (tmp_path / "results.json").read_text() == text
     document = json.loads(text)
     assert document["schema"] == "uictest/result/1"
-    assert (document["manifest"], document["complete"]) == ({"seed": None}, True)
+    assert (document["manifest"]["seed"], document["complete"]) == (None, True)
     assert [result.id for result in results_of(document)] == ["dry-120[command=90]", "other"]
 
 
 def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path, make_result: MakeResult) -> None:
     texts = [
-        write_reports(tmp_path, [make_result(duration=duration)], {}, complete=True)
+        write_reports(tmp_path, RunContent("a-run", [make_result(duration=duration)]))
         for duration in (0.1, 9.9)
     ]
     assert texts[0] == texts[1]
@@ -52,7 +53,7 @@ def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path, make
 def test_a_file_name_that_is_no_utf_8_is_written_as_an_escape(
     tmp_path: Path, make_result: MakeResult
 ) -> None:
-    text = write_reports(tmp_path, [make_result(scenario="a\udcff.yaml")], {}, complete=True)
+    text = write_reports(tmp_path, RunContent("a-run", [make_result(scenario="a\udcff.yaml")]))
     assert json.loads(text)["cases"][0]["scenario"] == "a\udcff.yaml"
 
 

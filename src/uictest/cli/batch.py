@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 from uictest import campaign, comparison, report, rig, scenario
 from uictest.campaign import BatchResult, CaseRun, PartsOfCases, RecordingRequest
@@ -24,7 +23,7 @@ class Batch:
 
     cases: Sequence[scenario.Case]
     parts: PartsOfCases
-    manifest: dict[str, Any]
+    manifest: report.RunManifest
     recording: RecordingRequest
     jobs: int
     maxfail: int | None
@@ -81,14 +80,7 @@ def _write_reports(
     content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
-    document = report.write_reports(
-        folder.path,
-        done.results,
-        batch.manifest,
-        complete=complete,
-        subjects=subjects,
-        baseline=content.baseline,
-    )
+    document = report.write_reports(folder.path, content)
     report.write_formats(
         folder.path, content, [each for each in batch.formats if each != report.ReportFormat.CSV]
     )

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from uictest import field_data, recording, report, scenario
 from uictest.campaign import BatchResult, CaseRun, RecordingRequest
@@ -89,7 +88,7 @@ def traces_of(examined: Sequence[CaseRun]) -> dict[str, report.Trace]:
 def publish(
     examined: Sequence[CaseRun],
     wish: RecordingRequest,
-    manifest: dict[str, Any],
+    manifest: report.RunManifest,
     output: Path,
     junit: Path | None,
     display: Display,
@@ -106,8 +105,8 @@ def publish(
         for each in examined:
             if each.recording is not None and wish.wants(each.result):
                 report.write_recording(folder.path, each.result.id, each.recording)
-        document = report.write_reports(folder.path, results, manifest, complete=True, subjects=subjects)
         content = report.RunContent(folder.name, results, manifest, True, subjects, traces)
+        document = report.write_reports(folder.path, content)
         report.write_formats(folder.path, content, [report.ReportFormat.HTML])
         place = folder.publish()
     report.point_latest(place)

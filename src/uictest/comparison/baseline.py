@@ -97,9 +97,9 @@ class Baseline:
 
     def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
         """Return the accepted run as if it had read nothing that this one did not select."""
-        inputs = run.manifest.get("inputs", {})
-        known = {name: each for name, each in self.run.manifest.get("inputs", {}).items() if name in inputs}
-        return dataclasses.replace(self.run, manifest={**self.run.manifest, "inputs": known})
+        accepted = self.run.manifest
+        inputs = {name: each for name, each in accepted.inputs.items() if name in run.manifest.inputs}
+        return dataclasses.replace(self.run, manifest=dataclasses.replace(accepted, inputs=inputs))
 
 
 def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baseline:
@@ -133,7 +133,7 @@ def accepted_document(run: Mapping[str, Any], baseline: Baseline | None) -> dict
     order = [case["id"] for case in accepted["cases"]]
     cases |= {case["id"]: case for case in kept}
     ids = [*(each for each in order if each in cases), *(each for each in cases if each not in order)]
-    inputs = {**baseline.run.manifest.get("inputs", {}), **run["manifest"].get("inputs", {})}
+    inputs = {**baseline.run.manifest.inputs, **run["manifest"].get("inputs", {})}
     tables = {name: {**accepted.get(name, {}), **run[name]} for name in _TABLES if name in run}
     manifest = {**run["manifest"], "inputs": inputs, "cases": len(ids)}
     return {**run, **tables, "manifest": manifest, "cases": [cases[each] for each in ids]}

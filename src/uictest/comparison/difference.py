@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import Any
 
+from uictest.comparison.overlay import Overlay
+from uictest.comparison.parameters import ParameterChange
 from uictest.report import Difference, differences_form
-
-if TYPE_CHECKING:
-    from uictest.comparison.overlay import Overlay
-    from uictest.comparison.parameters import ParameterChange
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +54,11 @@ class Comparison:
             "agrees": self.agrees,
             "compared": self.compared,
             "notes": list(self.notes),
-            "parameters": [asdict(change) for change in self.parameters],
+            "parameters": [_change_form(change) for change in self.parameters],
             "differences": differences_form(self.differences),
         }
+
+
+def _change_form(change: ParameterChange) -> dict[str, Any]:
+    first, second = change.texts
+    return {"key": change.key, "first": first, "second": second, "cases": list(change.cases)}

@@ -8,21 +8,50 @@ from dataclasses import dataclass
 from uictest import evaluation
 from uictest.report import listed, printable
 
-_ABSENT = "none"
+
+@dataclass(frozen=True, slots=True)
+class ParameterValue:
+    """What one run has for a parameter, or for the name of a part.
+
+    `value` is in `unit`, an SI unit; a setting or a name has none. `written` is the value as its file has it.
+    """
+
+    value: float | str
+    unit: str
+    written: str
 
 
 @dataclass(frozen=True, slots=True)
 class ParameterChange:
-    """A parameter, or the name of a part, that differs between two runs, and the cases in which it does."""
+    """A parameter, or the name of a part, that differs between two runs, and the cases in which it does.
+
+    `first` and `second` are what the runs have; None where a run does not have it.
+    """
 
     key: str
-    first: str
-    second: str
+    first: ParameterValue | None
+    second: ParameterValue | None
     cases: tuple[str, ...]
 
-    def __str__(self) -> str:
-        """Return the change for a reader: `controller.slip_threshold: 4 km/h -> 3 km/h`."""
-        return f"{self.key}: {self.first} -> {self.second}"
+    @property
+    def texts(self) -> tuple[str, str]:
+        """What both runs have, for a reader: as written, or `none`."""
+        return _text(self.first), _text(self.second)
+
+
+def change_text(change: ParameterChange) -> str:
+    """Return a change for a reader: `controller.slip_threshold: 4 km/h -> 3 km/h`."""
+    return f"{change.key}: {' -> '.join(change.texts)}"
+
+
+def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
+    """Yield a line for each change, with the cases it is in."""
+    for change in changes:
+        yield printable(f"parameter {change_text(change)} (in {listed(change.cases)})")
+
+
+Change = tuple[str, ParameterValue | None, ParameterValue | None]
+"""Key, and what both runs have."""
 
 
 def parameter_changes(
@@ -32,7 +61,7 @@ def parameter_changes(
 
     Cases whose results hold no parameters, as those of earlier versions, are skipped.
     """
-    cases: dict[tuple[str, str, str], list[str]] = {}
+    cases: dict[Change, list[str]] = {}
     for first, second in pairs:
         if first.parts and second.parts:
             for change in _changes(first.parts, second.parts):
@@ -40,25 +69,19 @@ def parameter_changes(
     return [ParameterChange(*change, tuple(ids)) for change, ids in cases.items()]
 
 
-def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
-    """Yield a line for each change, with the cases it is in."""
-    for change in changes:
-        yield printable(f"parameter {change} (in {listed(change.cases)})")
-
-
 def _changes(
     first: Mapping[str, evaluation.EffectivePart], second: Mapping[str, evaluation.EffectivePart]
-) -> Iterator[tuple[str, str, str]]:
+) -> Iterator[Change]:
     for role in dict.fromkeys([*first, *second]):
         ours, theirs = first.get(role), second.get(role)
         if ours is None or theirs is None or ours.id != theirs.id:
-            yield from _of_part(role, ours, theirs)
+            yield from _changes_of_part(role, ours, theirs)
 
 
-def _of_part(
+def _changes_of_part(
     role: str, first: evaluation.EffectivePart | None, second: evaluation.EffectivePart | None
-) -> Iterator[tuple[str, str, str]]:
-    names = [_ABSENT if part is None else part.name for part in (first, second)]
+) -> Iterator[Change]:
+    names = [None if part is None else ParameterValue(part.name, "", part.name) for part in (first, second)]
     if names[0] != names[1]:
         yield role, names[0], names[1]
     if first is None or second is None:
@@ -67,8 +90,14 @@ def _of_part(
     for key in dict.fromkeys([*ours, *theirs]):
         one, other = ours.get(key), theirs.get(key)
         if one is None or other is None or (one.value, one.unit) != (other.value, other.unit):
-            yield key, _written(one), _written(other)
+            yield key, _value(one), _value(other)
 
 
-def _written(parameter: evaluation.Parameter | None) -> str:
-    return _ABSENT if parameter is None else parameter.written
+def _value(parameter: evaluation.Parameter | None) -> ParameterValue | None:
+    if parameter is None:
+        return None
+    return ParameterValue(parameter.value, parameter.unit, parameter.written)
+
+
+def _text(value: ParameterValue | None) -> str:
+    return "none" if value is None else value.written

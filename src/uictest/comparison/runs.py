@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from uictest import evaluation, report
 from uictest.comparison.difference import Comparison
@@ -15,6 +14,9 @@ from uictest.comparison.tolerance import Tolerances
 from uictest.evaluation import unit_of
 from uictest.report import Difference, wheelset_quantity
 
+_DIGEST_LENGTH = 64
+"""Hexadecimal digits of a SHA-256, of which a reader is shown the first."""
+
 
 def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
     """Compare two runs; cases belong together by their ids, and a case on one side only is a difference."""
@@ -22,9 +24,9 @@ def compare_runs(first: report.RunContent, second: report.RunContent, tolerances
     differences: list[Difference] = []
     compared = 0
     for case_id in dict.fromkeys([*ours, *theirs]):
-        found = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
-        compared += len(found)
-        differences += [difference for difference in found if difference is not None]
+        quantities = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
+        compared += len(quantities)
+        differences += [difference for difference in quantities if difference is not None]
     both = [(ours[case_id], theirs[case_id]) for case_id in ours if case_id in theirs]
     return Comparison(
         first.name,
@@ -84,14 +86,15 @@ def _figures(result: evaluation.CaseResult) -> dict[str, float]:
 
 def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:
     """Yield what went into the runs differently: it explains differences and is none by itself."""
-    for what in ("seed", "versions", "inputs"):
-        yield from _changes(what, first.manifest.get(what), second.manifest.get(what))
+    ours, theirs = first.manifest, second.manifest
+    yield from _changes({"seed": ours.seed}, {"seed": theirs.seed})
+    yield from _changes(ours.versions, theirs.versions, "versions: ")
+    yield from _changes(ours.inputs, theirs.inputs, "inputs: ")
     # Where results hold their parts, each changed parameter has its own line.
     with_parts = {result.id for run in (first, second) for result in run.results if result.parts}
-    for case_id in first.subjects:
+    for case_id, description in first.subjects.items():
         if case_id in second.subjects and case_id not in with_parts:
-            ours, theirs = first.subjects[case_id].settings, second.subjects[case_id].settings
-            yield from _changes(case_id, dict(ours), dict(theirs))
+            yield from _changes(description.settings, second.subjects[case_id].settings, f"{case_id}: ")
 
 
 def unknown_parameters(
@@ -103,14 +106,15 @@ def unknown_parameters(
             yield f"the {name} does not hold its parameters: an earlier version of uictest made it"
 
 
-def _changes(what: str, first: Any, second: Any) -> Iterator[str]:
-    if isinstance(first, Mapping) and isinstance(second, Mapping):
-        for name in dict.fromkeys([*first, *second]):
-            yield from _changes(f"{what}: {name}", first.get(name), second.get(name))
-    elif first != second:
-        yield f"{what}: {_shown(first)} -> {_shown(second)}"
+def _changes(
+    first: Mapping[str, str | int | None], second: Mapping[str, str | int | None], prefix: str = ""
+) -> Iterator[str]:
+    """Yield a line for each name that has not the same value on both sides."""
+    for name in dict.fromkeys([*first, *second]):
+        if first.get(name) != second.get(name):
+            yield f"{prefix}{name}: {_shown(first.get(name))} -> {_shown(second.get(name))}"
 
 
-def _shown(value: Any) -> str:
+def _shown(value: str | int | None) -> str:
     text = "none" if value is None else str(value)
-    return f"{text[:12]}..." if len(text) == 64 else text  # a digest
+    return f"{text[:12]}..." if len(text) == _DIGEST_LENGTH else text

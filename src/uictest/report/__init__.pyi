@@ -31,7 +31,12 @@ from .lines import (
     missing_lines as missing_lines,
     part_lines as part_lines,
 )
-from .manifest import manifest as manifest, named_parts as named_parts, without_machine as without_machine
+from .manifest import (
+    RunManifest as RunManifest,
+    named_parts as named_parts,
+    run_manifest as run_manifest,
+    without_machine as without_machine,
+)
 from .markdown import append_step_summary as append_step_summary
 from .run_contents import read_run as read_run, run_content as run_content
 from .run_folder import RunFolder as RunFolder

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
 from uictest.report.case_description import CaseDescription
 from uictest.report.difference import Difference
+from uictest.report.manifest import RunManifest
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import Trace
@@ -32,7 +33,7 @@ class RunContent:
 
     name: str
     results: Sequence[evaluation.CaseResult]
-    manifest: Mapping[str, Any]
+    manifest: RunManifest = field(default_factory=RunManifest)
     complete: bool = True
     subjects: Mapping[str, CaseDescription] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)

@@ -6,8 +6,12 @@ import hashlib
 import json
 import platform
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from importlib.metadata import version
 from pathlib import Path, PurePath
-from typing import Any
+from typing import Any, ClassVar, Final
+
+from pydantic import ConfigDict, TypeAdapter
 
 from uictest import evaluation
 from uictest.report.parameters import part_sentence
@@ -16,13 +20,56 @@ SCHEMA = "uictest/manifest/1"
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
 
 
-def manifest(
+@dataclass(frozen=True, slots=True)
+class RunManifest:
+    """Where the results of a run come from.
+
+    Args:
+        schema: version of this form.
+        command: the program and its arguments as typed, without the folders of the machine.
+        seed: the seed given for all cases; None where each scenario has its own.
+        cases: how many cases were selected.
+        versions: program or package -> version.
+        inputs: file that was read -> its SHA-256.
+        parts: id of a part -> the part in words.
+
+    """
+
+    __pydantic_config__: ClassVar = ConfigDict(defer_build=True)
+
+    schema: str = SCHEMA
+    command: tuple[str, ...] = ("uictest",)
+    seed: int | None = None
+    cases: int = 0
+    versions: Mapping[str, str] = field(default_factory=dict)
+    inputs: Mapping[str, str] = field(default_factory=dict)
+    parts: Mapping[str, str] = field(default_factory=dict)
+
+
+_MANIFEST: Final = TypeAdapter(RunManifest)
+
+
+def manifest_form(manifest: RunManifest) -> dict[str, Any]:
+    """Return the JSON form of a manifest."""
+    # pydantic does not keep a name of `inputs` that is no UTF-8.
+    return asdict(manifest)
+
+
+def read_manifest(document: Mapping[str, Any]) -> RunManifest:
+    """Return the manifest in the results of a run; what an earlier version did not write is empty.
+
+    Raises ValueError where a field holds something else.
+    """
+    return evaluation.from_json_form(_MANIFEST, document.get("manifest", {}), place="manifest")
+
+
+def run_manifest(
     command: Sequence[str],
     seed: int | None,
     inputs: Mapping[str, str],
     cases: int,
     parts: Iterable[Mapping[str, evaluation.EffectivePart]] = (),
-) -> dict[str, Any]:
+) -> RunManifest:
     """Return the manifest of a run.
 
     Args:
@@ -32,15 +79,14 @@ def manifest(
         cases: how many cases were selected.
         parts: of each case, by role.
     """
-    return {
-        "schema": SCHEMA,
-        "command": ["uictest", *(without_machine(word) for word in command)],
-        "seed": seed,
-        "cases": cases,
-        "versions": _versions(),
-        "inputs": {without_machine(name): digest for name, digest in sorted(inputs.items())},
-        "parts": named_parts(parts),
-    }
+    return RunManifest(
+        command=("uictest", *(without_machine(word) for word in command)),
+        seed=seed,
+        cases=cases,
+        versions=_versions(),
+        inputs={without_machine(name): digest for name, digest in sorted(inputs.items())},
+        parts=named_parts(parts),
+    )
 
 
 def named_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict[str, str]:
@@ -49,9 +95,9 @@ def named_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict
     return {part_id: part_sentence(part) for part_id, part in table if part.name}
 
 
-def digest(content: Mapping[str, Any]) -> str:
-    """Return the first eight hexadecimal digits of the SHA-256 of a JSON mapping."""
-    text = json.dumps(content, sort_keys=True)
+def digest(manifest: RunManifest) -> str:
+    """Return the first eight hexadecimal digits of the SHA-256 of a manifest."""
+    text = json.dumps(manifest_form(manifest), sort_keys=True)
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]
 
 
@@ -66,6 +112,4 @@ def without_machine(word: str) -> str:
 
 
 def _versions() -> dict[str, str]:
-    from importlib.metadata import version
-
     return {"python": platform.python_version()} | {name: version(name) for name in _PACKAGES}

@@ -12,6 +12,7 @@ from uictest import evaluation, recording
 from uictest.report.baseline import read_baseline
 from uictest.report.case_description import read_subjects
 from uictest.report.content import RunContent
+from uictest.report.manifest import read_manifest
 from uictest.report.run_report import RECORDINGS, RESULTS
 from uictest.report.traces.trace import Trace, trace_of
 
@@ -38,7 +39,7 @@ def run_content(document: Mapping[str, Any], name: str) -> RunContent:
     try:
         results = evaluation.results_of(document)
         subjects = read_subjects(document)
-        manifest: Any = dict(document.get("manifest", {}))
+        manifest = read_manifest(document)
         baseline = read_baseline(document)
     except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error

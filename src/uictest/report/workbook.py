@@ -6,10 +6,11 @@ import dataclasses
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest.report.manifest import manifest_form
 from uictest.report.parameters import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.tables import CHANGED, criterion_cells
@@ -131,10 +132,10 @@ def _provenance(content: RunContent) -> Iterator[Row]:
         yield {"what": "baseline: SHA-256", "value": content.baseline.sha256}
         for sentence in not_compared_sentences(content.baseline):
             yield {"what": "baseline", "value": sentence}
-    yield from manifest_rows(content.manifest)
+    yield from manifest_rows(manifest_form(content.manifest))
 
 
-def manifest_rows(manifest: Mapping[str, Any]) -> Iterator[Row]:
+def manifest_rows(manifest: Mapping[str, object]) -> Iterator[Row]:
     """Yield what a manifest says, one row per line of it."""
     for name, value in manifest.items():
         if isinstance(value, dict):

@@ -115,7 +115,7 @@ def evaluate(
     done, place = publish(
         examined,
         campaign.RecordingRequest(recorded.value),
-        report.manifest(context.obj.arguments, None, read, len(cases), parts.values()),
+        report.run_manifest(context.obj.arguments, None, read, len(cases), parts.values()),
         output,
         junit,
         chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0),

@@ -132,9 +132,9 @@ def _publish(
     trusted: Sequence[Path],
 ) -> Path:
     """Write the fitted scenario, simulate it, and write how it compares; return the folder."""
-    told = report.manifest(arguments, None, case.inputs, 1)
+    manifest = report.run_manifest(arguments, None, case.inputs, 1)
     statements = {key.strip(): text for key, _, text in (each.partition("=") for each in overrides)}
-    with report.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), told)}") as folder:
+    with report.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         place = folder.path / f"{case.scenario.name}-fitted.yaml"
         try:
             recording.write_text_atomic(

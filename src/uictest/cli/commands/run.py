@@ -119,7 +119,7 @@ def run(
     batch = Batch(
         cases=selected,
         parts=parts,
-        manifest=report.manifest(
+        manifest=report.run_manifest(
             context.obj.arguments, seed, _inputs(selected), len(selected), parts.values()
         ),
         recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
