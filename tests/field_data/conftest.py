@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
+from uictest.evaluation import CaseResult
+from uictest.field_data import Preparation, RawChannel, RecordedStop, judge_recording, prepare, stated_case
 from uictest.recording import TIME, Recording
 from uictest.rig import SimulatedStop, simulate
 from uictest.scenario import Case
@@ -24,6 +25,12 @@ STATEMENTS = (
     "criteria=[uictest-stop, uic-541-05-appendix-b]",
 )
 Change = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def judge_stop(case: Case, stop: RecordedStop) -> CaseResult:
+    """Return the result of a recorded stop."""
+    result, _ = judge_recording(case, stop)
+    return result
 
 
 @cache

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.field_data import MapError, fitting_preset, listing, load_map, presets, proposed_map, select
-from uictest.field_data.channels import UNITS
+from uictest.field_data import MapError, channel_rows, fitting_preset, load_map, presets, proposed_map, select
+from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.recording.contents import Contents, Group
 from uictest.scenario import ScenarioErrors
 
@@ -29,9 +29,9 @@ def test_presets_load_and_every_channel_is_canonical() -> None:
     assert presets() == ("common-names", "uictest")
     for name in presets():
         loaded, inputs = load_map(name)
-        assert loaded.sources().keys() <= UNITS.keys()
+        assert loaded.sources().keys() <= CHANNEL_UNITS.keys()
         assert next(iter(inputs)) == f"library:channel_maps/{name}.yaml"
-    assert load_map("uictest")[0].sources().keys() == UNITS.keys()
+    assert load_map("uictest")[0].sources().keys() == CHANNEL_UNITS.keys()
 
 
 def test_scale_offset_sign_and_unit(tmp_path: Path) -> None:
@@ -70,7 +70,7 @@ def test_states_by_name(tmp_path: Path) -> None:
     )
     np.testing.assert_array_equal(select(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1])
     contents = _contents(t=([0, 1], "s"), v=([1.0] * 2, "m/s"), MV=(["fill", "auf"], ""))
-    with pytest.raises(MapError, match="'auf'; name them in 'states'"):
+    with pytest.raises(MapError, match="'auf'; name them in `states`"):
         select(contents, channel_map)
 
 
@@ -78,7 +78,7 @@ def test_states_by_name(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("channels: {sped: v}\n", "did you mean 'speed'"),
-        ("channels: {speed: {source: v, unit: bar}}\n", "'bar' is no unit of speed"),
+        ("channels: {speed: {source: v, unit: bar}}\n", "'bar' is not a unit of speed"),
         ("channels: {speed: {source: v, factor: 2}}\n", "unknown key 'factor'"),
         ("channels: {speed: {source: v, sign: 2}}\n", "sign"),
         ("channels: {speed: {source: v, scale: .inf}}\n", "scale"),
@@ -105,9 +105,9 @@ def test_what_does_not_fit_the_file_is_told(tmp_path: Path) -> None:
     plain = load_map("uictest")[0]
     with pytest.raises(MapError, match=r"no channel for 'speed'.*'sped'"):
         select(_contents(time=([0.0, 1.0], "s"), sped=([1.0, 1.0], "m/s")), plain)
-    with pytest.raises(MapError, match="does not say the unit of 'speed'"):
+    with pytest.raises(MapError, match="does not state the unit of 'speed'"):
         select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "")), plain)
-    with pytest.raises(MapError, match="is in 'furlong', accepted"):
+    with pytest.raises(MapError, match="has the unit 'furlong'; accepted"):
         select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "furlong")), plain)
     with pytest.raises(MapError, match="has no time axis"):
         select(_contents(speed=([1.0, 1.0], "m/s")), plain)
@@ -134,7 +134,7 @@ def test_a_proposed_map_is_a_map_and_fits(tmp_path: Path) -> None:
     channels = select(contents, load_map(str(path))[0])
     assert {"speed", "distance", "reservoir_pressure"} == channels.keys()
     assert "check it" in proposed_map(contents)
-    assert list(listing(contents))[1] == ("vZug", "km/h", "2", "9 .. 10")
+    assert list(channel_rows(contents))[1] == ("vZug", "km/h", "2", "9 .. 10")
 
 
 def test_a_unit_alone_proposes_where_only_one_channel_has_it() -> None:
@@ -161,7 +161,7 @@ def test_a_preset_that_fits_is_named() -> None:
     [
         ("encoding: cp12521", "unknown encoding 'cp12521'"),
         ("encoding: base64", "unknown encoding 'base64'"),
-        ('decimal: ",", thousands: ","', "',' is the decimal sign already"),
+        ('decimal: ",", thousands: ","', "',' is already the decimal sign"),
     ],
 )
 def test_a_wrong_dialect_is_refused_in_the_map(tmp_path: Path, section: str, message: str) -> None:

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import UnusableError, judge_stop, unusable_result
+from uictest.field_data import UnusableError, unusable_result
+
+from .conftest import judge_stop
 
 Channels = dict[str, Any]
 

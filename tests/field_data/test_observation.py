@@ -9,11 +9,13 @@ from typing import Any
 import pytest
 
 from uictest.evaluation import evaluate
-from uictest.field_data import judge_recording, judge_stop, load_map, prepare, select, stated_case
+from uictest.field_data import judge_recording, load_map, prepare, select, stated_case
 from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
 from uictest.recording.formats.reader import read_here
 from uictest.rig import SimulatedStop
 from uictest.scenario import Case
+
+from .conftest import judge_stop
 
 OURS = ("rail.condition=wet", "brake.position=R", "rig.wsp=active", "criteria=[uictest-stop]")
 BALANCES = ("energy-balance", "air-balance")

@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 
 from uictest.evaluation.measure_readers import read
-from uictest.field_data import judge_stop, stated_case
+from uictest.field_data import stated_case
 from uictest.field_data.observation import observe
 from uictest.scenario import Case
 from uictest.scenario.parts.criteria import Criteria, Criterion
 from uictest.scenario.parts.measure_catalogue import MEASURES
 from uictest.units import KINDS
+
+from .conftest import judge_stop
 
 Channels = dict[str, Any]
 ROUNDING = 1e-9

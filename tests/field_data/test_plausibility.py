@@ -115,7 +115,7 @@ def test_numbers_among_texts_are_in_the_unit_of_the_channel() -> None:
         ("1.000.000", r'thousands: "\."'),
         ("80,5", r'decimal: ","'),
         ("31.05.2026 12:00", "2026-05-31T12:00:00.000"),
-        ("broken", "'states'"),
+        ("broken", "`states`"),
     ],
 )
 def test_a_text_among_numbers_is_placed_and_answered(text: str, remedy: str) -> None:

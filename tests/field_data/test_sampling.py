@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.field_data import MapError, Preparation, RawChannel
-from uictest.field_data.filtering import low_passed
-from uictest.field_data.resampling import at
+from uictest.field_data.signals import low_passed, resampled
 from uictest.field_data.standstill import find_standstill
 from uictest.field_data.trigger import find_trigger
 
@@ -24,7 +23,7 @@ def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(
     time: np.ndarray, wanted: list[float]
 ) -> None:
     times = np.sort(wanted)
-    values = at(_channel("speed", time, 3.0 * time + 1.0), times, raster=100.0)
+    values = resampled(_channel("speed", time, 3.0 * time + 1.0), times, raster=100.0)
     inside = (times >= time[0]) & (times <= time[-1])
     assert np.isnan(values[(times < time[0] - 1e-3) | (times > time[-1] + 1e-3)]).all()
     np.testing.assert_allclose(values[inside], 3.0 * times[inside] + 1.0, atol=1e-4)
@@ -34,18 +33,20 @@ def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(
 def test_states_are_held(time: np.ndarray, share: float) -> None:
     states = np.arange(len(time), dtype=float) % 3
     times = time[:-1] + 0.99 * share * np.diff(time)
-    np.testing.assert_array_equal(at(_channel("valve_command_1", time, states), times, 100.0), states[:-1])
+    np.testing.assert_array_equal(
+        resampled(_channel("valve_command_1", time, states), times, 100.0), states[:-1]
+    )
 
 
 def test_a_gap_stays_a_gap_but_for_its_edges() -> None:
     time = np.array([0.0, 0.1, 0.2, 0.3, 1.0, 1.1, 1.2])
-    values = at(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), raster=0.1)
+    values = resampled(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), raster=0.1)
     np.testing.assert_allclose(values, [0.3, np.nan, 1.0])
 
 
 def test_a_missing_sample_spoils_what_lies_beside_it() -> None:
     channel = _channel("speed", np.arange(4.0), np.array([0.0, np.nan, 2.0, 3.0]))
-    values = at(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), raster=1.0)
+    values = resampled(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), raster=1.0)
     np.testing.assert_array_equal(np.isnan(values), [False, True, True, True, False, False])
 
 

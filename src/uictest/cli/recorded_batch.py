@@ -71,7 +71,7 @@ def subjects_of(
 ) -> dict[str, report.CaseDescription]:
     """Return what the stops are about, by the id of the case each is judged as."""
     return {
-        case.id: field_data.recorded_subject(case, measured.stop)
+        case.id: field_data.recorded_description(case, measured.stop)
         for measured, case in zip(recordings, cases, strict=True)
     }
 

@@ -1,7 +1,7 @@
-"""Measured stops: from the channels of a file to samples, measures and verdicts.
+"""Recorded stops: from the channels of a file to samples, measures and verdicts.
 
-A channel map names the channels; trigger, raster, filter and standstill are chosen in the open; defects are
-found and named, never bridged. What comes out is judged by the code that judges simulated stops.
+A channel map names the channels and states trigger, raster, filter and standstill. Defects are reported,
+gaps are never filled. The code that judges simulated stops judges recorded ones, too.
 """
 
 import lazy_loader

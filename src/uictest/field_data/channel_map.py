@@ -1,4 +1,4 @@
-"""The channel map: which channel of a file is which, in what unit, and how the record is prepared."""
+"""The channel map: the meaning and unit of every channel of a file, and how the record is prepared."""
 
 from __future__ import annotations
 
@@ -9,16 +9,18 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field
 
 from uictest import library
-from uictest.field_data.channels import UNITS, WHEELSETS
-from uictest.field_data.preparation import Preparation
+from uictest.field_data.channels import CHANNEL_UNITS, WHEELSETS
 from uictest.recording.formats import Dialect
 from uictest.scenario import Files, Roots, is_path
 from uictest.scenario.yaml import (
     Inconsistency,
     Map,
     Model,
+    Quantity,
     Scalar,
+    default,
     inherit,
+    kind,
     plain,
     quoted,
     read_file,
@@ -34,14 +36,15 @@ NUMBER: Final = "{n}"
 """Stands for the number of the wheelset, in the name of a channel and in its sources."""
 _USUAL_ENCODINGS: Final = ("utf-8", "cp1252", "latin-1", "utf-16", "cp1250", "cp437", "cp850", "mac_roman")
 _PRESETS: Final = Path(library.__file__).parent / "channel_maps"
+Trigger = Literal["auto", "stated", "start", "command", "demand", "pressure"]
 
 
-def _shorthand(given: object) -> object:
-    return {"source": given} if isinstance(given, str | tuple) else given
+def _shorthand(value: object) -> object:
+    return {"source": value} if isinstance(value, str | tuple) else value
 
 
-def _several(given: object) -> object:
-    return (given,) if isinstance(given, str) else given
+def _several(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
 
 
 class Source(Model):
@@ -69,14 +72,50 @@ class DialectSection(Model):
     encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield an encoding that is not known, and a sign that would have two meanings."""
+        """Yield an unknown encoding, and a separator that is also the decimal sign."""
         try:
             "".encode(self.encoding)
         except (LookupError, ValueError):
             hint = suggestion(self.encoding, _USUAL_ENCODINGS)
             yield Inconsistency(("encoding",), f"unknown encoding {quoted(self.encoding)}", hint)
         if self.thousands == self.decimal:
-            yield Inconsistency(("thousands",), f"{quoted(self.thousands)} is the decimal sign already")
+            yield Inconsistency(("thousands",), f"{quoted(self.thousands)} is already the decimal sign")
+
+
+class Preparation(Model):
+    """Trigger, raster, filter and standstill. No published rule exists for any of them: all are chosen."""
+
+    trigger: Trigger = Field(
+        default="auto",
+        description="What marks the brake command: a time the file states, its start, the brake command, the"
+        " demanded pressure or the first pressure to rise; auto takes the first of these that is recorded.",
+    )
+    trigger_time: Annotated[Quantity, kind("time", at_least="-1e10 s", at_most="1e10 s")] | None = Field(
+        default=None, description="Time of the brake command in the file; takes the place of `trigger`."
+    )
+    trigger_lead: Annotated[Quantity, kind("time", at_least="0 s", at_most="60 s")] = Field(
+        default=default("0 s", "time"),
+        description="How long the brake command was given before what marks it.",
+    )
+    trigger_pressure: Annotated[Quantity, kind("pressure", above="0 bar", at_most="10 bar")] = Field(
+        default=default("0.1 bar", "pressure"), description="Rise of a pressure that marks the brake command."
+    )
+    trigger_speed: Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
+        default=default("5 km/h", "speed"), description="The train must run faster than this at the trigger."
+    )
+    raster: Annotated[Quantity, kind("time", at_least="0.1 ms", at_most="1 s")] = Field(
+        default=default("10 ms", "time"),
+        description="Interval of the samples that are judged; a coarser record keeps its own.",
+    )
+    low_pass: Annotated[Quantity, kind("frequency", above="0 Hz", at_most="100000 Hz")] | None = Field(
+        default=None,
+        description="Corner frequency of a low-pass on every signal, second order, without delay; else none.",
+    )
+    standstill_speed: Annotated[Quantity, kind("speed", above="0 km/h", at_most="10 km/h")] = Field(
+        default=default("1 km/h", "speed"),
+        description="Slower than this the train is about to stand: where no sample of zero follows, the rest"
+        " is run at the deceleration of the last half second.",
+    )
 
 
 class ChannelMap(Model):
@@ -90,23 +129,23 @@ class ChannelMap(Model):
     )
     csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
     preparation: Preparation = Field(
-        default=Preparation(), description="How a record is prepared before it is measured."
+        default=Preparation(), description="How a record is prepared before it is judged."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield channels that are not known and units that are not theirs."""
+        """Yield unknown channels, and units of another kind than their channel."""
         for name, source in self.channels.items():
             of_first = name.replace(NUMBER, str(WHEELSETS[0]))
-            if of_first not in UNITS:
-                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in UNITS)
+            if of_first not in CHANNEL_UNITS:
+                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in CHANNEL_UNITS)
                 yield Inconsistency(
                     ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
                 )
-            elif source.unit and recorded_unit_size(source.unit, UNITS[of_first]) is None:
+            elif source.unit and recorded_unit_size(source.unit, CHANNEL_UNITS[of_first]) is None:
                 yield Inconsistency(
                     ("channels", name, "unit"),
-                    f"{quoted(source.unit)} is no unit of {name}",
-                    "accepted: " + ", ".join(recorded_spellings(UNITS[of_first])),
+                    f"{quoted(source.unit)} is not a unit of {name}",
+                    "accepted: " + ", ".join(recorded_spellings(CHANNEL_UNITS[of_first])),
                 )
 
     @property
@@ -115,7 +154,7 @@ class ChannelMap(Model):
         return Dialect(**dict(self.csv))
 
     def sources(self) -> dict[str, Source]:
-        """Return every channel with its source, wheelsets spelled out; what is named alone goes first."""
+        """Return the source of every channel, one per wheelset; a channel of one wheelset has precedence."""
         spelled_out: dict[str, Source] = {}
         for name, source in self.channels.items():
             numbers = WHEELSETS if NUMBER in name else ()
@@ -129,11 +168,11 @@ def presets() -> tuple[str, ...]:
 
 
 def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, dict[str, str]]:
-    """Return the map that a preset's name or the path of a file stands for, and the files read for it.
+    """Return the map of a preset or file, and the files that were read for it with their SHA-256.
 
-    Files are given with their SHA-256. Parents stay at or below the folder of the map, the working folder and
-    the `trusted` folders. Raises ScenarioErrors with every error, each at its place, KeyError
-    for a name that is neither.
+    Parents stay at or below the folder of the map, the working folder and
+    the `trusted` folders. Raises ScenarioErrors with every error at its place, and KeyError for a
+    reference that is neither a preset nor a YAML file.
     """
     if reference in presets():
         tree = read_file(_PRESETS / f"{reference}.yaml")

@@ -10,7 +10,7 @@ from uictest.rig import CAR_CHANNELS, WHEELSET_CHANNELS
 WHEELSETS: Final = (1, 2, 3, 4)
 """Numbers of the wheelsets, from the leading end."""
 
-UNITS: Final = MappingProxyType(
+CHANNEL_UNITS: Final = MappingProxyType(
     {
         **dict(CAR_CHANNELS),
         "brake_command": "1",

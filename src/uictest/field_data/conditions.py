@@ -20,7 +20,7 @@ from uictest.scenario import (
 )
 from uictest.scenario.yaml import Document, Map, apply_overrides, dotted, parse, parse_overrides, single_error
 
-FACTS: Final = ("rail.condition", "brake.position", "rig.wsp", "criteria")
+REQUIRED_STATEMENTS: Final = ("rail.condition", "brake.position", "rig.wsp", "criteria")
 """Keys of a scenario that must be stated for a recording that has none."""
 
 

@@ -10,31 +10,27 @@ from uictest import scenario
 from uictest.evaluation import CaseResult, error_result, evaluate
 from uictest.field_data.defect import Defect
 from uictest.field_data.observation import Observed, observe
-from uictest.field_data.prepare import RecordedStop
+from uictest.field_data.recorded_stop import RecordedStop
 from uictest.recording import BRAKE_COMMAND_TIME, Recording
 
 
-def judge_stop(case: scenario.Case, stop: RecordedStop) -> CaseResult:
-    """Return the result of a recorded stop under the circumstances and criteria of a case."""
-    result, _ = judge_recording(case, stop)
-    return result
-
-
 def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult, Recording]:
-    """Return the result of a recorded stop, and its recording with the facts that a simulated one states.
+    """Return the result of a recorded stop under the conditions and criteria of a case, and its recording.
 
-    How the record was prepared, and what was found wrong with it, stand in the definition of every verdict.
+    The definition of every verdict states how the record was prepared and what is wrong with it. The
+    recording carries the metadata that a simulated one has.
     """
     observed = observe(stop, case.scenario.measures)
     result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
-    told = {**stop.choices, **_defects(stop.defects)}
-    result = replace(
-        result, criteria=tuple(replace(v, definition={**v.definition, **told}) for v in result.criteria)
+    preparation = {**stop.choices, **_defects(stop.defects)}
+    criteria = tuple(
+        replace(verdict, definition={**verdict.definition, **preparation}) for verdict in result.criteria
     )
-    return result, replace(stop.recording, metadata=dict(_facts(case, stop, observed)))
+    recording = replace(stop.recording, metadata=dict(_metadata(case, stop, observed)))
+    return replace(result, criteria=criteria), recording
 
 
-def _facts(case: scenario.Case, stop: RecordedStop, observed: Observed) -> Iterator[tuple[str, str]]:
+def _metadata(case: scenario.Case, stop: RecordedStop, observed: Observed) -> Iterator[tuple[str, str]]:
     yield "case", case.id
     if not stop.trigger.late:
         yield BRAKE_COMMAND_TIME, "0 s"
@@ -44,7 +40,7 @@ def _facts(case: scenario.Case, stop: RecordedStop, observed: Observed) -> Itera
 
 
 def unusable_result(case: scenario.Case, defects: tuple[Defect, ...]) -> CaseResult:
-    """Return the result of a record that cannot be measured at all: an error that names every defect."""
+    """Return the result of a record that cannot be used at all: an error that names every defect."""
     return error_result(case, "; ".join(map(str, defects)))
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from uictest import evaluation, scenario
 from uictest.field_data.channels import WHEELSETS
-from uictest.field_data.prepare import RecordedStop
+from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.support import coverage_of
 from uictest.measures import (
     DEFINITION,

@@ -1,4 +1,4 @@
-"""When the train came to a standstill."""
+"""When the train came to a standstill, and whether a train can slow down as recorded."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.field_data.raw import Array
+from uictest.field_data.raw_channels import Array, MapError, RawChannel
 from uictest.units import KILOMETRE_PER_HOUR
 
 _WINDOW = 0.5
-"""s: the deceleration over this time before is taken to last until standstill; chosen."""
+"""s: the deceleration over this time before is assumed to last until standstill; chosen."""
 _LONGEST_REST = 2.0
 """s after falling below the standstill speed in which a sample of zero is the same stop's; chosen."""
 
 _LONGEST_DROPOUT = 1.0
 """s after a fall of which the train must be slow for more than half; chosen."""
+_LEAST_DECELERATION, _LARGEST_DECELERATION = 0.01, 20.0
+"""m/s2: less than a train loses that rolls out, and twice the acceleration of gravity; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,3 +76,26 @@ def _run_out(time: Array, speed: Array, last: int) -> Standstill | None:
     beyond = 0.5 * float(speed[last]) * rest
     text = f"run out from {float(speed[last]) / KILOMETRE_PER_HOUR:.2f} km/h over {rest:.3f} s"
     return Standstill(float(time[last]) + rest, beyond, float(time[last]), text)
+
+
+def require_plausible_deceleration(speed: RawChannel, begin: float) -> None:
+    """Raise MapError if the train halves its speed after `begin` (s) faster or more slowly than trains can.
+
+    Time or speed is in another unit then.
+    """
+    after = np.isfinite(speed.samples) & (speed.time >= begin)
+    since, samples = speed.time[after] - begin, speed.samples[after]
+    if not len(since) or samples[0] <= 0.0:
+        return
+    halved = first_lasting_fall(since, samples, 0.5 * samples[0])
+    if halved is None:
+        return
+    duration = float(since[halved])
+    if _LEAST_DECELERATION <= 0.5 * samples[0] / duration <= _LARGEST_DECELERATION:
+        return
+    initial_speed = samples[0] / KILOMETRE_PER_HOUR
+    raise MapError(
+        f"the train slows from {initial_speed:.4g} to {0.5 * initial_speed:.4g} km/h in {duration:.4g} s, at"
+        f" {0.5 * samples[0] / duration:.4g} m/s2; {_LEAST_DECELERATION} to {_LARGEST_DECELERATION} m/s2 are"
+        " plausible: check the units of time and speed"
+    )

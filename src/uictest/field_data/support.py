@@ -10,7 +10,7 @@ import numpy as np
 
 from uictest.evaluation import Coverage, MissingData
 from uictest.field_data.channels import WHEELSETS, of_wheelsets
-from uictest.field_data.prepare import RecordedStop
+from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.time_axis import is_coarse
 from uictest.recording import TIME
 

@@ -1,4 +1,4 @@
-"""Defects of time axes: missing, backwards or repeated times, gaps."""
+"""Defects of time axes and samples: missing, backwards or repeated times, gaps, implausible values."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.field_data.channels import UNITS
+from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.field_data.defect import Defect
-from uictest.field_data.raw import Array, RawChannel
+from uictest.field_data.raw_channels import Array, RawChannel
 from uictest.recording import LARGEST, beyond
 
 _GAP_INTERVALS = 2.5
@@ -29,7 +29,7 @@ def by_axis(channels: Iterable[RawChannel]) -> list[list[RawChannel]]:
 
 
 def disorder(time: Array, names: str) -> Iterator[Defect]:
-    """Yield what keeps a time axis from being one; each kind once, at its first place."""
+    """Yield missing, backwards and repeated times; each kind once, with its first place."""
     missing = ~np.isfinite(time)
     if missing.any():
         yield Defect(
@@ -39,7 +39,7 @@ def disorder(time: Array, names: str) -> Iterator[Defect]:
         step = np.diff(time)
     for kind, wrong, words in (
         ("time-backwards", step < 0.0, "goes back in time"),
-        ("time-duplicate", step == 0.0, "has a time twice"),
+        ("time-duplicate", step == 0.0, "repeats a time"),
     ):
         if wrong.any():
             first = int(np.argmax(wrong)) + 1
@@ -60,21 +60,21 @@ def gaps(time: Array, raster: float) -> NDArray[np.bool_]:
 
 
 def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
-    """Yield every gap of a time axis; many of them as one."""
-    found = np.flatnonzero(gaps(time, raster))
-    listed = ", ".join(f"{time[k]:.6g} to {time[k + 1]:.6g} s" for k in found[:3])
-    more = f" and {len(found) - 3} more" if len(found) > 3 else ""
-    if len(found):
+    """Yield the gaps of a time axis as one defect."""
+    starts = np.flatnonzero(gaps(time, raster))
+    listed = ", ".join(f"{time[k]:.6g} to {time[k + 1]:.6g} s" for k in starts[:3])
+    more = f" and {len(starts) - 3} more" if len(starts) > 3 else ""
+    if len(starts):
         yield Defect("gap", names, f"is not recorded from {listed}{more}")
 
 
 def is_coarse(interval: float) -> bool:
-    """Return whether a wheelset can lock, or a valve vent, unseen between samples `interval` s apart."""
+    """Return whether samples `interval` s apart can miss a locked wheelset or a venting valve."""
     return interval > _COARSEST * (1.0 + 1e-6)
 
 
 def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
-    """Yield that the samples of a time axis are too far apart to show all that happens."""
+    """Yield a sampling interval that can miss a locked wheelset or a venting valve."""
     interval = usual_interval(time)
     if is_coarse(interval):
         yield Defect(
@@ -85,8 +85,8 @@ def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
 
 
 def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
-    """Return a channel with NaN for samples larger than can be, and the defect that says so."""
-    si = UNITS[channel.name]
+    """Return a channel with NaN for implausibly large samples, and the defect."""
+    si = CHANNEL_UNITS[channel.name]
     wrong = beyond(channel.samples, si)
     if not wrong.any():
         return channel, []
@@ -97,17 +97,17 @@ def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
 
 
 def missing_samples(channel: RawChannel) -> Iterator[Defect]:
-    """Yield that a channel has samples that are no numbers."""
+    """Yield the samples of a channel that are not numbers."""
     missing = ~np.isfinite(channel.samples)
     if missing.any():
         first, last = channel.time[missing][[0, -1]]
-        text = f"has {_counted(missing)} that are no numbers, from {first:.6g} to {last:.6g} s"
+        text = f"has {_counted(missing)} that are not numbers, from {first:.6g} to {last:.6g} s"
         yield Defect("not-a-number", channel.name, text)
 
 
-def _counted(found: NDArray[np.bool_]) -> str:
-    return f"{int(found.sum())} of {len(found)} samples"
+def _counted(flagged: NDArray[np.bool_]) -> str:
+    return f"{int(flagged.sum())} of {len(flagged)} samples"
 
 
-def _place(found: NDArray[np.bool_]) -> str:
-    return f"at sample {int(np.argmax(found)) + 1}"
+def _place(flagged: NDArray[np.bool_]) -> str:
+    return f"at sample {int(np.argmax(flagged)) + 1}"

@@ -7,23 +7,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from uictest.field_data.channel_map import Preparation
 from uictest.field_data.channels import of_wheelsets
-from uictest.field_data.preparation import Preparation
-from uictest.field_data.raw import Array, MapError, RawChannel
+from uictest.field_data.raw_channels import Array, MapError, RawChannel
 from uictest.recording import BRAKE_COMMAND_TIME
 from uictest.scenario.yaml import QuantityError, parse_quantity
 
 Channels = Mapping[str, RawChannel]
+Metadata = Mapping[str, str]
 _PRESSURES = ("brake_line_pressure", *of_wheelsets("cylinder_pressure"), *of_wheelsets("tank_pressure"))
 _ON = 0.5
 """Above it the brake command, a state of 0 and 1, is given."""
 
 
 @dataclass(frozen=True, slots=True)
-class FoundTrigger:
+class BrakeCommand:
     """The time of the brake command in the file's own time, s, and how it was found.
 
-    `late`: the brake was on already when the record began, so the command itself is not in it.
+    `late`: the brake was already on when the record began, so that the command itself is not in it.
     """
 
     time: float
@@ -31,28 +32,28 @@ class FoundTrigger:
     late: bool = False
 
 
-def find_trigger(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger:
-    """Return the brake command of a record. Raises MapError where nothing of what is wanted marks it."""
-    if wanted.trigger_time is not None:
-        return _stated(channels, float(wanted.trigger_time), "stated by the user")
-    for name in _ORDER if wanted.trigger == "auto" else (wanted.trigger,):
-        found = _FINDERS[name](channels, facts, wanted)
-        if found is not None:
-            return found
-    raise MapError(_nothing_marks_it(wanted))
+def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand:
+    """Return the brake command of a record. Raises MapError where nothing marks it."""
+    if preparation.trigger_time is not None:
+        return _stated(channels, float(preparation.trigger_time), "stated by the user")
+    for name in _ORDER if preparation.trigger == "auto" else (preparation.trigger,):
+        trigger = _FINDERS[name](channels, metadata, preparation)
+        if trigger is not None:
+            return trigger
+    raise MapError(_nothing_marks_it(preparation))
 
 
-def _nothing_marks_it(wanted: Preparation) -> str:
-    if wanted.trigger == "auto":
+def _nothing_marks_it(preparation: Preparation) -> str:
+    if preparation.trigger == "auto":
         return (
             "nothing marks the brake command: no time stated by the file, no brake command, no demanded"
             " pressure and no pressure that rises while the train runs; state it with --trigger"
         )
-    return f"the trigger {wanted.trigger!r} marks no brake command in this record while the train runs"
+    return f"the trigger {preparation.trigger!r} finds no brake command in this record while the train runs"
 
 
-def _by_fact(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    text = facts.get(BRAKE_COMMAND_TIME)
+def _by_metadata(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    text = metadata.get(BRAKE_COMMAND_TIME)
     if text is None:
         return None
     try:
@@ -62,34 +63,34 @@ def _by_fact(channels: Channels, facts: Mapping[str, str], wanted: Preparation) 
         raise MapError(f"{BRAKE_COMMAND_TIME} in the header of the file: {error}; {hint}") from error
 
 
-def _stated(channels: Channels, time: float, by: str) -> FoundTrigger:
+def _stated(channels: Channels, time: float, by: str) -> BrakeCommand:
     first, last = (float(channels["speed"].time[k]) for k in (0, -1))
     if time >= last:
         raise MapError(
             f"the brake command at {time:.6g} s, {by}, is not in the record, which ends at {last:.6g} s"
         )
     text = f"at {time:.6g} s, {by}"
-    return FoundTrigger(max(time, first), text, late=time < first - 1e-6)
+    return BrakeCommand(max(time, first), text, late=time < first - 1e-6)
 
 
-def _by_start(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    return FoundTrigger(float(channels["speed"].time[0]), "the record begins with it")
+def _by_start(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return BrakeCommand(float(channels["speed"].time[0]), "the record begins with it")
 
 
-def _by_command(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    return _first_of(channels, ("brake_command",), _ON, wanted)
+def _by_command(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, ("brake_command",), _ON, preparation)
 
 
-def _by_demand(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    return _first_of(channels, ("demanded_pressure",), float(wanted.trigger_pressure), wanted)
+def _by_demand(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, ("demanded_pressure",), float(preparation.trigger_pressure), preparation)
 
 
-def _by_pressure(channels: Channels, facts: Mapping[str, str], wanted: Preparation) -> FoundTrigger | None:
-    return _first_of(channels, _PRESSURES, float(wanted.trigger_pressure), wanted)
+def _by_pressure(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, _PRESSURES, float(preparation.trigger_pressure), preparation)
 
 
-_FINDERS: dict[str, Callable[[Channels, Mapping[str, str], Preparation], FoundTrigger | None]] = {
-    "stated": _by_fact,
+_FINDERS: dict[str, Callable[[Channels, Metadata, Preparation], BrakeCommand | None]] = {
+    "stated": _by_metadata,
     "start": _by_start,
     "command": _by_command,
     "demand": _by_demand,
@@ -99,26 +100,26 @@ _ORDER = ("stated", "command", "demand", "pressure")
 
 
 def _first_of(
-    channels: Channels, names: tuple[str, ...], level: float, wanted: Preparation
-) -> FoundTrigger | None:
+    channels: Channels, names: tuple[str, ...], level: float, preparation: Preparation
+) -> BrakeCommand | None:
     rises = [
-        FoundTrigger(time, name, late)
+        BrakeCommand(time, name, late)
         for name in names
         if name in channels
-        for time, late in _rise(channels[name], channels["speed"], level, float(wanted.trigger_speed))
+        for time, late in _rise(channels[name], channels["speed"], level, float(preparation.trigger_speed))
     ]
     if not rises:
         return None
     first = min(rises, key=lambda rise: rise.time)
     if first.late:
-        return FoundTrigger(
+        return BrakeCommand(
             first.time, f"before the record, in which {first.text} is on from the start", late=True
         )
-    lead = float(wanted.trigger_lead)
+    lead = float(preparation.trigger_lead)
     time = max(first.time - lead, float(channels["speed"].time[0]))
-    ahead = f", {wanted.trigger_lead.text} before it" if lead > 0.0 else ""
+    ahead = f", {preparation.trigger_lead.text} before it" if lead > 0.0 else ""
     text = f"at {time:.6g} s: {first.text} rises{ahead}"
-    return FoundTrigger(time, text, late=first.time - lead < time - 1e-6)
+    return BrakeCommand(time, text, late=first.time - lead < time - 1e-6)
 
 
 def _rise(

@@ -238,7 +238,7 @@ def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
     def broken_off(path: Path, dialect: object = None) -> None:
         raise BrokenOffError(28, f"No space left on device to read {path}", "/small")
 
-    monkeypatch.setattr("uictest.field_data.file.read_contents", broken_off)
+    monkeypatch.setattr("uictest.field_data.recorded_stop.read_contents", broken_off)
     (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")
     answer = call("evaluate", "stop.csv", *STATED)
     assert answer.code == 3

@@ -140,7 +140,7 @@ def _stated(
         return lambda name, speed: base
 
     keys = {statement.partition("=")[0].strip() for statement in statements}
-    missing = [_OPTIONS[key] for key in field_data.FACTS if key not in keys]
+    missing = [_OPTIONS[key] for key in field_data.REQUIRED_STATEMENTS if key not in keys]
     if missing:
         raise InvalidInputError(
             "uictest: a recording does not say what was tested: state it with --scenario FILE, or with"
@@ -161,7 +161,7 @@ def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
         files, each_file(files, lambda p: formats.read_contents(p, mapped.dialect)), strict=True
     ):
         data(report.printable(str(path)))
-        for row in field_data.listing(contents):
+        for row in field_data.channel_rows(contents):
             data("  " + "\t".join(report.printable(cell) for cell in row))
         for key, text in contents.metadata.items():
             data(f"  # {report.printable(key)}: {report.printable(text)}")
@@ -173,7 +173,7 @@ def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
 def _proposal(contents: recording.Contents, dialect: formats.Dialect) -> Iterator[str]:
     """Yield the preset that fits and what it leaves open, or a map to begin with where it does so in part."""
     preset = field_data.fitting_preset(contents) if dialect == formats.Dialect() else None
-    partly = field_data.lacks_essentials(contents)
+    partly = field_data.lacks_speeds(contents)
     for remark in field_data.remarks(contents):
         yield f"# {report.printable(remark)}"
     if preset and partly:

@@ -1,14 +1,16 @@
-"""Defects of wheel-speed sensors: dropouts, readings that stick, readings that are off."""
+"""Defects of sensors: speeds that drop out, readings that stick, readings that are off."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Final
 
 import numpy as np
 
 from uictest.field_data.channels import of_wheelsets
 from uictest.field_data.defect import Defect
-from uictest.field_data.raw import Array, RawChannel
+from uictest.field_data.raw_channels import Array, RawChannel
 
 _STEEPEST = 150.0
 """m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""
@@ -18,11 +20,19 @@ _LONGEST_STUCK = 0.5
 """s for which a running wheel may show the same number to the last digit; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which another speed must change meanwhile; chosen."""
-_LARGEST_OFFSET = 0.02
+_LARGEST_SPEED_OFFSET = 0.02
 """Share of the train speed: what different wheel diameters explain; chosen."""
 _ROLLING = 0.2
 """s after the brake command in which wheels still roll; chosen."""
 _SPEEDS = ("speed", *of_wheelsets("wheel_speed"))
+_LARGEST_READING_OFFSET: Final = MappingProxyType(
+    {"cylinder_pressure": (0.15e5, "Pa"), "tank_pressure": (0.15e5, "Pa"), "clamping_force": (1000.0, "N")}
+)
+"""Reading with the brake released that a sound sensor may show; chosen."""
+_RELEASED = 0.02
+"""s after the brake command in which no brake acts yet; chosen."""
+_LEAST_CHANGE = 0.1
+"""Share of the largest reading by which the other wheelsets' sensors must change meanwhile; chosen."""
 
 
 def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
@@ -30,8 +40,8 @@ def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) 
     for name in _SPEEDS:
         if name in channels:
             yield from _dropouts(channels[name], begin, end)
-            yield from _stuck(channels[name], channels, begin, end)
-    yield from _offsets(channels, begin)
+            yield from _stuck_speeds(channels[name], channels, begin, end)
+    yield from _speed_offsets(channels, begin)
 
 
 def _dropouts(channel: RawChannel, begin: float, end: float) -> Iterator[Defect]:
@@ -48,7 +58,7 @@ def _dropouts(channel: RawChannel, begin: float, end: float) -> Iterator[Defect]
         yield Defect("dropout", channel.name, text, spoils=True)
 
 
-def _stuck(
+def _stuck_speeds(
     channel: RawChannel, channels: Mapping[str, RawChannel], begin: float, end: float
 ) -> Iterator[Defect]:
     """The same number for long while another speed changes. A wheelset at zero is locked, not stuck."""
@@ -80,11 +90,11 @@ def _others_change(
     return False
 
 
-def _offsets(channels: Mapping[str, RawChannel], begin: float) -> Iterator[Defect]:
+def _speed_offsets(channels: Mapping[str, RawChannel], begin: float) -> Iterator[Defect]:
     """A wheel speed that differs from the train's while the wheels still roll; all alike: the train's."""
     shares = dict(_rolling_shares(channels, begin))
-    off = {name: share for name, share in shares.items() if abs(share) > _LARGEST_OFFSET}
-    if len(off) > 1 and len(off) == len(shares) and np.ptp(list(off.values())) < _LARGEST_OFFSET:
+    off = {name: share for name, share in shares.items() if abs(share) > _LARGEST_SPEED_OFFSET}
+    if len(off) > 1 and len(off) == len(shares) and np.ptp(list(off.values())) < _LARGEST_SPEED_OFFSET:
         share = -float(np.mean(list(off.values())))
         yield Defect(
             "offset", "speed", f"differs by {100.0 * share:+.1f} % from all wheels before they brake", True
@@ -110,5 +120,34 @@ def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterato
 
 def _part(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:
     """Return times and samples between two times, as far as the samples are numbers."""
-    wanted = (channel.time >= begin) & (channel.time <= end) & np.isfinite(channel.samples)
-    return channel.time[wanted], channel.samples[wanted]
+    inside = (channel.time >= begin) & (channel.time <= end) & np.isfinite(channel.samples)
+    return channel.time[inside], channel.samples[inside]
+
+
+def analogue_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
+    """Yield the defects of pressures and forces in a stop from `begin` to `end` (s in the file's time)."""
+    for kind, (largest, unit) in _LARGEST_READING_OFFSET.items():
+        names = [name for name in of_wheelsets(kind) if name in channels]
+        for name in names:
+            yield from _reading_offset(channels[name], begin, largest, unit)
+            others = [channels[other] for other in names if other != name]
+            yield from _stuck_readings(channels[name], others, begin, end)
+
+
+def _reading_offset(channel: RawChannel, begin: float, largest: float, unit: str) -> Iterator[Defect]:
+    before = channel.time <= begin + _RELEASED
+    reading = channel.samples[before & (channel.time >= begin - 1.0) & np.isfinite(channel.samples)]
+    if len(reading) and abs(float(np.median(reading))) > largest:
+        text = f"reads {float(np.median(reading)):.4g} {unit} with the brake released"
+        yield Defect("offset", channel.name, text, spoils=True)
+
+
+def _stuck_readings(
+    channel: RawChannel, others: list[RawChannel], begin: float, end: float
+) -> Iterator[Defect]:
+    _, reading = _part(channel, begin, end)
+    if len(reading) < 3 or np.ptp(reading) > 0.0:
+        return
+    other_readings = [_part(other, begin, end)[1] for other in others]
+    if any(len(each) and np.ptp(each) > _LEAST_CHANGE * np.max(np.abs(each)) for each in other_readings):
+        yield Defect("stuck", channel.name, f"stays at {reading[0]:.6g} throughout the stop", spoils=True)

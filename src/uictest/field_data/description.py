@@ -1,27 +1,24 @@
-"""What a recorded stop is about: where its samples come from, and the conditions it was judged by."""
+"""Description of a recorded stop: where its samples come from, and the conditions it was judged by."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from uictest import report
-from uictest.field_data.channels import UNITS, WHEELSETS
+from uictest.field_data.channels import CHANNEL_UNITS, WHEELSETS
+from uictest.field_data.recorded_stop import RecordedStop
+from uictest.scenario import Case, Scenario
 from uictest.units import KILOMETRE_PER_HOUR
-
-if TYPE_CHECKING:
-    from uictest.field_data.prepare import RecordedStop
-    from uictest.scenario import Case, Scenario
 
 _ASSUMED = " (assumed: not stated)"
 _TITLE = "Recorded stop"
 
 
-def recorded_subject(case: Case, stop: RecordedStop | None) -> report.CaseDescription:
-    """Return the subject of a recorded stop; `stop` is None where the record cannot be used.
+def recorded_description(case: Case, stop: RecordedStop | None) -> report.CaseDescription:
+    """Return the description of a recorded stop; `stop` is None where the record cannot be used.
 
-    Nothing of a simulated rig stands in it: vehicle, friction, controller and topology of the case had no
-    part in the stop. A condition that criteria ask for and nobody stated is marked as assumed.
+    It leaves out what only a simulation has: vehicle, friction, controller and topology. A condition that
+    criteria depend on and nobody stated is marked as assumed.
     """
     title = case.scenario.title
     return report.CaseDescription(
@@ -67,7 +64,7 @@ def _grouped(channels: list[str]) -> Iterator[str]:
     for name in channels:
         stem, _, number = name.rpartition("_")
         complete = all(f"{stem}_{n}" in channels for n in WHEELSETS)
-        if not (name in UNITS and complete):
+        if not (name in CHANNEL_UNITS and complete):
             yield name
         elif number == str(WHEELSETS[0]):
             yield f"{name} .. {WHEELSETS[-1]}"

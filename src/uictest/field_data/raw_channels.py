@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.field_data.channel_map import ChannelMap, Source
-from uictest.field_data.channels import UNITS
+from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.recording import (
     STATES,
     TIME,
@@ -33,12 +33,12 @@ Array = NDArray[np.float64]
 
 
 class MapError(ValueError):
-    """A channel map that does not fit a file; the message says where."""
+    """A channel map that does not fit a file; the message names the channel."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RawChannel:
-    """One channel as measured: time in s, samples in SI, nothing sorted, nothing filled.
+    """One channel as recorded: time in s, samples in SI, neither sorted nor filled.
 
     `source` is its name in the file.
     """
@@ -50,19 +50,19 @@ class RawChannel:
 
     @property
     def is_state(self) -> bool:
-        """Whether it holds states, which keep their value until the next sample."""
+        """Whether its samples are states, which hold until the next sample."""
         return state_kind(self.name) is not None
 
 
 def select(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]:
-    """Return what a map finds in a file. Channels it does not find are left out.
+    """Return the channels of a file that a map selects; a channel without a source in the file is omitted.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
     is no state, or a channel has no time axis.
     """
     sources = channel_map.sources()
     times: dict[int, Array] = {}
-    found: dict[str, RawChannel] = {}
+    selected: dict[str, RawChannel] = {}
     for name, source in sources.items():
         if name == TIME:
             continue
@@ -72,10 +72,10 @@ def select(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]
             samples = _in_si(name, source, original, group)
             if id(group) not in times:
                 times[id(group)] = _time_of(group, sources.get(TIME), original)
-            found[name] = RawChannel(name, original, times[id(group)], samples)
-    if "speed" not in found:
+            selected[name] = RawChannel(name, original, times[id(group)], samples)
+    if "speed" not in selected:
         raise MapError(_no_speed(contents, sources))
-    return found
+    return selected
 
 
 def _no_speed(contents: Contents, sources: Mapping[str, Source]) -> str:
@@ -83,37 +83,37 @@ def _no_speed(contents: Contents, sources: Mapping[str, Source]) -> str:
     looked_for = sources["speed"].source if "speed" in sources else ("speed",)
     hint = suggestion(looked_for[0], names) if len(names) <= 40 else ""
     return (
-        f"no channel for 'speed', the speed of the train: looked for {', '.join(map(quoted, looked_for))}"
-        f"{'; ' + hint if hint else ''}; --list shows what the file holds"
+        f"no channel for 'speed' (train speed): looked for {', '.join(map(quoted, looked_for))}"
+        f"{'; ' + hint if hint else ''}; --list shows the channels of the file"
     )
 
 
 def _find(contents: Contents, name: str, source: Source) -> tuple[Group, str] | None:
-    for wanted in source.source:
-        matches = list(_matches(contents, wanted))
+    for alias in source.source:
+        matches = list(_matches(contents, alias))
         if len(matches) > 1:
             groups = ", ".join(quoted(group.name) for group, _ in matches)
-            raise MapError(f"{name}: {quoted(wanted)} is in several groups ({groups}): write group/name")
+            raise MapError(f"{name}: {quoted(alias)} is in several groups ({groups}): write group/name")
         if matches:
             return matches[0]
     return None
 
 
-def _matches(contents: Contents, wanted: str) -> Iterator[tuple[Group, str]]:
+def _matches(contents: Contents, alias: str) -> Iterator[tuple[Group, str]]:
     for group in contents.groups:
         for name in group.channels:
-            if wanted in (name, f"{group.name}/{name}"):
+            if alias in (name, f"{group.name}/{name}"):
                 yield group, name
 
 
 def _time_of(group: Group, source: Source | None, beside: str) -> Array:
     if group.time is not None:
         time = np.asarray(group.time, dtype=np.float64)
-        return _refused_if(implausible_time(time, "s", {"s": 1.0}), TIME, f"of {quoted(beside)}", time)
-    for wanted in source.source if source else ():
-        if source and wanted in group.channels:
-            return _in_si(TIME, source, wanted, group)
-    raise MapError(f"{quoted(beside)} has no time axis: map 'time' to a channel of its group")
+        return _require_plausible(implausible_time(time, "s", {"s": 1.0}), TIME, f"of {quoted(beside)}", time)
+    for alias in source.source if source else ():
+        if source and alias in group.channels:
+            return _in_si(TIME, source, alias, group)
+    raise MapError(f"{quoted(beside)} has no time axis: map `time` to a channel of its group")
 
 
 def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
@@ -127,18 +127,18 @@ def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
     # What overflows becomes infinite, which is reported as a sample that is no number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
-    return _refused_if(_implausible(name, converted, unit), name, quoted(original), converted)
+    return _require_plausible(_implausible(name, converted, unit), name, quoted(original), converted)
 
 
 def _implausible(name: str, converted: Array, unit: str) -> Implausible | None:
-    si = UNITS[name]
+    si = CHANNEL_UNITS[name]
     sizes = {**recorded_spellings(si), unit: recorded_unit_size(unit, si) or 1.0}
     if name == TIME:
         return implausible_time(converted, unit, sizes)
     return implausible_unit(converted, si, unit, sizes)
 
 
-def _refused_if(implausible: Implausible | None, name: str, original: str, samples: Array) -> Array:
+def _require_plausible(implausible: Implausible | None, name: str, original: str, samples: Array) -> Array:
     if implausible is not None:
         unit = implausible.likely_unit
         question = f"; is it in {unit}? write `unit: {unit}` in a channel map" if unit else ""
@@ -147,18 +147,19 @@ def _refused_if(implausible: Implausible | None, name: str, original: str, sampl
 
 
 def _size(name: str, unit: str, original: str) -> float:
-    si = UNITS[name]
+    si = CHANNEL_UNITS[name]
     if not unit and si == "1":
         return 1.0
     if not unit:
         raise MapError(
-            f"{name}: the file does not say the unit of {quoted(original)}: write it in the channel map"
+            f"{name}: the file does not state the unit of {quoted(original)}:"
+            " write `unit:` in the channel map"
         )
     size = recorded_unit_size(unit, si)
     if size is None:
         raise MapError(
-            f"{name}: {quoted(original)} is in {quoted(unit)}, accepted: {', '.join(recorded_spellings(si))};"
-            " write the unit in the channel map"
+            f"{name}: {quoted(original)} has the unit {quoted(unit)};"
+            f" accepted: {', '.join(recorded_spellings(si))}; write `unit:` in the channel map"
         )
     return size
 
@@ -173,7 +174,7 @@ def _numbered(name: str, source: Source, original: str, group: Group) -> Array:
         listed = ", ".join(map(quoted, strange[:3]))
         place = f", the first in {group.first_texts[original]}" if original in group.first_texts else ""
         raise MapError(
-            f"{name}: {quoted(original)} holds texts that are no numbers: {listed}{place};"
+            f"{name}: {quoted(original)} contains texts that are not numbers: {listed}{place};"
             f" {_remedy(strange[0])}"
         )
     values: Any = np.vectorize(lambda text: numbers[str(text)], otypes=[np.float64])(samples)
@@ -183,12 +184,14 @@ def _numbered(name: str, source: Source, original: str, group: Group) -> Array:
 def _remedy(text: str) -> str:
     if grouped := _GROUPED.fullmatch(text.strip()):
         separator = grouped[1] or grouped[2]
-        return f"for thousands separators set csv: {{thousands: {json.dumps(separator)}}} in the channel map"
+        return (
+            f"for thousands separators, write csv: {{thousands: {json.dumps(separator)}}} in the channel map"
+        )
     if _DECIMAL_COMMA.fullmatch(text.strip()):
-        return 'for decimal commas set csv: {decimal: ","} in the channel map'
+        return 'for decimal commas, write csv: {decimal: ","} in the channel map'
     if _DATE.match(text.strip()):
-        return "dates are read where all are written as 2026-05-31T12:00:00.000"
-    return "name them in 'states'"
+        return "write dates as 2026-05-31T12:00:00.000"
+    return "name them in `states` of the channel map"
 
 
 def _number(text: str, known: Mapping[str, int]) -> float | None:
