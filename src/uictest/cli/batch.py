@@ -29,7 +29,7 @@ class Batch:
     maxfail: int | None
     output: Path
     junit: Path | None
-    formats: Sequence[report.ReportFormat]
+    formats: Sequence[str]
     quiet: bool
     verbose: bool
     baseline: comparison.Baseline | None = None
@@ -54,7 +54,7 @@ def run_batch(batch: Batch, display: Display) -> tuple[BatchResult, Published | 
     started = perf_counter()
     # The folder comes first: one that cannot be written should not cost a simulation.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
-        drawing = Drawing(batch.cases, batch.recording, wanted=report.ReportFormat.HTML in batch.formats)
+        drawing = Drawing(batch.cases, batch.recording, wanted=report.draws_stops(batch.formats))
         done = _simulate(batch, folder.path, display, drawing)
         if not done.results:
             message("uictest: interrupted before the first case was finished; there is nothing to report")
@@ -82,7 +82,7 @@ def _write_reports(
         content = replace(content, baseline=batch.baseline.compare(content))
     document = report.write_reports(folder.path, content)
     report.write_formats(
-        folder.path, content, [each for each in batch.formats if each != report.ReportFormat.CSV]
+        folder.path, content, [each for each in batch.formats if each not in report.IN_EVERY_RUN]
     )
     return content, document
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -139,7 +140,11 @@ RecordRate = Annotated[
 Colouring = Annotated[Colour, typer.Option("--color", help="When to colour.")]
 Reports = Annotated[
     str,
-    typer.Option("--report", metavar="FORMATS", help="Reports for people: csv, xlsx, html, md; commas join."),
+    typer.Option(
+        "--report",
+        metavar="FORMATS",
+        help=f"Reports to write, joined by commas: {', '.join(report.format_names())}.",
+    ),
 ]
 ToleranceTexts = Annotated[
     list[str] | None,
@@ -175,12 +180,11 @@ def junit_file(path: Path | None, made: Path) -> Path | None:
     return path
 
 
-def report_formats(text: str, option: str) -> list[report.ReportFormat]:
+def report_formats(text: str, option: str, accepted: Sequence[str]) -> list[str]:
     """Return the formats in a comma list, each once. Raises typer.BadParameter for one there is not."""
-    accepted = [str(each) for each in report.ReportFormat]
     words = [word.strip() for word in text.split(",") if word.strip()]
     for word in words:
         if word not in accepted:
             message = f"no format {word!r}; accepted: {', '.join(accepted)}"
             raise typer.BadParameter(message, param_hint=option)
-    return [report.ReportFormat(word) for word in dict.fromkeys(words)]
+    return list(dict.fromkeys(words))

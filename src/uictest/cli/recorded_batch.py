@@ -107,7 +107,7 @@ def publish(
                 report.write_recording(folder.path, each.result.id, each.recording)
         content = report.RunContent(folder.name, results, manifest, True, subjects, traces)
         document = report.write_reports(folder.path, content)
-        report.write_formats(folder.path, content, [report.ReportFormat.HTML])
+        report.write_formats(folder.path, content, ["html"])
         place = folder.publish()
     report.point_latest(place)
     if junit is not None:

@@ -47,7 +47,7 @@ class SweepRun:
     measures: Sequence[str] = ()
     search: FrontierSearch | None = None
     junit: Path | None = None
-    formats: Sequence[report.ReportFormat] = ()
+    formats: Sequence[str] = ()
     quiet: bool = False
 
 
@@ -221,7 +221,7 @@ def publish(run: SweepRun, store: ChunkStore) -> tuple[sweep.SweepFindings, str,
 
 
 def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
-    content = report.read_sweep(folder, traces=report.ReportFormat.HTML in run.formats)
+    content = report.read_sweep(folder, traces=report.draws_stops(run.formats))
     report.write_sweep_formats(folder, content, run.formats)
     # The findings are written already: a step summary that cannot be written is no reason to fail.
     try:

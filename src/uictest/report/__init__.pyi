@@ -6,7 +6,7 @@ from .baseline import (
 )
 from .case_description import CaseDescription as CaseDescription, subjects_form as subjects_form
 from .content import RunContent as RunContent
-from .csv_table import Cell as Cell, csv_text as csv_text
+from .csv_text import Cell as Cell, csv_text as csv_text
 from .difference import (
     Difference as Difference,
     differences_form as differences_form,
@@ -15,21 +15,19 @@ from .difference import (
     worst_of_wheelsets as worst_of_wheelsets,
 )
 from .escaping import csv_cell as csv_cell, printable as printable, xml_text as xml_text
-from .formats import ReportFormat as ReportFormat, write_formats as write_formats
+from .format_registry import (
+    IN_EVERY_RUN as IN_EVERY_RUN,
+    draws_stops as draws_stops,
+    write_formats as write_formats,
+)
+from .formats import format_names as format_names
+from .formats.junit import junit_xml as junit_xml
+from .formats.md import append_step_summary as append_step_summary
 from .github import (
     annotation as annotation,
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
     no_command as no_command,
-)
-from .junit import junit_xml as junit_xml
-from .latest import latest_run as latest_run, point_latest as point_latest
-from .lines import (
-    case_line as case_line,
-    criterion_lines as criterion_lines,
-    definition_lines as definition_lines,
-    missing_lines as missing_lines,
-    part_lines as part_lines,
 )
 from .manifest import (
     RunManifest as RunManifest,
@@ -37,9 +35,8 @@ from .manifest import (
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
-from .markdown import append_step_summary as append_step_summary
 from .run_contents import read_run as read_run, run_content as run_content
-from .run_folder import RunFolder as RunFolder
+from .run_folder import RunFolder as RunFolder, latest_run as latest_run, point_latest as point_latest
 from .run_report import (
     RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
@@ -48,7 +45,7 @@ from .run_report import (
     write_reports as write_reports,
 )
 from .sweep.content import SweepContent as SweepContent
-from .sweep.formats import write_sweep_formats as write_sweep_formats
+from .sweep.formats import SWEEP_FORMATS as SWEEP_FORMATS, write_sweep_formats as write_sweep_formats
 from .sweep.github import sweep_annotations as sweep_annotations
 from .sweep.markdown import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.reading import SWEEP_RESULTS as SWEEP_RESULTS, read_sweep as read_sweep
@@ -60,8 +57,14 @@ from .sweep.wording import (
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
-from .table import explanation_text as explanation_text, verdict_table as verdict_table
-from .text_table import (
+from .terminal.case_lines import (
+    case_line as case_line,
+    criterion_lines as criterion_lines,
+    definition_lines as definition_lines,
+    missing_lines as missing_lines,
+    part_lines as part_lines,
+)
+from .terminal.fitted_columns import (
     Column as Column,
     aligned as aligned,
     columns_not_shown as columns_not_shown,
@@ -69,6 +72,7 @@ from .text_table import (
     table_width as table_width,
     wrapped_name as wrapped_name,
 )
+from .terminal.verdict_table import explanation_text as explanation_text, verdict_table as verdict_table
 from .traces.quantities import (
     PLOT_QUANTITIES as PLOT_QUANTITIES,
     Panel as Panel,

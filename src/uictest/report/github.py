@@ -1,21 +1,27 @@
-"""Lines that GitHub Actions reads: one workflow command per case that is not met, and lines that are none."""
+"""What GitHub Actions reads: workflow commands for cases, lines that are none, and the summary of a step."""
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import workflow_message, workflow_property
-from uictest.report.parameters import changes_line
+from uictest.report.part_wording import changes_line
 from uictest.report.wording import DIFFERS
 
 if TYPE_CHECKING:
     from uictest.report.baseline import BaselineComparison
     from uictest.report.difference import Difference
 
+LIMIT = 1_000_000
+"""Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""
+
+_ALWAYS = 2_000  # bytes that a summary may have where others have filled the file
 _COMMAND = re.compile(r"^(\s*):(?=:)")
 
 
@@ -54,3 +60,19 @@ def no_command(line: str) -> str:
     """Return a line of the log as one that GitHub takes for no command, whatever stands in it."""
     # The runner looks behind leading blanks, and for commands of its first kind anywhere in a line.
     return _COMMAND.sub(r"\1\\x3a", line).replace("##[", r"#\x23[")
+
+
+def append_to_step_summary(summary: Callable[[int], str]) -> None:
+    """Append a summary to the file that GitHub Actions names, where it does. Raises OSError.
+
+    Args:
+        summary: returns the Markdown in at most so many bytes.
+
+    """
+    place = os.environ.get("GITHUB_STEP_SUMMARY")
+    if not place:
+        return
+    path = Path(place)
+    written = path.stat().st_size if path.exists() else 0
+    with path.open("a", encoding="utf-8") as file:
+        file.write(summary(max(LIMIT - written, _ALWAYS)))

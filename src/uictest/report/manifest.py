@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Final
 from pydantic import ConfigDict, TypeAdapter
 
 from uictest import evaluation
-from uictest.report.parameters import part_sentence
+from uictest.report.part_wording import part_sentence
 
 SCHEMA = "uictest/manifest/1"
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")

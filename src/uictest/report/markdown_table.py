@@ -1,10 +1,17 @@
-"""A table in Markdown that keeps to the room there is."""
+"""Tables in Markdown: cells that show any text as it is, and no more rows than there is room for."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from uictest.report.escaping import printable
+
+_LONGEST = 300  # characters of one text in a cell
+_BACKTICKS = re.compile("`+")
+_ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!:$^]")
 _RULES = {"l": "---", "r": "--:"}
 _RESERVE = 200  # bytes kept for the line that says what was left out
 
@@ -52,3 +59,27 @@ def _fitting(rows: Iterable[str], room: int) -> Iterator[str]:
         if room < 0:
             return
         yield each
+
+
+def code(text: str) -> str:
+    """Return a text as a code span that shows it letter by letter, also inside a table."""
+    # In a code span nothing can be escaped, but a bar ends a cell: it is spelled out like what is invisible.
+    shown = _cut(printable(text)).replace("|", "\\x7c")
+    longest = max(map(len, _BACKTICKS.findall(shown)), default=0)
+    fence = "`" * (longest + 1)
+    padding = " " if shown.startswith("`") or shown.endswith("`") else ""
+    return f"{fence}{padding}{shown}{padding}{fence}" if shown else ""
+
+
+def prose(text: str) -> str:
+    """Return a text with every character that Markdown or HTML could act upon as an entity."""
+    return _ACTIVE.sub(lambda found: f"&#{ord(found.group())};", _cut(printable(text)))
+
+
+def figure(value: float | None, form: str) -> str:
+    """Return a figure in a format, a dash where there is none."""
+    return "–" if value is None or math.isnan(value) else format(value, form)  # noqa: RUF001 - a dash on paper
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

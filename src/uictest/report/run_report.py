@@ -1,8 +1,7 @@
-"""Every file of a run folder, written in one place."""
+"""The files of a run folder, written."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,8 @@ from uictest import evaluation, recording
 from uictest.report.baseline import baseline_form
 from uictest.report.case_description import subjects_form
 from uictest.report.content import RunContent
-from uictest.report.junit import junit_xml
+from uictest.report.format_registry import IN_EVERY_RUN, write_formats
 from uictest.report.manifest import RunManifest, digest, manifest_form
-from uictest.report.tables import criteria_csv, summary_csv, wheelsets_csv
 
 RESULTS = "results.json"
 RECORDINGS = "recordings"
@@ -25,19 +23,18 @@ def run_name(started: datetime, manifest: RunManifest) -> str:
 
 
 def write_reports(folder: Path, content: RunContent) -> str:
-    """Write manifest, tables, results and JUnit into the folder, and return the text of results.json.
+    """Write the manifest, the results and the reports of every run; return the text of results.json.
 
     Raises OSError.
     """
     document = _encodable(evaluation.to_json(_document(content)))
     texts = {
         "manifest.json": _encodable(evaluation.to_json(manifest_form(content.manifest))),
-        **csv_files(content.results),
         RESULTS: document,
-        "junit.xml": junit_xml(content.results, content.baseline),
     }
     for name, text in texts.items():
         recording.write_text_atomic(folder / name, text)
+    write_formats(folder, content, IN_EVERY_RUN)
     return document
 
 
@@ -50,15 +47,6 @@ def _document(content: RunContent) -> dict[str, Any]:
     if content.baseline is not None:
         header["baseline"] = baseline_form(content.baseline)
     return evaluation.result_document(content.results, **header)
-
-
-def csv_files(results: Sequence[evaluation.CaseResult]) -> dict[str, str]:
-    """Return the three tables under the names of their files."""
-    return {
-        "summary.csv": summary_csv(results),
-        "wheelsets.csv": wheelsets_csv(results),
-        "criteria.csv": criteria_csv(results),
-    }
 
 
 def _encodable(json_text: str) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from uictest.report.csv_table import Cell
+from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.report import ReportFormat
+from uictest.report import format_names
 from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.formats import write_sweep_formats
+from uictest.report.sweep.formats import SWEEP_FORMATS, write_sweep_formats
 
 MakeSweep = Callable[..., SweepContent]
 
@@ -24,21 +24,27 @@ def content(make_sweep: MakeSweep) -> SweepContent:
     return made
 
 
+def test_a_sweep_has_every_format_of_a_run_that_is_made_from_finished_results(content: SweepContent) -> None:
+    assert set(format_names()) - set(SWEEP_FORMATS) == {"junit"}
+    for name in SWEEP_FORMATS:
+        assert write_sweep_formats(content.folder, content, [name])
+
+
 def test_the_tables_of_a_sweep_are_there_already(content: SweepContent) -> None:
     before = {path: path.stat().st_mtime_ns for path in content.folder.iterdir()}
-    paths = write_sweep_formats(content.folder, content, [ReportFormat.CSV])
+    paths = write_sweep_formats(content.folder, content, ["csv"])
     assert [path.name for path in paths] == ["rates.csv", "summary.csv"]
     assert before == {path: path.stat().st_mtime_ns for path in content.folder.iterdir()}
 
 
 def test_elsewhere_the_tables_are_copied(content: SweepContent, tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
-    paths = write_sweep_formats(tmp_path / "elsewhere", content, [ReportFormat.CSV])
+    paths = write_sweep_formats(tmp_path / "elsewhere", content, ["csv"])
     assert [path.read_text() for path in paths] == ["rates.csv\n", "summary.csv\n"]
 
 
 def test_each_format_becomes_a_file(content: SweepContent) -> None:
-    paths = write_sweep_formats(content.folder, content, [ReportFormat.MD, ReportFormat.XLSX])
+    paths = write_sweep_formats(content.folder, content, ["md", "xlsx"])
     assert [path.name for path in paths] == ["summary.md", "report.xlsx"]
     assert all(path.stat().st_size for path in paths)
 
@@ -46,5 +52,5 @@ def test_each_format_becomes_a_file(content: SweepContent) -> None:
 def test_a_workbook_that_cannot_be_finished_leaves_nothing(content: SweepContent) -> None:
     (content.folder / "summary.parquet").unlink()
     with pytest.raises(FileNotFoundError):
-        write_sweep_formats(content.folder, content, [ReportFormat.XLSX])
+        write_sweep_formats(content.folder, content, ["xlsx"])
     assert sorted(path.name for path in content.folder.iterdir()) == ["rates.csv", "summary.csv"]

@@ -8,7 +8,7 @@ import pytest
 from markdown_it import MarkdownIt
 
 from uictest.evaluation import CaseResult
-from uictest.report.step_summary import LIMIT
+from uictest.report.github import LIMIT
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.markdown import append_sweep_step_summary, sweep_markdown
 

@@ -5,18 +5,16 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from uictest import report as reports
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.folders import holds_sweep, why_no_run
 from uictest.cli.options import Verbosity, report_formats
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import data
-
-if TYPE_CHECKING:
-    from uictest.report import ReportFormat
 
 
 def report(
@@ -24,7 +22,10 @@ def report(
         Path, typer.Argument(metavar="DIR", help="Folder of a finished run or sweep, e.g. reports/latest.")
     ],
     formats: Annotated[
-        str, typer.Option("--format", metavar="FORMATS", help="csv, xlsx, html, md; commas join several.")
+        str,
+        typer.Option(
+            "--format", metavar="FORMATS", help=f"Joined by commas: {', '.join(reports.format_names())}."
+        ),
     ] = "xlsx",
     output: Annotated[
         Path | None,
@@ -36,19 +37,17 @@ def report(
 
     The page draws the stops whose recordings lie in the run's folder; --record all keeps all of them.
     """
-    from uictest.report import SWEEP_RESULTS
-
-    wanted = report_formats(formats, "--format")
     folder = run_folder(run)
-    write = _write_sweep if (folder / SWEEP_RESULTS).is_file() else _write_run
-    for path in write(folder, folder if output is None else output, wanted):
+    is_sweep = (folder / reports.SWEEP_RESULTS).is_file()
+    accepted = reports.SWEEP_FORMATS if is_sweep else reports.format_names()
+    names = report_formats(formats, "--format", accepted)
+    write = _write_sweep if is_sweep else _write_run
+    for path in write(folder, folder if output is None else output, names):
         data(str(path))
     return ExitCode.MET
 
 
-def _write_run(folder: Path, place: Path, wanted: Sequence[ReportFormat]) -> list[Path]:
-    from uictest.report import ReportFormat, read_run, write_formats
-
+def _write_run(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
     if holds_sweep(folder):
         raise InvalidInputError(
             f"uictest: {folder} holds a sweep that is not finished: give its command again, "
@@ -57,20 +56,18 @@ def _write_run(folder: Path, place: Path, wanted: Sequence[ReportFormat]) -> lis
     if reason := why_no_run(folder):
         raise InvalidInputError(f"uictest: {reason}; report takes the folder of a finished run or sweep")
     with _read_as("run", folder, OSError, ValueError):
-        content = read_run(folder, traces=ReportFormat.HTML in wanted)
+        content = reports.read_run(folder, traces=reports.draws_stops(names))
     place.mkdir(parents=True, exist_ok=True)
-    return write_formats(place, content, wanted)
+    return reports.write_formats(place, content, names)
 
 
-def _write_sweep(folder: Path, place: Path, wanted: Sequence[ReportFormat]) -> list[Path]:
-    from uictest.report import ReportFormat, read_sweep, write_sweep_formats
-
+def _write_sweep(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
     with _read_as("sweep", folder, OSError, ValueError):
-        content = read_sweep(folder, traces=ReportFormat.HTML in wanted)
+        content = reports.read_sweep(folder, traces=reports.draws_stops(names))
     place.mkdir(parents=True, exist_ok=True)
     # The cases are read while the workbook is written.
     with _read_as("sweep", folder, ValueError):
-        return write_sweep_formats(place, content, wanted)
+        return reports.write_sweep_formats(place, content, names)
 
 
 @contextlib.contextmanager
@@ -83,8 +80,6 @@ def _read_as(kind: str, folder: Path, *errors: type[Exception]) -> Iterator[None
 
 def run_folder(place: Path) -> Path:
     """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
-    from uictest.report import latest_run
-
     if place.name == "latest" and not place.is_dir():
-        return latest_run(place.parent) or place
+        return reports.latest_run(place.parent) or place
     return place

@@ -90,7 +90,7 @@ def run(
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
-    wanted = report_formats(formats, "--report")
+    wanted = report_formats(formats, "--report", report.format_names())
     tolerances = tolerances_of(tolerance)
     if accept and baseline is None:
         raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")

@@ -135,7 +135,7 @@ def sweep(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""
-    wanted = report_formats(formats, "--report")
+    wanted = report_formats(formats, "--report", report.SWEEP_FORMATS)
     selection = selected_cases(load_plan(file, overrides, seed, trusted), expression, device)
     if selection.size == 0:
         message(f"uictest: nothing selected among {counted(selection.plan.size, 'case')}")

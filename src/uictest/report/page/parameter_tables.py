@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from uictest import evaluation
-from uictest.report.parameters import base_word, changed_parameters, part_sentences
+from uictest.report.part_wording import base_word, changed_parameters, part_sentences
 
 _MOST: Final = 100
 """Parts that a page shows: each takes up to 10 kB of it."""

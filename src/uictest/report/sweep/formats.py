@@ -1,47 +1,49 @@
-"""The formats made for people, of a sweep: which file each becomes."""
+"""A finished sweep in the formats of reports."""
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import Final
 
 from uictest import recording
-from uictest.report.formats import ReportFormat
+from uictest.report import page
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.markdown import sweep_markdown
+from uictest.report.sweep.workbook import sweep_workbook_bytes
 
-if TYPE_CHECKING:
-    from uictest.report.sweep.content import SweepContent
+_WRITERS: Final[Mapping[str, tuple[str, Callable[[SweepContent], bytes]]]] = MappingProxyType(
+    {
+        "html": ("index.html", lambda content: page.sweep_page_html(content).encode()),
+        "md": ("summary.md", lambda content: sweep_markdown(content).encode()),
+        "xlsx": ("report.xlsx", sweep_workbook_bytes),
+    }
+)
+"""Format -> name of its file and what returns the bytes of that."""
+
+_TABLES: Final = "csv"
+"""The format that the folder of every sweep has."""
+
+SWEEP_FORMATS: Final = tuple(sorted((_TABLES, *_WRITERS)))
+"""Formats that a sweep can be reported in."""
 
 
-def write_sweep_formats(folder: Path, content: SweepContent, formats: Iterable[ReportFormat]) -> list[Path]:
-    """Write a sweep in further formats into a folder, and return the files.
+def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str]) -> list[Path]:
+    """Write a sweep in some formats into a folder, and return the files.
 
     Raises OSError, and ValueError where summary.parquet cannot be read.
     """
-    return [path for wanted in formats for path in _write(folder, content, wanted)]
+    return [path for name in names for path in _write(folder, content, name)]
 
 
-def _write(folder: Path, content: SweepContent, wanted: ReportFormat) -> list[Path]:
-    if wanted is ReportFormat.CSV:
-        return [_copied(table, folder) for table in sorted(content.folder.glob("*.csv"))]
-    name, data = _file(content, wanted)
-    recording.write_bytes_atomic(folder / name, data)
-    return [folder / name]
-
-
-def _file(content: SweepContent, wanted: ReportFormat) -> tuple[str, bytes]:
-    if wanted is ReportFormat.HTML:
-        from uictest.report.page import sweep_page_html
-
-        return "index.html", sweep_page_html(content).encode()
-    if wanted is ReportFormat.XLSX:
-        from uictest.report.sweep.workbook import sweep_workbook_bytes
-
-        return "report.xlsx", sweep_workbook_bytes(content)
-    from uictest.report.sweep.markdown import sweep_markdown
-
-    return "summary.md", sweep_markdown(content).encode()
+def _write(folder: Path, content: SweepContent, name: str) -> list[Path]:
+    if name == _TABLES:
+        return [_copied(path, folder) for path in sorted(content.folder.glob("*.csv"))]
+    file, to_bytes = _WRITERS[name]
+    recording.write_bytes_atomic(folder / file, to_bytes(content))
+    return [folder / file]
 
 
 def _copied(table: Path, folder: Path) -> Path:

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from uictest.report.markdown_table import MarkdownTable, row
-from uictest.report.markdown_text import code, figure, prose
-from uictest.report.step_summary import LIMIT, append_to_step_summary
+from uictest.report.github import LIMIT, append_to_step_summary
+from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
 from uictest.report.sweep.bundles import bundled, is_large
 from uictest.report.sweep.notable import NotableCase, notable_cases
 from uictest.report.sweep.wording import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-from uictest.report.csv_table import Cell
+from uictest.report.csv_text import Cell
 
 TREND_COLUMNS: Final = ("parameter", "value", "measure", "unit", "cases", "minimum", "mean", "maximum")
 

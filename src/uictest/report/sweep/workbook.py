@@ -6,13 +6,13 @@ import io
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from uictest.report.formats.xlsx import manifest_rows, parameter_rows, result_row
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.trends import trend_rows
 from uictest.report.sweep.wording import swept_words
-from uictest.report.workbook import manifest_rows, parameter_rows, result_row
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent

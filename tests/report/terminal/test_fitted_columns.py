@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.text_table import Column, aligned, columns_not_shown, fitted, wrapped_name
+from uictest.report.terminal.fitted_columns import Column, aligned, columns_not_shown, fitted, wrapped_name
 
 LONG = (
     "a-stop[rail.friction=0.10,brake.command=100 %,controller.slip_threshold=0.80,initial_speed=120 km-h,x=1]"

@@ -8,8 +8,8 @@ import pytest
 
 from uictest.evaluation import CaseResult, Verdict
 from uictest.report import CaseDescription, RunContent
+from uictest.report.formats.xlsx import workbook_bytes
 from uictest.report.sheet import LONGEST_TEXT
-from uictest.report.workbook import workbook_bytes
 
 openpyxl = pytest.importorskip("openpyxl")
 

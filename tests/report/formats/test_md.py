@@ -8,8 +8,8 @@ from markdown_it import MarkdownIt
 
 from uictest.evaluation import CaseResult
 from uictest.report import CaseDescription, RunContent, append_step_summary
-from uictest.report.markdown import markdown_summary
-from uictest.report.step_summary import LIMIT
+from uictest.report.formats.md import markdown_summary
+from uictest.report.github import LIMIT
 
 MakeResult = Callable[..., CaseResult]
 MakeContent = Callable[..., RunContent]

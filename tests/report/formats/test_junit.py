@@ -4,7 +4,7 @@ from collections.abc import Callable
 from xml.etree import ElementTree
 
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report.junit import junit_xml
+from uictest.report.formats.junit import junit_xml
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

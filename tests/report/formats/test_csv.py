@@ -5,7 +5,7 @@ import io
 from collections.abc import Callable
 
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report.tables import criteria_csv, summary_csv, wheelsets_csv
+from uictest.report.formats.csv import criteria_csv, summary_csv, wheelsets_csv
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

@@ -12,13 +12,13 @@ import pytest
 
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, junit_xml, part_lines, run_manifest
-from uictest.report.markdown import markdown_summary
+from uictest.report.formats.csv import summary_csv
+from uictest.report.formats.md import markdown_summary
+from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.parameter_tables import shown_parts
-from uictest.report.parameters import changed_parameters, part_sentences
+from uictest.report.part_wording import changed_parameters, part_sentences
 from uictest.report.sweep.content import SweepContent
-from uictest.report.tables import summary_csv
-from uictest.report.workbook import parameter_rows
 
 MakeResult = Callable[..., CaseResult]
 MakeContent = Callable[..., RunContent]

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.evaluation import CaseResult
-from uictest.report.junit import junit_xml
+from uictest.report.formats.junit import junit_xml
 
 MakeResult = Callable[..., CaseResult]
 

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from uictest import evaluation
-from uictest.report.baseline import case_explanation, case_word, difference_sentences
+from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
+from uictest.report.content import RunContent
+from uictest.report.difference import Difference
 from uictest.report.escaping import xml_text
-from uictest.report.parameters import changes_line
+from uictest.report.format_registry import ReportFormat
+from uictest.report.part_wording import changes_line
 from uictest.report.wording import DIFFERS
-
-if TYPE_CHECKING:
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.difference import Difference
 
 
 def junit_xml(results: Sequence[evaluation.CaseResult], baseline: BaselineComparison | None = None) -> str:
@@ -87,3 +85,10 @@ def _child_tag(result: evaluation.CaseResult, *, differs: bool) -> str | None:
 def _dotted(scenario: str) -> str:
     path = PurePosixPath(scenario)
     return ".".join(part for part in path.with_suffix("").parts if part not in ("/", "..", "."))
+
+
+def _files(content: RunContent) -> dict[str, bytes]:
+    return {"junit.xml": junit_xml(content.results, content.baseline).encode()}
+
+
+FORMAT = ReportFormat(_files)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
-from uictest.report.text_table import Column, columns_not_shown, fitted
+from uictest.report.terminal.fitted_columns import Column, columns_not_shown, fitted
 from uictest.report.wording import DIFFERS, criterion_sentences
 
 if TYPE_CHECKING:

@@ -6,19 +6,17 @@ import dataclasses
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest.report.content import RunContent
+from uictest.report.difference import Difference
+from uictest.report.format_registry import ReportFormat
+from uictest.report.formats.csv import CHANGED, criterion_cells
 from uictest.report.manifest import manifest_form
-from uictest.report.parameters import changed_parameters
+from uictest.report.part_wording import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.tables import CHANGED, criterion_cells
 from uictest.report.wording import definition_sentence
-
-if TYPE_CHECKING:
-    from uictest.report.content import RunContent
-    from uictest.report.difference import Difference
 
 
 def workbook_bytes(content: RunContent) -> bytes:
@@ -143,3 +141,10 @@ def manifest_rows(manifest: Mapping[str, object]) -> Iterator[Row]:
                 yield {"what": f"{name}: {key}", "value": str(text)}
         else:
             yield {"what": name, "value": value if isinstance(value, str) else json.dumps(value)}
+
+
+def _files(content: RunContent) -> dict[str, bytes]:
+    return {"report.xlsx": workbook_bytes(content)}
+
+
+FORMAT = ReportFormat(_files)

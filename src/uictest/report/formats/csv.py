@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from uictest import evaluation
-from uictest.report.csv_table import Cell, csv_text
-from uictest.report.parameters import changed_parameters
+from uictest.report.content import RunContent
+from uictest.report.csv_text import Cell, csv_text
+from uictest.report.format_registry import ReportFormat
+from uictest.report.part_wording import changed_parameters
 from uictest.report.wording import definition_sentence
 
 CHANGED = "changed_parameters"
@@ -74,3 +76,15 @@ def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
 
 def _names(figures: Any) -> list[str]:
     return [field.name for field in dataclasses.fields(figures)]
+
+
+def _files(content: RunContent) -> dict[str, bytes]:
+    results = content.results
+    return {
+        "summary.csv": summary_csv(results).encode(),
+        "wheelsets.csv": wheelsets_csv(results).encode(),
+        "criteria.csv": criteria_csv(results).encode(),
+    }
+
+
+FORMAT = ReportFormat(_files)

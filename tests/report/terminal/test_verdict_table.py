@@ -10,7 +10,7 @@ from rich.text import Text
 
 from uictest.evaluation import CaseResult, Verdict
 from uictest.report import RunContent
-from uictest.report.table import explanation_text, verdict_table
+from uictest.report.terminal.verdict_table import explanation_text, verdict_table
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import printable
-from uictest.report.parameters import part_sentences
+from uictest.report.part_wording import part_sentences
 from uictest.report.wording import DIFFERS, criterion_sentences, definition_sentence, listed, number
 
 if TYPE_CHECKING:

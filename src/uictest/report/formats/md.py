@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from uictest import evaluation
-from uictest.report.baseline import baseline_summary, not_compared_sentences
-from uictest.report.difference import value_text, worst_of_wheelsets
-from uictest.report.markdown_table import MarkdownTable, row
-from uictest.report.markdown_text import code, figure, prose
-from uictest.report.parameters import changed_parameters
-from uictest.report.step_summary import LIMIT, append_to_step_summary
-
-if TYPE_CHECKING:
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.content import RunContent
-    from uictest.report.difference import Difference
+from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
+from uictest.report.content import RunContent
+from uictest.report.difference import Difference, value_text, worst_of_wheelsets
+from uictest.report.format_registry import ReportFormat
+from uictest.report.github import LIMIT, append_to_step_summary
+from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
+from uictest.report.part_wording import changed_parameters
 
 _FIGURES = {
     "braking_distance_m": ".1f",
@@ -82,3 +77,10 @@ def _row(content: RunContent, result: evaluation.CaseResult) -> str:
     changed = prose("; ".join(changed_parameters(result.parts)))
     cells = (word if passes else f"**{word}**", code(result.id), outcome, *figures, changed, why)
     return row(cells)
+
+
+def _files(content: RunContent) -> dict[str, bytes]:
+    return {"summary.md": markdown_summary(content).encode()}
+
+
+FORMAT = ReportFormat(_files)

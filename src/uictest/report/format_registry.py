@@ -1,0 +1,52 @@
+"""The formats that a run can be reported in: every module of `formats/` is one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Final
+
+from uictest import recording
+from uictest.report import formats
+from uictest.report.content import RunContent
+
+IN_EVERY_RUN: Final = ("csv", "junit")
+"""Formats that the folder of a run has without being asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReportFormat:
+    """A format; a module of `formats/` registers its own under the name `FORMAT`.
+
+    Args:
+        files: returns the files that a run becomes, by their names.
+        draws_stops: whether it draws stops, so that a report needs their traces.
+
+    """
+
+    files: Callable[[RunContent], Mapping[str, bytes]]
+    draws_stops: bool = False
+
+
+def format_named(name: str) -> ReportFormat:
+    """Return a format of `formats.format_names()`."""
+    registered: ReportFormat = import_module(f"{formats.__name__}.{name}").FORMAT
+    return registered
+
+
+def draws_stops(names: Iterable[str]) -> bool:
+    """Return whether any of these formats draws stops."""
+    return any(format_named(name).draws_stops for name in names)
+
+
+def write_formats(folder: Path, content: RunContent, names: Iterable[str]) -> list[Path]:
+    """Write a run in some formats into a folder, and return the files. Raises OSError."""
+    return [path for name in names for path in _write(folder, format_named(name).files(content))]
+
+
+def _write(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
+    for name, content in files.items():
+        recording.write_bytes_atomic(folder / name, content)
+    return [folder / name for name in files]

@@ -1,0 +1,1 @@
+"""Results on a terminal: a table where a person reads, lines elsewhere."""
