@@ -42,10 +42,10 @@ import sys
 sys.modules["numba"] = None
 from pathlib import Path
 import numpy as np
-from uictest.rig.backends.lanes import is_warm, run_batch
-assert is_warm()
+from uictest.rig.backends.lanes import lanes_are_warm, run_in_lanes
+assert lanes_are_warm()
 parameters, rail = (np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "rail"))
-print(run_batch(parameters, rail).measures.tobytes().hex())
+print(run_in_lanes(parameters, rail).measures.tobytes().hex())
 """
 
 
