@@ -22,10 +22,9 @@ from uictest.scenario.parts.measures import MeasureDefinitions
 from uictest.scenario.parts.rail import RailCondition
 from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.parts.vehicle import Vehicle
-from uictest.scenario.yaml.model import Part
-from uictest.scenario.yaml.physical import Physical
+from uictest.scenario.yaml.model import Part, PartReference
 from uictest.scenario.yaml.quantities import Quantity
-from uictest.scenario.yaml.reference_schema import PartReference
+from uictest.scenario.yaml.quantity_field import QuantityField
 from uictest.sweep.plan.model import Distribution, Sample
 from uictest.units import KINDS
 
@@ -161,9 +160,9 @@ def _form(field: FieldInfo) -> str:
     return _form_of(field.annotation, _physical(field))
 
 
-def _physical(field: FieldInfo) -> Physical | None:
+def _physical(field: FieldInfo) -> QuantityField | None:
     marks = [*field.metadata, *_marks(field.annotation)]
-    return next((mark for mark in marks if isinstance(mark, Physical)), None)
+    return next((mark for mark in marks if isinstance(mark, QuantityField)), None)
 
 
 def _marks(annotation: Any) -> Iterator[Any]:
@@ -174,7 +173,7 @@ def _marks(annotation: Any) -> Iterator[Any]:
             yield from _marks(inner)
 
 
-def _form_of(annotation: Any, physical: Physical | None) -> str:
+def _form_of(annotation: Any, physical: QuantityField | None) -> str:
     if physical is not None:
         words = _quantity(physical)
         count = _spread(annotation).count(Quantity)
@@ -183,7 +182,7 @@ def _form_of(annotation: Any, physical: Physical | None) -> str:
     return " or ".join(dict.fromkeys(form for form in forms if form)) or "text"
 
 
-def _quantity(physical: Physical) -> str:
+def _quantity(physical: QuantityField) -> str:
     kind = physical.kind
     if kind.bare:
         return "whole number" if kind.name == "count" else "number"

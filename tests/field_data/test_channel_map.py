@@ -83,7 +83,7 @@ def test_states_by_name(tmp_path: Path) -> None:
         ("channels: {speed: {source: v, sign: 2}}\n", "sign"),
         ("channels: {speed: {source: v, scale: .inf}}\n", "scale"),
         ("channels: {speed: v}\npreparation: {raster: 10}\n", "has no unit"),
-        ("extends: mine.yaml\nchannels: {speed: v}\n", "circle"),
+        ("extends: mine.yaml\nchannels: {speed: v}\n", "circular"),
         ("extends: nothing\nchannels: {speed: v}\n", "no channel map 'nothing'"),
         ("channels: {speed: !!python/name:os.system v}\n", "tag"),
         ("channels: &a {speed: *a}\n", ""),

@@ -17,8 +17,8 @@ Row = tuple[str, str | bytes, int, int, str, str, str]
 SHAPE: list[Row] = [
     ("empty file", "", 1, 1, "", "the file is empty", "schema"),
     ("only comments", "# nothing\n", 1, 1, "", "the file is empty", "schema"),
-    ("list at top level", "- a\n- b\n", 1, 1, "", "must hold a mapping", "schema"),
-    ("scalar at top level", "stop", 1, 1, "", "must hold a mapping", "schema"),
+    ("list at top level", "- a\n- b\n", 1, 1, "", "must contain a mapping", "schema"),
+    ("scalar at top level", "stop", 1, 1, "", "must contain a mapping", "schema"),
     ("binary garbage", b"name: \xff\xfe\x00", 1, 7, "", "0xff is not UTF-8", "UTF-8"),
     ("UTF-16", "name: x\n".encode("utf-16"), 1, 1, "", "0xff is not UTF-8", "UTF-8"),
     ("control character", HEAD + "title: \x1b[31m\n", 4, 8, "", "'\\x1b' is not allowed", "text file"),
@@ -391,11 +391,11 @@ SWEEPS: list[Row] = [
     ("axis without a name", HEAD + "matrix: {rail.: [1]}\n", 4, 10, "", "'rail.' is not a key", "dots"),
     ("name as an axis", HEAD + "matrix: {name: [a]}\n", 4, 10, "name", "cannot vary", ""),
     ("a wrong value", HEAD + "matrix: {rail.friction: [0.1, 2]}\n", 4, 31, "rail.friction", "at most 1", ""),
-    ("a value twice", HEAD + "matrix: {seed: [1, 1]}\n", 4, 20, "seed", "'1' is there twice", "line 4"),
+    ("a value twice", HEAD + "matrix: {seed: [1, 1]}\n", 4, 20, "seed", "'1' appears twice", "line 4"),
     (
         "a value twice under a key that is not the last",
         HEAD + "matrix:\n  rail.friction: [0.1, 0.2, 0.1]\n  brake.command: [80 %, 90 %]\n",
-        *(5, 29, "rail.friction", "'0.1' is there twice", "line 5"),
+        *(5, 29, "rail.friction", "'0.1' appears twice", "line 5"),
     ),
     (
         "a case included twice",
@@ -440,7 +440,7 @@ SWEEPS: list[Row] = [
         "no case",
         "",
     ),
-    ("exclude all", HEAD + "matrix: {seed: [1]}\nexclude: [{seed: 1}]\n", 5, 1, "", "no case is left", ""),
+    ("exclude all", HEAD + "matrix: {seed: [1]}\nexclude: [{seed: 1}]\n", 5, 1, "", "no case remains", ""),
     (
         "a million cases",
         HEAD + "matrix:\n" + "".join(f"  a{n}: [{', '.join('0123456789')}]\n" for n in range(6)),

@@ -118,7 +118,7 @@ def test_two_profiles_cannot_have_criteria_of_the_same_name(
 
     (by_name,) = refused(f"{head}criteria:\n- a.yaml\n- uictest-stop\n- a.yaml\n")
     assert (by_name.line, by_name.column, by_name.key) == (7, 3, "criteria.2.criteria.0.id")
-    assert by_name.message == "criterion 'same' of profile 'a' is in profile 'a', too"
+    assert by_name.message == "criterion 'same' of profile 'a' is in profile 'a' as well"
 
     (inline,) = refused(f"{head}criteria:\n- a.yaml\n- {{name: b, criteria: [{CRITERION}]}}\n")
-    assert (inline.line, inline.message) == (6, "criterion 'same' of profile 'b' is in profile 'a', too")
+    assert (inline.line, inline.message) == (6, "criterion 'same' of profile 'b' is in profile 'a' as well")

@@ -1,4 +1,3 @@
-from .case import Case as Case
 from .discovery import SWEEP_SUFFIXES as SWEEP_SUFFIXES, link_outside as link_outside
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
@@ -16,7 +15,7 @@ from .library_parts import (
     numbers as numbers,
 )
 from .loading import load as load
-from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Scenario as Scenario, Slug as Slug
+from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
 from .part_keys import PART_KEYS as PART_KEYS, with_default_parts as with_default_parts
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem
@@ -33,9 +32,8 @@ from .rail_friction import (
     changed_alone as changed_alone,
     sets_friction as sets_friction,
 )
-from .references import Files as Files, Parts as Parts, is_path as is_path
+from .references import Files as Files, Parts as Parts, Roots as Roots, is_path as is_path
 from .resolution import resolve as resolve
-from .roots import Roots as Roots
 from .values import (
     DESCRIPTIVE as DESCRIPTIVE,
     Value as Value,

@@ -22,27 +22,27 @@ _OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
 
 
 def scenario_trees(
-    paths: Sequence[Path], files: Files, found: list[Diagnostic]
+    paths: Sequence[Path], files: Files, diagnostics: list[Diagnostic]
 ) -> Iterator[tuple[Path, Map]]:
-    """Yield the tree of every scenario file at or below ``paths``, once and in order; errors go to ``found``.
+    """Yield the tree of every scenario file at or below ``paths``, once and in order; append errors.
 
-    A folder is searched for ``*.yaml`` and ``*.yml``, less campaigns (``*.sweep.yaml``), files of parts,
-    bench recipes and channel maps, hidden files, and files that begin with an underscore, which are parents
-    only. A file that is named is always read.
+    A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), parts, bench
+    recipes, channel maps, hidden files, and files that begin with an underscore (parents only). A file that
+    is named explicitly is always read.
     """
     seen: set[str] = set()
-    for path, named in _candidates(paths, found):
+    for path, named in _candidates(paths, diagnostics):
         key = os.path.abspath(path)  # noqa: PTH100 - the same file under two spellings, links left alone
         if key in seen:
             continue
         seen.add(key)
         if not named and not files.roots.contain(path):
-            found.append(link_outside(path))
+            diagnostics.append(link_outside(path))
             continue
         try:
             tree = files.at(path)
         except ScenarioErrors as errors:
-            found.extend(errors.diagnostics)
+            diagnostics.extend(errors.diagnostics)
             if not isinstance(errors.salvaged, Map):
                 continue
             tree = errors.salvaged
@@ -51,22 +51,22 @@ def scenario_trees(
 
 
 def link_outside(path: Path) -> Diagnostic:
-    """What to say of a file in a given folder that is a link to somewhere else: it is not read."""
+    """The error of a file in a given folder that is a link to a place outside: it is not read."""
     return diagnose(whole_file(path), "a link that leads out of the folders given", hint=trust_hint(path))
 
 
-def _candidates(paths: Sequence[Path], found: list[Diagnostic]) -> Iterator[tuple[Path, bool]]:
+def _candidates(paths: Sequence[Path], diagnostics: list[Diagnostic]) -> Iterator[tuple[Path, bool]]:
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for names that are too long
             yield path, True
             continue
-        for inside in _below(path, found):
+        for inside in _below(path, diagnostics):
             yield inside, False
 
 
-def _below(folder: Path, found: list[Diagnostic]) -> list[Path]:
+def _below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
     def report(error: OSError) -> None:
-        found.extend(unreadable_error(whole_file(Path(error.filename or folder)), error).diagnostics)
+        diagnostics.extend(unreadable_error(whole_file(Path(error.filename or folder)), error).diagnostics)
 
     inside: list[Path] = []
     for parent, folders, names in os.walk(folder, onerror=report):

@@ -18,6 +18,7 @@ from uictest.scenario.yaml import (
     describe,
     diagnose,
     quoted,
+    short_example,
     suggestion,
 )
 
@@ -35,7 +36,7 @@ class Setting:
 
 
 Variant = tuple[Setting, ...]
-"""What distinguishes one case of a scenario: nothing at all when the scenario is not swept."""
+"""The settings that distinguish one case of a scenario; empty if it is not swept."""
 
 
 def expand(tree: Map) -> list[Variant]:
@@ -43,36 +44,36 @@ def expand(tree: Map) -> list[Variant]:
 
     Raises ScenarioErrors with every error of the four sections.
     """
-    found: list[Diagnostic] = []
-    variants = expand_sound(tree, found)
-    if found:
-        raise ScenarioErrors(found)
+    diagnostics: list[Diagnostic] = []
+    variants = expand_sound(tree, diagnostics)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
     return variants
 
 
-def expand_sound(tree: Map, found: list[Diagnostic]) -> list[Variant]:
-    """As :func:`expand`, but errors go to ``found`` and the cases are those of what is sound.
+def expand_sound(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
+    """As :func:`expand`, but append errors to ``diagnostics`` and return the cases of the valid values.
 
-    Where there are too many, each value occurs in one case at least.
+    If there are too many, every value occurs in at least one case.
     """
-    matrix, zipped = _axes(tree, "matrix", found), _axes(tree, "zip", found)
-    include, exclude = _listed(tree, "include", found), _listed(tree, "exclude", found)
-    found.extend(chain(_unequal(zipped), _in_both(matrix, zipped)))
+    matrix, zipped = _axes(tree, "matrix", diagnostics), _axes(tree, "zip", diagnostics)
+    include, exclude = _listed(tree, "include", diagnostics), _listed(tree, "exclude", diagnostics)
+    diagnostics.extend(chain(_unequal(zipped), _in_both(matrix, zipped)))
     too_many = list(_too_many(tree, matrix, zipped))
     if too_many:
-        found.extend(too_many)
+        diagnostics.extend(too_many)
         return [*_one_at_a_time([*matrix, *zipped]), *_included(include)]
     variants = _combined(matrix, zipped, alone=not include)
     swept = _keys_under(tree, "matrix") | _keys_under(tree, "zip")
-    variants = _without_excluded(variants, exclude, swept, found)
+    variants = _without_excluded(variants, exclude, swept, diagnostics)
     variants.extend(_included(include))
-    if not variants and not found:
-        found.append(_none_left(tree))
+    if not variants and not diagnostics:
+        diagnostics.append(_no_case(tree))
     return variants
 
 
 def distinct(variants: list[Variant]) -> list[Variant]:
-    """The cases less those that repeat an earlier one."""
+    """The cases without those that repeat an earlier one."""
     by_values = {_values(variant): variant for variant in reversed(variants)}
     return [variant for variant in variants if by_values[_values(variant)] is variant]
 
@@ -84,40 +85,45 @@ def _values(variant: Variant) -> frozenset[tuple[str, str]]:
 Axis = tuple[Setting, ...]
 
 
-def _axes(tree: Map, section: str, found: list[Diagnostic]) -> list[Axis]:
+def _axes(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Axis]:
     node = _section(tree, section)
     if node is None:
         return []
     if not isinstance(node, Map) or not node.entries:
         what = "an empty mapping" if isinstance(node, Map) else describe(node)
-        found.append(_malformed(node, section, f"expected lists of values by dotted key, found {what}"))
+        diagnostics.append(_malformed(node, section, f"expected lists of values by dotted key, found {what}"))
         return []
-    return [axis for key, entry in node.entries.items() if (axis := _axis(section, key, entry, found))]
+    return [axis for key, entry in node.entries.items() if (axis := _axis(section, key, entry, diagnostics))]
 
 
-def _axis(section: str, key: str, entry: Entry, found: list[Diagnostic]) -> Axis:
+def _axis(section: str, key: str, entry: Entry, diagnostics: list[Diagnostic]) -> Axis:
     if not isinstance(entry.node, Sequence):
         message = f"expected a list of values, found {describe(entry.node)}"
-        found.append(
-            diagnose(entry.node.place, message, f"{section}.{key}", f"write [{as_written(entry.node)}]"[:80])
+        diagnostics.append(
+            diagnose(
+                entry.node.place,
+                message,
+                f"{section}.{key}",
+                short_example(f"write [{as_written(entry.node)}]"),
+            )
         )
         return (Setting(key, entry, 1),)
     if not entry.node.items:
-        found.append(diagnose(entry.node.place, "an empty list makes no case", f"{section}.{key}"))
+        diagnostics.append(diagnose(entry.node.place, "an empty list makes no case", f"{section}.{key}"))
         return ()
     return tuple(
         Setting(key, Entry(entry.key, item), number) for number, item in enumerate(entry.node.items, start=1)
     )
 
 
-def _listed(tree: Map, section: str, found: list[Diagnostic]) -> list[Map]:
+def _listed(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Map]:
     node = _section(tree, section)
     if node is None:
         return []
     if not isinstance(node, Sequence):
-        found.append(_malformed(node, section, f"expected a list of mappings, found {describe(node)}"))
+        diagnostics.append(_malformed(node, section, f"expected a list of mappings, found {describe(node)}"))
         return []
-    found.extend(
+    diagnostics.extend(
         _malformed(item, section, f"expected a mapping of dotted keys to values, found {describe(item)}")
         for item in node.items
         if not isinstance(item, Map) or not item.entries
@@ -174,7 +180,7 @@ def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Dia
 def _combined(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
     if not matrix and not zipped:
         return [()] if alone else []
-    # Lists of unequal length are refused by now; the part they have in common is checked all the same.
+    # Unequal lengths are already reported; the rows that all lists have are checked nevertheless.
     rows: list[Variant] = list(zip(*zipped, strict=False)) if zipped else [()]
     return [(*combination, *row) for combination in product(*matrix) for row in rows]
 
@@ -194,25 +200,25 @@ def _included(include: list[Map]) -> Iterator[Variant]:
 
 
 def _without_excluded(
-    variants: list[Variant], exclude: list[Map], swept: set[str], found: list[Diagnostic]
+    variants: list[Variant], exclude: list[Map], swept: set[str], diagnostics: list[Diagnostic]
 ) -> list[Variant]:
-    sound = not found
+    sound = not diagnostics
     by_keys: dict[frozenset[str], _ByValues] = {}
     excluded: set[int] = set()
     for item in exclude:
         unknown = [key for key in item.entries if key not in swept]
         for key in unknown:
             message = f"{quoted(key)} is not swept, so no case has it"
-            found.append(diagnose(item.entries[key].key, message, "exclude", suggestion(key, swept)))
+            diagnostics.append(diagnose(item.entries[key].key, message, "exclude", suggestion(key, swept)))
         if unknown:
             continue
         keys = frozenset(item.entries)
         if keys not in by_keys:
             by_keys[keys] = _by_values(variants, keys)
-        # Taken out: whoever excludes the same once more excludes nothing.
+        # Popped, so that a repeated exclusion matches no case.
         matches = set(by_keys[keys].pop(_values_of_item(item), ())) - excluded
         if not matches and sound:
-            found.append(diagnose(item.place, "no case has these values", "exclude"))
+            diagnostics.append(diagnose(item.place, "no case has these values", "exclude"))
         excluded |= matches
     return [variant for place, variant in enumerate(variants) if place not in excluded]
 
@@ -240,6 +246,6 @@ def _comparable(node: Node) -> object:
     return "".join(as_written(node).split())
 
 
-def _none_left(tree: Map) -> Diagnostic:
+def _no_case(tree: Map) -> Diagnostic:
     entry = next(tree.entries[section] for section in reversed(EXPANSION_KEYS) if section in tree.entries)
-    return diagnose(entry.key, "no case is left")
+    return diagnose(entry.key, "no case remains")

@@ -1,4 +1,4 @@
-"""Case ids: the scenario's name and what distinguishes the case, in characters safe for file names."""
+"""Case ids: the scenario's name and the settings of the case, in characters safe for file names."""
 
 import re
 from pathlib import PurePosixPath
@@ -22,7 +22,7 @@ def case_id(name: str, variant: Variant, short: dict[str, str]) -> str:
 
 
 def short_keys(keys: list[str]) -> dict[str, str]:
-    """The last part of every dotted key, or as long a tail as tells it from the others."""
+    """The last part of every dotted key, or the shortest tail that is unique."""
     return {key: _shortest_tail(key, [other for other in keys if other != key]) for key in keys}
 
 
@@ -36,7 +36,7 @@ def _shortest_tail(key: str, others: list[str]) -> str:
 
 
 def value_label(setting: Setting) -> str:
-    """The value as written, less blanks, slashes, per cent signs and what else a file name may not hold."""
+    """The value as written, without the characters that a file name must not contain."""
     text = _name(setting)
     return _UNSAFE.sub("", text) or f"value{setting.number}"
 

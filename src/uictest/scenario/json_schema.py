@@ -5,7 +5,7 @@ from typing import Any, Final
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.scenario.model import Scenario
-from uictest.scenario.yaml import QUANTITY_KEYWORD, Physical, Quantity, written
+from uictest.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written
 from uictest.units import KINDS
 
 SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"
@@ -44,7 +44,7 @@ def _loosen(schema: dict[str, Any]) -> None:
 
 def _quantity_definitions() -> dict[str, Any]:
     return {
-        _definition_name(name): Physical(kind).value_or_marked()
+        _definition_name(name): QuantityField(kind).value_or_marked()
         for name, kind in KINDS.items()
         if not kind.bare
     }

@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, folder_of
-from uictest.scenario.roots import Roots
+from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, Roots, folder_of
 from uictest.scenario.yaml import (
     Document,
     Key,
@@ -30,7 +29,7 @@ class Number(NamedTuple):
 
 
 def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
-    """The part that a file describes, whatever kind it is of.
+    """The part that a file describes, of any kind.
 
     References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
     ScenarioErrors.
@@ -40,10 +39,10 @@ def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
     schema = tree.get("schema")
     models = {f"uictest/{KIND_OF_FOLDER[folder_of(each.model)]}/1": each.model for each in PART_KEYS.values()}
     if not isinstance(schema, Scalar) or schema.text not in models:
-        found = quoted(schema.text) if isinstance(schema, Scalar) else "none"
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else "none"
         place = tree.place if schema is None else schema.place
         raise single_error(
-            place, f"not a part: its schema is {found}", "schema", f"accepted: {', '.join(models)}"
+            place, f"not a part: its schema is {schema_text}", "schema", f"accepted: {', '.join(models)}"
         )
     name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
     part: Part = Parts(files).resolve(name, models[schema.text], ()).part

@@ -1,20 +1,18 @@
-"""Files to cases."""
+"""From files to cases."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from uictest.scenario.case import Case
 from uictest.scenario.discovery import scenario_trees
 from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_sound
 from uictest.scenario.identifiers import LONGEST, case_id, short_keys
-from uictest.scenario.model import SCENARIO_SCHEMA
+from uictest.scenario.model import SCENARIO_SCHEMA, Case
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.rail_friction import changed_alone, overridden_alone
-from uictest.scenario.references import Files, Parts
+from uictest.scenario.references import Files, Parts, Roots
 from uictest.scenario.resolution import resolve
-from uictest.scenario.roots import Roots
 from uictest.scenario.yaml import (
     Diagnostic,
     Document,
@@ -56,11 +54,11 @@ def load(
     loader = _Loader(Files(Roots.of(paths, trusted)), parsed)
     cases = [
         case
-        for path, tree in scenario_trees(paths, loader.files, loader.found)
+        for path, tree in scenario_trees(paths, loader.files, loader.diagnostics)
         for case in loader.cases(path, tree)
     ]
-    if loader.found:
-        raise ScenarioErrors(in_reading_order(loader.found))
+    if loader.diagnostics:
+        raise ScenarioErrors(in_reading_order(loader.diagnostics))
     return cases
 
 
@@ -76,42 +74,42 @@ class _Stem:
 
 
 class _Loader:
-    """Loads scenario after scenario, gathering errors instead of stopping at one."""
+    """Loads one scenario after another and collects the errors of all."""
 
     def __init__(self, files: Files, overrides: tuple[Override, ...]) -> None:
         self.files = files
         self.parts = Parts(files)
         self.overrides = overrides
-        self.found: list[Diagnostic] = []
-        self.taken: dict[str, _Stem] = {}
+        self.diagnostics: list[Diagnostic] = []
+        self.stems: dict[str, _Stem] = {}
 
     def cases(self, path: Path, tree: Map) -> Iterator[Case]:
         """Yield the cases of one file, as far as they are without errors."""
         try:
             stem, variants = self._stem(path, tree)
         except ScenarioErrors as errors:
-            self.found.extend(errors.diagnostics)
+            self.diagnostics.extend(errors.diagnostics)
             return
         for variant in variants:
             try:
                 yield self._case(stem, variant)
             except ScenarioErrors as errors:
-                self.found.extend(errors.diagnostics)
+                self.diagnostics.extend(errors.diagnostics)
 
     def _stem(self, path: Path, tree: Map) -> tuple[_Stem, list[Variant]]:
-        _refuse_other_schema(tree)
+        _require_scenario_schema(tree)
         own_name = tree.entries.get("name")
         merged, documents = inherit(
-            tree, self._parent, lambda parent, child: self.found.extend(changed_alone(parent, child))
+            tree, self._parent, lambda parent, child: self.diagnostics.extend(changed_alone(parent, child))
         )
-        # Every scenario has a name of its own: an inherited one would be there twice.
+        # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged = with_default_parts(merged)
-        self.found.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
+        self.diagnostics.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
         merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
         base = merged.without(*EXPANSION_KEYS)
-        # Errors of the sweep do not hide those of its values: what is sound is checked all the same.
-        variants = expand_sound(merged, self.found)
+        # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
+        variants = expand_sound(merged, self.diagnostics)
         if self.overrides:
             variants = distinct(
                 variants
@@ -121,7 +119,7 @@ class _Loader:
 
     def _parent(self, reference: Scalar) -> Map:
         tree = self.files.beside(reference, "extends")
-        _refuse_other_schema(tree)
+        _require_scenario_schema(tree)
         return tree
 
     def _case(self, stem: _Stem, variant: Variant) -> Case:
@@ -135,37 +133,37 @@ class _Loader:
         )
 
     def _varied(self, base: Map, variant: Variant) -> Map:
-        """The tree with the values of one case; what cannot be set is reported and left out."""
+        """The tree with the values of one case; settings that fail are reported and skipped."""
         tree = base
         # From the outside in, so that a part is named before something inside it is changed.
         for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
             try:
                 tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
             except ScenarioErrors as errors:
-                self.found.extend(errors.diagnostics)
-        self.found.extend(changed_alone(base, tree))
+                self.diagnostics.extend(errors.diagnostics)
+        self.diagnostics.extend(changed_alone(base, tree))
         return tree
 
     def _claimed(self, identifier: str, stem: _Stem, variant: Variant) -> str:
-        """The id, unless it is too long or another case has it."""
+        """The id. Raises ScenarioErrors if it is too long or another case has it."""
         name = stem.tree.entries["name"].node.place
         place = variant[-1].value.node.place if variant else name
         if len(identifier) > LONGEST:
             raise single_error(
                 place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
             )
-        other = self.taken.setdefault(identifier, stem)
+        other = self.stems.setdefault(identifier, stem)
         if other is not stem:
             message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
             raise single_error(name, message, "name", "give every scenario a name of its own")
         if identifier in stem.ids:
-            raise _refuse_second(identifier, variant, stem.ids[identifier])
+            raise _duplicate_id(identifier, variant, stem.ids[identifier])
         stem.ids[identifier] = variant
         return identifier
 
 
-def _refuse_second(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
-    """Refuse a second case of one id: at the value that a list holds twice, else at the case."""
+def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
+    """The error of a second case with the same id: at the value that a list repeats, else at the case."""
     of_first = {setting.key: setting for setting in first}
     pairs = [(setting, of_first[setting.key]) for setting in variant if setting.key in of_first]
     others = [(one, other) for one, other in pairs if one.value.node is not other.value.node]
@@ -173,30 +171,30 @@ def _refuse_second(identifier: str, variant: Variant, first: Variant) -> Scenari
     message, key = f"a second case {quoted(identifier)}", ""
     if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
         message, key = _twice(setting.value.node, twin.value.node), setting.key
-    hint = f"take one out; the first stands in line {twin.value.node.place.line}"
+    hint = f"remove one; the first is in line {twin.value.node.place.line}"
     return single_error(setting.value.node.place, message, key, hint)
 
 
 def _twice(node: Node, twin: Node) -> str:
     one, other = quoted(as_written(node)), quoted(as_written(twin))
-    return f"{one} is there twice" if one == other else f"{one} and {other} make the same case id"
+    return f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
 
 
 _COMMANDS = {
     "uictest/sweep/1": "a sweep is run with `uictest sweep`",
     "uictest/bench/1": "a bench test is run with `uictest bench`",
 }
-"""What runs files that are no scenarios."""
+"""Schema of another kind of file -> how to run it."""
 
 
-def _refuse_other_schema(tree: Map) -> None:
+def _require_scenario_schema(tree: Map) -> None:
     schema = tree.get("schema")
     if schema is None:
         raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
     if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
-        found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
         hint = _COMMANDS.get(schema.text, "") if isinstance(schema, Scalar) else ""
-        raise single_error(schema.place, f"expected {SCENARIO_SCHEMA}, found {found}", "schema", hint)
+        raise single_error(schema.place, f"expected {SCENARIO_SCHEMA}, found {schema_text}", "schema", hint)
 
 
 def _inputs(documents: Iterable[Document]) -> dict[str, str]:

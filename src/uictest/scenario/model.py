@@ -1,38 +1,33 @@
-"""The scenario: what a user writes, defaults filled in, units canonical."""
+"""The scenario: what a user writes, defaults filled in, units canonical; and the case: one of its stops."""
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from uictest.physics import LONGEST_DELAY_CYCLES
-from uictest.scenario.braking import (
+from uictest.scenario.feasibility import (
     braking_force,
     largest_clamping_force,
+    longest_step,
     stopping_time_at_least,
 )
-from uictest.scenario.parts.brake import BrakeSystem
-from uictest.scenario.parts.caliper import Caliper
-from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.controller import Controller
 from uictest.scenario.parts.criteria import Criteria
-from uictest.scenario.parts.friction import FactorProfile, FrictionProfile
 from uictest.scenario.parts.measures import MeasureDefinitions
-from uictest.scenario.parts.rail import Friction, RailCondition
-from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.parts.vehicle import Vehicle
-from uictest.scenario.stability import longest_step
+from uictest.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
     Model,
     PartReference,
     Quantity,
-    default,
-    kind,
+    of_kind,
     quoted,
-    suggestion,
 )
 from uictest.units import STANDARD_GRAVITY
 
@@ -40,107 +35,6 @@ SCENARIO_SCHEMA = "uictest/scenario/1"
 SMALLEST_SUM_AT_REST = 1e-12
 """1 + a1 + a2 + a3 below which rounding moves the gain at rest by more than one part in ten thousand."""
 Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
-
-
-def _friction_form(given: object) -> str:
-    points = isinstance(given, tuple) and any(isinstance(point, dict) for point in given)
-    return "profile" if points or isinstance(given, dict | FrictionProfile) else "number"
-
-
-class Brake(Model):
-    """The brake of the car and the command it gets."""
-
-    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
-        description="The brake system: a library name, a relative path or an inline mapping."
-    )
-    command: Annotated[Quantity, kind("share", at_least="1 %", at_most="100 %")] = Field(
-        default=default("100 %", "share"), description="Share of the full service command."
-    )
-    position: str = Field(
-        default="R", description="Brake position; one of the positions of the brake system."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a position that the system does not have."""
-        if self.position not in self.system.positions:
-            yield Inconsistency(
-                ("position",),
-                f"unknown brake position {quoted(self.position)}",
-                suggestion(self.position, self.system.positions),
-            )
-
-
-class Rail(Model):
-    """The rail under the car."""
-
-    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = Field(
-        description="Rail condition: dry, wet, a relative path or an inline mapping."
-    )
-    friction: (
-        Annotated[
-            Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
-            Discriminator(_friction_form),
-        ]
-        | None
-    ) = Field(
-        default=None,
-        description="Initial friction coefficient, or points of it along the track; else the condition's.",
-    )
-    friction_over_time: FactorProfile | None = Field(
-        default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
-    )
-    gradient: Annotated[Quantity, kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
-        default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
-    )
-
-    @property
-    def highest_friction(self) -> float:
-        """The highest friction coefficient anywhere, at any time."""
-        factor = (
-            1.0
-            if self.friction_over_time is None
-            else max(at.factor for at in self.friction_over_time.points)
-        )
-        if isinstance(self.friction, FrictionProfile):
-            return factor * max(at.friction for at in self.friction.points)
-        return factor * (self.condition.friction if self.friction is None else self.friction)
-
-
-class Rig(Model):
-    """How the rig is built up."""
-
-    topology: Literal["one-caliper", "four-caliper"] = Field(
-        default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
-    )
-    compensation: Literal["none", "hysteresis", "cylinder", "full"] = Field(
-        default="full",
-        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both.",
-    )
-    wsp: Literal["active", "bypassed"] = Field(
-        default="active", description="Whether the WSP valves obey the controller or always fill."
-    )
-    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = Field(
-        description="The caliper: a library name, a relative path or an inline mapping."
-    )
-    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = Field(
-        description="The compensation: a library name, a relative path or an inline mapping."
-    )
-    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = Field(
-        description="The sensors: a library name, a relative path or an inline mapping."
-    )
-
-
-class Simulation(Model):
-    """How the stop is simulated."""
-
-    time_step: Annotated[Quantity, kind("time", at_least="0.01 ms", at_most="1 ms")] = Field(
-        default=default("0.5 ms", "time"),
-        description="Base step; a whole number of them makes a controller cycle.",
-    )
-    maximum_duration: Annotated[Quantity, kind("time", above="0 s", at_most="3600 s")] = Field(
-        default=default("180 s", "time"),
-        description="Simulated time after which a stop is given up; what is open then is inconclusive.",
-    )
 
 
 class Scenario(Model):
@@ -170,7 +64,7 @@ class Scenario(Model):
     vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = Field(
         description="The vehicle: a library name, a relative path or an inline mapping."
     )
-    initial_speed: Annotated[Quantity, kind("speed", above="1 km/h", at_most="600 km/h")] = Field(
+    initial_speed: Annotated[Quantity, of_kind("speed", above="1 km/h", at_most="600 km/h")] = Field(
         description="Train speed at which the brake command is given."
     )
     brake: Brake = Field(description="Brake system, command and position.")
@@ -206,7 +100,7 @@ class Scenario(Model):
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield steps that do not fit the controller and stops that cannot end in time."""
+        """Yield values of different sections that do not fit together."""
         steps = self.controller.cycle_time / self.simulation.time_step
         if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
             yield Inconsistency(
@@ -257,7 +151,7 @@ class Scenario(Model):
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
         position = self.brake.system.positions.get(self.brake.position)
         if position is None:
-            return  # refused by the brake itself
+            return  # reported by the brake itself
         pressure = self.brake.command * position.maximum_pressure
         force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
         deceleration = braking_force(self.brake.system.disc, self.vehicle, force) / self.vehicle.total_mass
@@ -270,7 +164,7 @@ class Scenario(Model):
             )
 
     def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
-        """Yield criteria whose verdicts could not be told apart since another profile has one of that id."""
+        """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""
         profile_of: dict[str, str] = {}
         for number, profile in enumerate(self.criteria):
             for index, criterion in enumerate(profile.criteria):
@@ -278,7 +172,7 @@ class Scenario(Model):
                     yield Inconsistency(
                         ("criteria", number, "criteria", index, "id"),
                         f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
-                        f" {quoted(profile_of[criterion.id])}, too",
+                        f" {quoted(profile_of[criterion.id])} as well",
                         "leave one profile out, or give the criterion another id",
                     )
             profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
@@ -318,3 +212,19 @@ class Scenario(Model):
         tank, extra = self.brake.system.tank, self.brake.system.caliper_tank
         stroke = self.rig.caliper.piston_area * self.rig.caliper.clearance
         return tank.volume - extra.ball_volume + extra.hose_and_dead_volume + stroke
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One stop on the rig."""
+
+    id: str
+    """Unique among the cases loaded together; safe as a file name."""
+    scenario: Scenario
+    """Resolved: every reference to a part replaced by the part."""
+    path: Path
+    """The file it comes from, as shown to users."""
+    parameters: dict[str, str]
+    """Swept dotted keys and their values as written, in order."""
+    inputs: dict[str, str]
+    """Every file read for it, by shown name, and its SHA-256."""

@@ -22,7 +22,7 @@ PART_KEYS: Final = dict(_references(Scenario))
 
 
 def with_default_parts(tree: Map) -> Map:
-    """The scenario's tree with the default written wherever a reference is left out."""
+    """The scenario's tree with the default in place of every missing reference."""
     for key, reference in PART_KEYS.items():
         tree = _with_default(tree, key, reference.default)
     return tree

@@ -1,4 +1,4 @@
-"""A change of the rail condition that leaves the friction of another one: it would win without a word."""
+"""Detects a changed rail condition beside an unchanged rail.friction, which would silently override it."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -39,30 +39,30 @@ def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
     """
     friction = _at(after, "rail", "friction")
     if friction is _at(before, "rail", "friction") and not _of_command_line(friction):
-        yield from _refused(before, after, friction)
+        yield from _conflict(before, after, friction)
 
 
 def overridden_alone(
     tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]
 ) -> Iterator[Diagnostic]:
-    """Yield the overrides of the condition beside which a friction of the file stays, swept or not."""
+    """Yield the overrides of the condition that leave a friction of the file in force, swept or not."""
     if any(sets_friction(override.key) for override in overrides):
         return
     friction = next(_swept_friction(tree), _at(tree, "rail", "friction"))
     for override in overrides:
         if override.key.startswith(CONDITION):
             for value in override.values:
-                yield from _refused(tree, _assigned(tree, override, value, part_keys), friction)
+                yield from _conflict(tree, _assigned(tree, override, value, part_keys), friction)
 
 
 def _assigned(tree: Map, override: Override, value: Node, part_keys: frozenset[str]) -> Map:
     try:
         return with_value(tree, override.key, Entry(override.place, value), part_keys)
     except ScenarioErrors:
-        return tree  # refused where it is applied
+        return tree  # reported where it is applied
 
 
-def _refused(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
+def _conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
     condition = _at(after, *_CONDITION)
     if friction is None or condition is None or (isinstance(friction, Scalar) and friction.value is None):
         return

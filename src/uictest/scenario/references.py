@@ -1,13 +1,13 @@
 """References to parts: a library name, a relative path, or an inline mapping that may extend either."""
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Final
+from typing import Any, Final, Self
 
 from uictest import library
-from uictest.scenario.roots import Roots, real
 from uictest.scenario.yaml import (
     COMMAND_LINE,
     LIBRARY,
@@ -46,6 +46,37 @@ KIND_OF_FOLDER: Final = {
 
 
 @dataclass(frozen=True, slots=True)
+class Roots:
+    """Folders, links resolved, at or below which every file must lie that is read by reference."""
+
+    folders: tuple[Path, ...]
+
+    @classmethod
+    def of(cls, paths: Iterable[Path], trusted: Iterable[Path] = ()) -> Self:
+        """The roots for files and folders that a user named, with the folders that are trusted besides."""
+        named = (path if os.path.isdir(path) else path.parent for path in paths)  # noqa: PTH112 - never raises
+        return cls(tuple(dict.fromkeys(map(real, (*named, Path.cwd(), *trusted)))))
+
+    def with_folder(self, folder: Path) -> "Roots":
+        """The roots and one more."""
+        return Roots((*self.folders, real(folder)))
+
+    def contain(self, path: Path) -> bool:
+        """Whether a path, links resolved, lies at or below one of the roots."""
+        return any(real(path).is_relative_to(folder) for folder in self.folders)
+
+    def around(self, folder: Path) -> Path:
+        """The outermost root that ``folder`` lies in, else the folder itself."""
+        around = (root for root in self.folders if real(folder).is_relative_to(root))
+        return min(around, key=lambda root: len(root.parts), default=real(folder))
+
+
+def real(path: Path) -> Path:
+    """The path with its links resolved, whether it exists or not."""
+    return Path(os.path.realpath(path))
+
+
+@dataclass(frozen=True, slots=True)
 class Resolved:
     """A part and the documents it was made of."""
 
@@ -54,7 +85,7 @@ class Resolved:
 
 
 class Files:
-    """Every file that is read in one go, read once."""
+    """The files of one load; each is read once."""
 
     def __init__(self, roots: Roots | None = None) -> None:
         self._trees: dict[str, Map] = {}
@@ -78,10 +109,10 @@ class Files:
         return self.at(path)
 
     def path_of(self, reference: Scalar, key: str) -> Path:
-        """The path that a relative path names, looked at no further than whether it may be read.
+        """The path that a relative path names, checked only for whether it may be read.
 
-        Raises ScenarioErrors at a reference that leads out of the roots, itself or by a link. What stands on
-        the command line names a file like any other argument, and its folder becomes a root.
+        Raises ScenarioErrors at a reference that leads out of the roots, itself or by a link. A path on the
+        command line is an argument like any other: its folder becomes a root.
         """
         name = reference.text
         if Path(name).is_absolute() or PureWindowsPath(name).is_absolute():
@@ -103,7 +134,7 @@ class Files:
 
 
 def trust_hint(path: Path) -> str:
-    """What to do about a file outside the roots."""
+    """The hint for a file outside the roots."""
     folder = visible(str(real(path).parent))
     return f"add --trust {folder}; without it only the working folder and those of the files given are read"
 
@@ -124,7 +155,7 @@ class Parts:
     def __init__(self, files: Files) -> None:
         self._files = files
         self._by_name: dict[tuple[str, str], Resolved] = {}
-        # Keyed by identity; the node is kept beside the part so that its identity stays taken.
+        # Keyed by identity; keeping the node keeps its identity unique.
         self._inline: dict[int, tuple[Node, Resolved]] = {}
         self._originals: dict[int, tuple[Map, Any]] = {}
 
@@ -137,18 +168,18 @@ class Parts:
             message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
             raise single_error(node.place, message, dotted)
         if is_path(node.text):
-            return self._made(self._fetch(node, model, dotted), model, (), dotted)
+            return self._built(self._fetch(node, model, dotted), model, (), dotted)
         name = (folder_of(model), node.text)
         if name not in self._by_name:
-            self._by_name[name] = self._made(self._fetch(node, model, dotted), model, (), dotted)
+            self._by_name[name] = self._built(self._fetch(node, model, dotted), model, (), dotted)
         return self._by_name[name]
 
     def _resolve_inline(self, node: Map, model: Any, key: Key) -> Resolved:
         if id(node) not in self._inline:
-            self._inline[id(node)] = (node, self._made(node, model, key, ".".join(map(str, key))))
+            self._inline[id(node)] = (node, self._built(node, model, key, ".".join(map(str, key))))
         return self._inline[id(node)][1]
 
-    def _made(self, tree: Map, model: Any, key: Key, dotted: str) -> Resolved:
+    def _built(self, tree: Map, model: Any, key: Key, dotted: str) -> Resolved:
         generations = [tree]
 
         def fetch(reference: Scalar) -> Map:
@@ -183,9 +214,9 @@ class Parts:
         if is_path(reference.text):
             tree = self._files.beside(reference, dotted)
         else:
-            _refuse_unknown_name(reference, folder, dotted)
+            _require_known_name(reference, folder, dotted)
             tree = self._files.in_library(folder, reference.text)
-        _refuse_other_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
+        _require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
         return tree
 
 
@@ -200,7 +231,7 @@ def is_path(reference: str) -> bool:
     return reference.endswith((".yaml", ".yml"))
 
 
-def _refuse_unknown_name(reference: Scalar, folder: str, dotted: str) -> None:
+def _require_known_name(reference: Scalar, folder: str, dotted: str) -> None:
     if reference.text in library.names(folder):
         return
     hint = suggestion(reference.text, library.names(folder))
@@ -211,10 +242,10 @@ def _refuse_unknown_name(reference: Scalar, folder: str, dotted: str) -> None:
     )
 
 
-def _refuse_other_schema(tree: Map, expected: str) -> None:
+def _require_schema(tree: Map, expected: str) -> None:
     schema = tree.get("schema")
     if schema is None:
         raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {expected}`")
     if not isinstance(schema, Scalar) or schema.value != expected:
-        found = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        raise single_error(schema.place, f"expected {expected}, found {found}", "schema")
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        raise single_error(schema.place, f"expected {expected}, found {schema_text}", "schema")

@@ -1,4 +1,4 @@
-"""The tree of one case to its scenario: parts in place of references, everything checked."""
+"""From the tree of one case to its scenario: references replaced by parts, everything validated."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -27,22 +27,22 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
     Raises ScenarioErrors; errors in parts and errors in the scenario do not hide each other.
     """
     data: dict[str, Any] = plain(tree)
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     failed: set[str] = set()
     documents: list[Document] = []
     for key, node in part_nodes(tree):
         try:
             _put(data, key, _part(parts, key, node, documents))
         except ScenarioErrors as errors:
-            found.extend(errors.diagnostics)
+            diagnostics.extend(errors.diagnostics)
             failed.add(dotted(key))
-            _leave_out(data, key)
+            _remove(data, key)
     try:
         scenario = validated(Scenario, data, tree)
     except ScenarioErrors as errors:
-        found.extend(each for each in errors.diagnostics if each.key not in failed)
-    if found:
-        raise ScenarioErrors(found)
+        diagnostics.extend(each for each in errors.diagnostics if each.key not in failed)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
     return scenario, tuple(documents)
 
 
@@ -59,16 +59,16 @@ def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
 
 
 def _each(parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool) -> list[Resolved]:
-    """Every reference resolved; the errors of all of them are told."""
+    """Resolve every reference, or raise the errors of all of them."""
     resolved: list[Resolved] = []
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     for number, node in enumerate(nodes):
         try:
             resolved.append(parts.resolve(node, model, (*key, number) if listed else key))
         except ScenarioErrors as errors:
-            found.extend(errors.diagnostics)
-    if found:
-        raise ScenarioErrors(found)
+            diagnostics.extend(errors.diagnostics)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
     return resolved
 
 
@@ -76,7 +76,7 @@ def _put(data: dict[str, Any], key: Key, part: Any) -> None:
     _mapping_of(data, key)[str(key[-1])] = part
 
 
-def _leave_out(data: dict[str, Any], key: Key) -> None:
+def _remove(data: dict[str, Any], key: Key) -> None:
     del _mapping_of(data, key)[str(key[-1])]
 
 

@@ -1,4 +1,4 @@
-"""Every value of a part or a section of a scenario that a stop can depend on, numbers and settings alike."""
+"""The values of a part or a section of a scenario that a stop can depend on: numbers and settings."""
 
 from collections.abc import Iterator, Mapping
 from typing import Final
@@ -16,13 +16,13 @@ DESCRIPTIVE: Final = frozenset(
         *("matrix", "zip", "include", "exclude", "expect"),
     }
 )
-"""Fields that say what something is, where it comes from or what is expected of it."""
+"""Fields that a stop cannot depend on: names, sources and expectations."""
 
 
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
     """Yield every number and setting inside a model, tuple or mapping with its key.
 
-    A criterion is named by its id. Parts inside are skipped, and so is what is not set.
+    A criterion is named by its id. Parts inside are skipped, and so are values that are not set.
     """
     if isinstance(value, str | int | float):
         yield key, value
@@ -41,13 +41,13 @@ def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
 
 
 def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
-    """The mark of the source; `user` for a number given without one, `default` for one that is not given."""
+    """The mark of the source; `user` for a number without one, `default` for a number that the file omits."""
     if quantity.source in sources:
         return sources[quantity.source].mark
     return {SCENARIO_SOURCE: "user", DEFAULT_SOURCE: "default"}[quantity.source]
 
 
 def is_changed(part: Part) -> bool:
-    """Whether a value of a part is another than in the part at the root of its `extends`."""
+    """Whether a value of a part differs from the part at the root of its `extends`."""
     original = part.original
     return original is not None and dict(values_in(part)) != dict(values_in(original))

@@ -92,7 +92,7 @@ def test_a_circle_is_told_at_the_reference_that_closes_it(write: Write, loop: li
 
     (found,) = caught.value.diagnostics
     assert (found.file, found.line, found.column) == (f"{loop[-1]}.yaml", 3, 10)
-    assert "circle: a.yaml -> " in found.message
+    assert "circular 'extends': a.yaml -> " in found.message
 
 
 def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:

@@ -4,14 +4,14 @@ import math
 
 import pytest
 
-from uictest.scenario.yaml.scalars import resolve
+from uictest.scenario.yaml.parsing import scalar_value
 
 
 @pytest.mark.parametrize(
     "text", ["on", "off", "yes", "no", "y", "12:30", "1_000", "0b11", "2026-01-01", "1e"]
 )
 def test_what_yaml_1_1_would_convert_is_a_text(text: str) -> None:
-    assert resolve(text) == text
+    assert scalar_value(text) == text
 
 
 @pytest.mark.parametrize(
@@ -32,13 +32,13 @@ def test_what_yaml_1_1_would_convert_is_a_text(text: str) -> None:
     ],
 )
 def test_core_schema(text: str, value: object) -> None:
-    assert resolve(text) == value
-    assert type(resolve(text)) is type(value)
+    assert scalar_value(text) == value
+    assert type(scalar_value(text)) is type(value)
 
 
 def test_not_a_number_is_a_number() -> None:
-    assert math.isnan(float(str(resolve(".nan"))))
+    assert math.isnan(float(str(scalar_value(".nan"))))
 
 
 def test_thousands_of_digits_are_no_integer() -> None:
-    assert resolve("9" * 10_000) == math.inf
+    assert scalar_value("9" * 10_000) == math.inf

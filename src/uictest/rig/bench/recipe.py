@@ -6,10 +6,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Part, Quantity, Section, kind
+from uictest.scenario.yaml import Part, Quantity, Section, of_kind
 
-Pressure = Annotated[Quantity, kind("pressure", at_least="0 bar", at_most="12 bar")]
-Duration = Annotated[Quantity, kind("time", above="0 s", at_most="600 s")]
+Pressure = Annotated[Quantity, of_kind("pressure", at_least="0 bar", at_most="12 bar")]
+Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="600 s")]
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1, strict=True)]
 Span = tuple[Duration, Duration]
 
@@ -66,7 +66,7 @@ class StopReplay(Section):
     """Demand and valve commands of one wheelset in the recipe's stop, simulated on its rig."""
 
     kind: Literal["stop"]
-    friction: Annotated[Quantity, kind("number", at_least="0.001", at_most="1")] = Field(
+    friction: Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")] = Field(
         description="Initial friction coefficient of the rail."
     )
     wheelset: int = Field(ge=1, le=4, strict=True, description="Wheelset whose commands are taken.")

@@ -1,19 +1,19 @@
-"""The stops that a criterion is about."""
+"""The stops that a criterion applies to."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Model, Quantity, kind
+from uictest.scenario.yaml import Model, Quantity, of_kind
 
 
 class NominalSpeed(Model):
     """An initial speed with the tolerance within which a stop is judged, uncorrected."""
 
-    value: Annotated[Quantity, kind("speed", above="0 km/h", at_most="600 km/h")] = Field(
+    value: Annotated[Quantity, of_kind("speed", above="0 km/h", at_most="600 km/h")] = Field(
         description="Nominal initial speed."
     )
-    tolerance: Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
+    tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
         description="Largest deviation either way."
     )
 
@@ -21,10 +21,10 @@ class NominalSpeed(Model):
 class NominalShare(Model):
     """A brake command with its tolerance."""
 
-    value: Annotated[Quantity, kind("share", above="0 %", at_most="100 %")] = Field(
+    value: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
         description="Nominal command."
     )
-    tolerance: Annotated[Quantity, kind("share", at_least="0 %", at_most="100 %")] = Field(
+    tolerance: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="100 %")] = Field(
         description="Largest deviation either way."
     )
 
@@ -32,11 +32,11 @@ class NominalShare(Model):
 class NominalGradient(Model):
     """A gradient with its tolerance."""
 
-    value: Annotated[Quantity, kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
+    value: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
         description="Nominal gradient, positive uphill."
     )
-    tolerance: Annotated[Quantity, kind("gradient", at_least="0 permille", at_most="120 permille")] = Field(
-        description="Largest deviation either way."
+    tolerance: Annotated[Quantity, of_kind("gradient", at_least="0 permille", at_most="120 permille")] = (
+        Field(description="Largest deviation either way.")
     )
 
 
@@ -44,7 +44,7 @@ Nominal = NominalSpeed | NominalShare | NominalGradient
 
 
 class Applicability(Model):
-    """The stops a criterion has anything to say about; what is not named does not matter."""
+    """Conditions of a stop under which a criterion applies; a condition that is not named is not checked."""
 
     rail_condition: tuple[str, ...] | None = Field(
         default=None, description="Names of rail conditions, e.g. wet."

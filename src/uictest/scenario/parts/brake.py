@@ -5,22 +5,24 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
 
-GaugePressure = Annotated[Quantity, kind("pressure", at_least="0.1 bar", at_most="20 bar")]
-Volume = Annotated[Quantity, kind("volume", at_least="0.1 L", at_most="10 m3")]
-Conductance = Annotated[Quantity, kind("conductance", at_least="1e-11 m3/(s Pa)", at_most="1e-5 m3/(s Pa)")]
-Ratio = Annotated[Quantity, kind("number", at_least="0.01", below="1")]
+GaugePressure = Annotated[Quantity, of_kind("pressure", at_least="0.1 bar", at_most="20 bar")]
+Volume = Annotated[Quantity, of_kind("volume", at_least="0.1 L", at_most="10 m3")]
+Conductance = Annotated[
+    Quantity, of_kind("conductance", at_least="1e-11 m3/(s Pa)", at_most="1e-5 m3/(s Pa)")
+]
+Ratio = Annotated[Quantity, of_kind("number", at_least="0.01", below="1")]
 
 
 class Position(Section):
     """A brake position (P, R, G): how much pressure, how soon."""
 
     maximum_pressure: GaugePressure = Field(description="Tank pressure at full service command, gauge.")
-    fill_time: Annotated[Quantity, kind("time", at_least="1 ms", at_most="60 s")] = Field(
+    fill_time: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="60 s")] = Field(
         description="Time in which the set pressure rises from zero to the maximum."
     )
-    dead_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
+    dead_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 s")] = Field(
         description="Time between the command and the first rise of pressure."
     )
 
@@ -37,7 +39,7 @@ class Compressor(Section):
 
     cut_in_pressure: GaugePressure = Field(description="Below this reservoir pressure it starts, gauge.")
     cut_out_pressure: GaugePressure = Field(description="At this reservoir pressure it stops, gauge.")
-    delivery: Annotated[Quantity, kind("mass flow", at_least="0 kg/s", at_most="1 kg/s")] = Field(
+    delivery: Annotated[Quantity, of_kind("mass flow", at_least="0 kg/s", at_most="1 kg/s")] = Field(
         description="Air delivered while running; NL are at 20 degC and 1 bar."
     )
 
@@ -46,8 +48,8 @@ class RelayValve(Section):
     """The relay valve of the brake operating unit, between reservoir and brake line."""
 
     conductance: Conductance = Field(description="Sonic conductance (ISO 6358) when fully open.")
-    proportional_band: Annotated[Quantity, kind("pressure", at_least="0.001 bar", at_most="5 bar")] = Field(
-        description="Deviation from the set pressure at which the valve is fully open."
+    proportional_band: Annotated[Quantity, of_kind("pressure", at_least="0.001 bar", at_most="5 bar")] = (
+        Field(description="Deviation from the set pressure at which the valve is fully open.")
     )
 
 
@@ -62,10 +64,10 @@ class WspValve(Section):
 
     fill_conductance: Conductance = Field(description="Sonic conductance (ISO 6358) from brake line to tank.")
     vent_conductance: Conductance = Field(description="Sonic conductance (ISO 6358) from tank to atmosphere.")
-    switching_delay: Annotated[Quantity, kind("time", at_least="0 s", at_most="1 s")] = Field(
+    switching_delay: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="1 s")] = Field(
         description="Time from the command to the start of the valve's movement."
     )
-    travel_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="1 s")] = Field(
+    travel_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="1 s")] = Field(
         description="Time in which the valve moves from shut to fully open."
     )
 
@@ -74,7 +76,7 @@ class Tank(Section):
     """The tank of one module: pipe and brake-cylinder volume."""
 
     volume: Volume = Field(description="Volume of an empty tank.")
-    polytropic_exponent: Annotated[Quantity, kind("number", at_least="1", at_most="1.4")] = Field(
+    polytropic_exponent: Annotated[Quantity, of_kind("number", at_least="1", at_most="1.4")] = Field(
         description="Exponent of filling and venting: 1 isothermal, 1.4 adiabatic."
     )
 
@@ -82,10 +84,10 @@ class Tank(Section):
 class CaliperTank(Section):
     """What makes the tank of a module with a caliper different."""
 
-    ball_volume: Annotated[Quantity, kind("volume", at_least="0 L", at_most="1 m3")] = Field(
+    ball_volume: Annotated[Quantity, of_kind("volume", at_least="0 L", at_most="1 m3")] = Field(
         description="Volume of the steel balls in the tank."
     )
-    hose_and_dead_volume: Annotated[Quantity, kind("volume", at_least="0 L", at_most="1 m3")] = Field(
+    hose_and_dead_volume: Annotated[Quantity, of_kind("volume", at_least="0 L", at_most="1 m3")] = Field(
         description="Volume of the hose to the caliper and of the cylinder with its piston fully back."
     )
 
@@ -93,16 +95,16 @@ class CaliperTank(Section):
 class Disc(Section):
     """The disc brake of one wheelset."""
 
-    mean_radius: Annotated[Quantity, kind("length", at_least="5 cm", at_most="1 m")] = Field(
+    mean_radius: Annotated[Quantity, of_kind("length", at_least="5 cm", at_most="1 m")] = Field(
         description="Radius at which the pads' friction acts."
     )
-    calipers_per_wheelset: Annotated[Quantity, kind("count", at_least="1", at_most="8")] = Field(
+    calipers_per_wheelset: Annotated[Quantity, of_kind("count", at_least="1", at_most="8")] = Field(
         description="Calipers on one wheelset."
     )
-    pads_per_caliper: Annotated[Quantity, kind("count", at_least="1", at_most="4")] = Field(
+    pads_per_caliper: Annotated[Quantity, of_kind("count", at_least="1", at_most="4")] = Field(
         description="Friction faces per caliper."
     )
-    pad_friction: Annotated[Quantity, kind("number", at_least="0.01", at_most="1")] = Field(
+    pad_friction: Annotated[Quantity, of_kind("number", at_least="0.01", at_most="1")] = Field(
         description="Friction coefficient between pad and disc."
     )
 
@@ -110,14 +112,14 @@ class Disc(Section):
 class Air(Section):
     """The air and its surroundings."""
 
-    temperature: Annotated[Quantity, kind("temperature", at_least="-60 degC", at_most="80 degC")] = Field(
+    temperature: Annotated[Quantity, of_kind("temperature", at_least="-60 degC", at_most="80 degC")] = Field(
         description="Temperature of air and surroundings."
     )
-    atmospheric_pressure: Annotated[Quantity, kind("pressure", at_least="0.5 bar", at_most="1.2 bar")] = (
+    atmospheric_pressure: Annotated[Quantity, of_kind("pressure", at_least="0.5 bar", at_most="1.2 bar")] = (
         Field(description="Pressure of the surroundings, absolute.")
     )
     gas_constant: Annotated[
-        Quantity, kind("gas constant", at_least="100 J/(kg K)", at_most="1000 J/(kg K)")
+        Quantity, of_kind("gas constant", at_least="100 J/(kg K)", at_most="1000 J/(kg K)")
     ] = Field(description="Specific gas constant of air.")
 
 
@@ -149,15 +151,15 @@ class BrakeSystem(Part):
     air: Air = Field(description="The air and its surroundings.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield what no air system can do."""
+        """Yield pressures, volumes and ratios that no air system can have."""
         yield from super().inconsistencies()
-        yield from self._supply_contradictions()
+        yield from self._supply_inconsistencies()
         if self.laminar_pressure_ratio <= self.critical_pressure_ratio:
             yield Inconsistency(("laminar_pressure_ratio",), "it must lie above critical_pressure_ratio")
         if self.caliper_tank.ball_volume >= self.tank.volume:
             yield Inconsistency(("caliper_tank", "ball_volume"), "the balls do not fit into tank.volume")
 
-    def _supply_contradictions(self) -> Iterator[Inconsistency]:
+    def _supply_inconsistencies(self) -> Iterator[Inconsistency]:
         if self.compressor.cut_in_pressure >= self.compressor.cut_out_pressure:
             yield Inconsistency(
                 ("compressor", "cut_in_pressure"),

@@ -5,9 +5,9 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
 
-Coefficient = Annotated[Quantity, kind("number", at_least="-1e6", at_most="1e6")]
+Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
 
 UNITY_GAIN_TOLERANCE: Final = 1e-6
 """How far the gain at rest may be from one."""
@@ -18,10 +18,10 @@ HIGHEST_PRESSURE: Final = 10e5
 class ForceLine(Section):
     """Clamping force as a straight line over gauge pressure, where it is positive."""
 
-    slope: Annotated[Quantity, kind("force per pressure", at_least="0.001 kN/bar", at_most="1000 kN/bar")] = (
-        Field(description="Force per pressure.")
-    )
-    intercept: Annotated[Quantity, kind("force", at_least="-100 kN", at_most="100 kN")] = Field(
+    slope: Annotated[
+        Quantity, of_kind("force per pressure", at_least="0.001 kN/bar", at_most="1000 kN/bar")
+    ] = Field(description="Force per pressure.")
+    intercept: Annotated[Quantity, of_kind("force", at_least="-100 kN", at_most="100 kN")] = Field(
         description="Force at zero gauge pressure; negative, because the spring must be overcome first."
     )
 
@@ -37,10 +37,10 @@ class FourPhaseHysteresis(Section):
     bc_releasing: ForceLine = Field(description="Pressure falling, WSP not acting.")
     wsp_squeezing: ForceLine = Field(description="Pressure rising, WSP acting.")
     wsp_releasing: ForceLine = Field(description="Pressure falling, WSP acting.")
-    transition_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 s")] = Field(
+    transition_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 s")] = Field(
         description="Time in which one pair of lines turns into the other, so that the force does not jump."
     )
-    wsp_acting_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="60 s")] = Field(
+    wsp_acting_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
         description="Time of uninterrupted filling after which the WSP no longer counts as acting."
     )
 
@@ -109,7 +109,7 @@ class Compensation(Part):
         alias="schema",
         description="What the file holds: uictest/compensation/1.",
     )
-    sampling_time: Annotated[Quantity, kind("time", at_least="0.01 ms", at_most="10 ms")] = Field(
+    sampling_time: Annotated[Quantity, of_kind("time", at_least="0.01 ms", at_most="10 ms")] = Field(
         description="Sampling time of the cylinder dynamics."
     )
     linear: ForceLine = Field(

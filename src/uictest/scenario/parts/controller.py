@@ -5,12 +5,12 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, of_kind
 
-Duration = Annotated[Quantity, kind("time", at_least="1 ms", at_most="60 s")]
-Deceleration = Annotated[Quantity, kind("acceleration", at_least="0.001 m/s2", at_most="100 m/s2")]
-Slide = Annotated[Quantity, kind("share", at_least="0 %", at_most="100 %")]
-WalkingPace = Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
+Duration = Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="60 s")]
+Deceleration = Annotated[Quantity, of_kind("acceleration", at_least="0.001 m/s2", at_most="100 m/s2")]
+Slide = Annotated[Quantity, of_kind("share", at_least="0 %", at_most="100 %")]
+WalkingPace = Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 
 
 class ControllerPart(Part):
@@ -23,7 +23,7 @@ class ControllerPart(Part):
         alias="schema",
         description="What the file holds: uictest/controller/1.",
     )
-    cycle_time: Annotated[Quantity, kind("time", at_least="1 ms", at_most="1 s")] = Field(
+    cycle_time: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="1 s")] = Field(
         description="Time between two decisions."
     )
     reference_deceleration: Deceleration = Field(
@@ -38,7 +38,7 @@ class ThresholdController(ControllerPart):
     """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
 
     algorithm: Literal["threshold"] = Field(description="The algorithm that reads these numbers.")
-    slip_threshold: Annotated[Quantity, kind("speed", at_least="0.001 km/h", at_most="100 km/h")] = Field(
+    slip_threshold: Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")] = Field(
         description="Slip speed from which a wheelset counts as sliding."
     )
     slide_threshold: Slide = Field(
@@ -56,7 +56,7 @@ class ThresholdController(ControllerPart):
     reacceleration_threshold: Deceleration = Field(
         description="Acceleration of a wheelset from which it counts as regaining speed."
     )
-    acceleration_filter_time: Annotated[Quantity, kind("time", at_least="0 s", at_most="1 s")] = Field(
+    acceleration_filter_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="1 s")] = Field(
         description="Time constant of the filter of wheelset acceleration."
     )
     holding_deceleration: Deceleration = Field(
@@ -79,7 +79,7 @@ class ThresholdController(ControllerPart):
     fill_pulse_on: Duration = Field(
         description="Filling time of one pulse while the pressure is restored in steps."
     )
-    fill_pulse_off: Annotated[Quantity, kind("time", at_least="0 s", at_most="60 s")] = Field(
+    fill_pulse_off: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
         description="Pause after such a pulse."
     )
     refill_time: Duration = Field(description="Time of filling in pulses after which the tank fills freely.")

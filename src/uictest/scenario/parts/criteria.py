@@ -21,8 +21,8 @@ from uictest.scenario.yaml import (
     Inconsistency,
     Model,
     Part,
-    Physical,
     Quantity,
+    QuantityField,
     quoted,
     suggestion,
     written,
@@ -43,7 +43,7 @@ def _known_measure(name: str) -> str:
 def _of_the_measure(given: object, info: ValidationInfo) -> object:
     # Without a valid measure its kind is not known; the model is refused for that already.
     measure = MEASURES.get(info.data.get("measure", ""))
-    return given if measure is None else Physical(KINDS[measure.kind]).validate(given)
+    return given if measure is None else QuantityField(KINDS[measure.kind]).validate(given)
 
 
 MeasureName = Annotated[

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
-from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, kind
+from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind
 from uictest.units import KILOMETRE_PER_HOUR, in_unit
 
 
@@ -36,8 +36,8 @@ def _range_contradictions(value: Quantity, ends: tuple[Quantity, Quantity]) -> I
         )
 
 
-_Duration = Annotated[Quantity, kind("time", above="0 s", at_most="10 s")]
-_Cutoff = Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="200 km/h")]
+_Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="10 s")]
+_Cutoff = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="200 km/h")]
 
 
 class FirstPhaseDuration(Model):

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from uictest.scenario.parts.rail import Friction
-from uictest.scenario.yaml import Inconsistency, Model, Quantity, kind
+from uictest.scenario.yaml import Inconsistency, Model, Quantity, of_kind
 
 MOST_POINTS = 64
 
@@ -15,7 +15,7 @@ MOST_POINTS = 64
 class FrictionPoint(Model):
     """The friction coefficient at one place of the track."""
 
-    position: Annotated[Quantity, kind("length", at_least="-100 km", at_most="100 km")] = Field(
+    position: Annotated[Quantity, of_kind("length", at_least="-100 km", at_most="100 km")] = Field(
         description="Distance from where the brake command is given to the first wheelset, along the track."
     )
     friction: Friction = Field(description="Initial friction coefficient mu0 there.")
@@ -41,10 +41,10 @@ class FrictionProfile(Model):
 class FactorPoint(Model):
     """The factor on friction at one time."""
 
-    time: Annotated[Quantity, kind("time", at_least="0 s", at_most="3600 s")] = Field(
+    time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="3600 s")] = Field(
         description="Time since the brake command."
     )
-    factor: Annotated[Quantity, kind("number", at_least="0.001", at_most="10")] = Field(
+    factor: Annotated[Quantity, of_kind("number", at_least="0.001", at_most="10")] = Field(
         description="Factor on friction then."
     )
 

@@ -5,11 +5,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
 
-Friction = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
-Share = Annotated[Quantity, kind("number", at_least="0.001", at_most="1")]
-SemiAxis = Annotated[Quantity, kind("length", at_least="0.1 mm", at_most="50 mm")]
+Friction = Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")]
+Share = Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")]
+SemiAxis = Annotated[Quantity, of_kind("length", at_least="0.1 mm", at_most="50 mm")]
 
 
 class Contact(Section):
@@ -17,13 +17,13 @@ class Contact(Section):
 
     semi_axis_longitudinal: SemiAxis = Field(description="Semi-axis a along the track.")
     semi_axis_lateral: SemiAxis = Field(description="Semi-axis b across the track.")
-    shear_modulus: Annotated[Quantity, kind("pressure", at_least="1e9 Pa", at_most="1e12 Pa")] = Field(
+    shear_modulus: Annotated[Quantity, of_kind("pressure", at_least="1e9 Pa", at_most="1e12 Pa")] = Field(
         description="Shear modulus G of wheel and rail."
     )
-    kalker_coefficient: Annotated[Quantity, kind("number", at_least="0.1", at_most="20")] = Field(
+    kalker_coefficient: Annotated[Quantity, of_kind("number", at_least="0.1", at_most="20")] = Field(
         description="Kalker's longitudinal creepage coefficient c11."
     )
-    reference_wheel_load: Annotated[Quantity, kind("force", at_least="0.1 kN", at_most="500 kN")] = Field(
+    reference_wheel_load: Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="500 kN")] = Field(
         description="Wheel load at which the semi-axes hold."
     )
 
@@ -38,8 +38,8 @@ class RailCondition(Part):
     )
     friction: Friction = Field(description="Initial friction coefficient mu0, at zero slip speed.")
     friction_ratio: Share = Field(description="A: friction at infinite slip speed over mu0.")
-    friction_decay: Annotated[Quantity, kind("inverse speed", at_least="0 s/m", at_most="100 s/m")] = Field(
-        description="B: how fast friction falls with slip speed."
+    friction_decay: Annotated[Quantity, of_kind("inverse speed", at_least="0 s/m", at_most="100 s/m")] = (
+        Field(description="B: how fast friction falls with slip speed.")
     )
     reduction_adhesion: Share = Field(description="kA: reduction of the creep slope in the area of adhesion.")
     reduction_slip: Share = Field(description="kS: reduction of the creep slope in the area of slip.")

@@ -4,22 +4,22 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Part, Quantity, Section, kind
+from uictest.scenario.yaml import Part, Quantity, Section, of_kind
 
-ErrorShare = Annotated[Quantity, kind("share", at_least="-50 %", at_most="50 %")]
-NoiseShare = Annotated[Quantity, kind("share", at_least="0 %", at_most="50 %")]
+ErrorShare = Annotated[Quantity, of_kind("share", at_least="-50 %", at_most="50 %")]
+NoiseShare = Annotated[Quantity, of_kind("share", at_least="0 %", at_most="50 %")]
 
 
 class SpeedSensor(Section):
     """A toothed wheel on the axle; speed from the time between teeth."""
 
-    teeth: Annotated[Quantity, kind("count", at_least="1", at_most="1000")] = Field(
+    teeth: Annotated[Quantity, of_kind("count", at_least="1", at_most="1000")] = Field(
         description="Teeth of the wheel."
     )
-    timer_resolution: Annotated[Quantity, kind("time", at_least="0 s", at_most="10 ms")] = Field(
+    timer_resolution: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 ms")] = Field(
         description="Resolution of the timer between teeth."
     )
-    minimum_speed: Annotated[Quantity, kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
+    minimum_speed: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
         description="Wheel speed below which the sensor reads zero."
     )
     noise: NoiseShare = Field(description="Standard deviation of the noise as a share of the reading.")
@@ -28,17 +28,17 @@ class SpeedSensor(Section):
 class PressureSensor(Section):
     """A pressure sensor of a tank or of the reservoir."""
 
-    range: Annotated[Quantity, kind("pressure", at_least="0.1 bar", at_most="100 bar")] = Field(
+    range: Annotated[Quantity, of_kind("pressure", at_least="0.1 bar", at_most="100 bar")] = Field(
         description="Highest gauge pressure it reads."
     )
     gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
-    offset: Annotated[Quantity, kind("pressure", at_least="-1 bar", at_most="1 bar")] = Field(
+    offset: Annotated[Quantity, of_kind("pressure", at_least="-1 bar", at_most="1 bar")] = Field(
         description="Reading at zero gauge pressure."
     )
-    noise: Annotated[Quantity, kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
+    noise: Annotated[Quantity, of_kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
         description="Standard deviation of the noise."
     )
-    resolution: Annotated[Quantity, kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
+    resolution: Annotated[Quantity, of_kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
         description="Smallest step of the reading."
     )
 
@@ -46,17 +46,17 @@ class PressureSensor(Section):
 class Loadcell(Section):
     """One of the loadcells between pad and disc."""
 
-    range: Annotated[Quantity, kind("force", at_least="0.1 kN", at_most="1000 kN")] = Field(
+    range: Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="1000 kN")] = Field(
         description="Highest force it reads."
     )
     gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
-    offset: Annotated[Quantity, kind("force", at_least="-10 kN", at_most="10 kN")] = Field(
+    offset: Annotated[Quantity, of_kind("force", at_least="-10 kN", at_most="10 kN")] = Field(
         description="Reading without force."
     )
-    noise: Annotated[Quantity, kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
+    noise: Annotated[Quantity, of_kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
         description="Standard deviation of the noise."
     )
-    resolution: Annotated[Quantity, kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
+    resolution: Annotated[Quantity, of_kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
         description="Smallest step of the reading."
     )
 

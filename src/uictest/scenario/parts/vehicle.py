@@ -10,11 +10,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
 
-Height = Annotated[Quantity, kind("length", at_least="1 cm", at_most="5 m")]
-Stiffness = Annotated[Quantity, kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
-Damping = Annotated[Quantity, kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")]
+Height = Annotated[Quantity, of_kind("length", at_least="1 cm", at_most="5 m")]
+Stiffness = Annotated[Quantity, of_kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
+Damping = Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")]
 
 LOWEST_FREQUENCY = 0.3
 """Hz, chosen: half the lowest natural frequency of the library's cars (0.66 Hz, bounce of the CRH380A)."""
@@ -23,10 +23,10 @@ LOWEST_FREQUENCY = 0.3
 class Body(Section):
     """The car body."""
 
-    mass: Annotated[Quantity, kind("mass", at_least="1 t", at_most="200 t")] = Field(
+    mass: Annotated[Quantity, of_kind("mass", at_least="1 t", at_most="200 t")] = Field(
         description="Mass of the car body, loaded as tested."
     )
-    pitch_inertia: Annotated[Quantity, kind("inertia", at_least="1e3 kg m2", at_most="1e8 kg m2")] = Field(
+    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="1e3 kg m2", at_most="1e8 kg m2")] = Field(
         description="Moment of inertia in pitch about the centre of gravity."
     )
     height: Height = Field(description="Height of the centre of gravity above the rail.")
@@ -35,14 +35,14 @@ class Body(Section):
 class Bogie(Section):
     """One of the two bogies, without its wheelsets."""
 
-    mass: Annotated[Quantity, kind("mass", at_least="100 kg", at_most="50 t")] = Field(
+    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="50 t")] = Field(
         description="Mass of one bogie without wheelsets."
     )
-    pitch_inertia: Annotated[Quantity, kind("inertia", at_least="10 kg m2", at_most="1e6 kg m2")] = Field(
+    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="10 kg m2", at_most="1e6 kg m2")] = Field(
         description="Moment of inertia in pitch about the centre of gravity."
     )
     height: Height = Field(description="Height of the centre of gravity above the rail.")
-    half_wheelbase: Annotated[Quantity, kind("length", above="0.3 m", at_most="5 m")] = Field(
+    half_wheelbase: Annotated[Quantity, of_kind("length", above="0.3 m", at_most="5 m")] = Field(
         description="Half the distance between the axles of a bogie."
     )
 
@@ -50,13 +50,13 @@ class Bogie(Section):
 class Wheelset(Section):
     """One of the four wheelsets, with its brake discs."""
 
-    mass: Annotated[Quantity, kind("mass", at_least="100 kg", at_most="10 t")] = Field(
+    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="10 t")] = Field(
         description="Mass of one wheelset with axle boxes."
     )
-    rotational_inertia: Annotated[Quantity, kind("inertia", at_least="1 kg m2", at_most="1e4 kg m2")] = Field(
-        description="Moment of inertia about the axle."
+    rotational_inertia: Annotated[Quantity, of_kind("inertia", at_least="1 kg m2", at_most="1e4 kg m2")] = (
+        Field(description="Moment of inertia about the axle.")
     )
-    radius: Annotated[Quantity, kind("length", above="0.1 m", at_most="1 m")] = Field(
+    radius: Annotated[Quantity, of_kind("length", above="0.1 m", at_most="1 m")] = Field(
         description="Rolling radius."
     )
 
@@ -91,14 +91,14 @@ class TractionLink(Section):
 class RunningResistance(Section):
     """Resistance of the whole car: constant + linear v + quadratic v2."""
 
-    constant: Annotated[Quantity, kind("force", at_least="0 N", at_most="100 kN")] = Field(
+    constant: Annotated[Quantity, of_kind("force", at_least="0 N", at_most="100 kN")] = Field(
         description="Part that does not depend on speed."
     )
-    linear: Annotated[Quantity, kind("damping", at_least="0 N s/m", at_most="10 kN s/m")] = Field(
+    linear: Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="10 kN s/m")] = Field(
         description="Part that grows with speed."
     )
     quadratic: Annotated[
-        Quantity, kind("quadratic resistance", at_least="0 N s2/m2", at_most="1000 N s2/m2")
+        Quantity, of_kind("quadratic resistance", at_least="0 N s2/m2", at_most="1000 N s2/m2")
     ] = Field(description="Part that grows with the square of speed (air drag).")
 
 
@@ -112,7 +112,7 @@ class Vehicle(Part):
     )
     body: Body = Field(description="The car body.")
     bogie: Bogie = Field(description="One bogie; both are alike.")
-    half_pivot_distance: Annotated[Quantity, kind("length", above="0.5 m", at_most="20 m")] = Field(
+    half_pivot_distance: Annotated[Quantity, of_kind("length", above="0.5 m", at_most="20 m")] = Field(
         description="Half the distance between the bogie pivots."
     )
     wheelset: Wheelset = Field(description="One wheelset; all four are alike.")
@@ -127,7 +127,7 @@ class Vehicle(Part):
         return self.body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield what cannot be built: wheels or bogies that overlap, more inertia than the mass allows."""
+        """Yield impossible vehicles: wheels or bogies that overlap, more inertia than the mass allows."""
         yield from super().inconsistencies()
         if self.bogie.half_wheelbase <= self.wheelset.radius:
             yield Inconsistency(
@@ -148,7 +148,7 @@ class Vehicle(Part):
         yield from self._springs_too_soft()
 
     def _springs_too_soft(self) -> Iterator[Inconsistency]:
-        """Yield the springs on which what they carry swings more slowly than any car does."""
+        """Yield springs on which the car would oscillate more slowly than any real car."""
         body, sprung = self.body.mass, self.body.mass + 2.0 * self.bogie.mass
         primary, secondary, link = self.primary, self.secondary, self.traction_link
         pull = 2.0 * link.stiffness + 4.0 * secondary.longitudinal_stiffness

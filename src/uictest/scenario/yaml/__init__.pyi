@@ -13,6 +13,7 @@ from .model import (
     Key as Key,
     Model as Model,
     Part as Part,
+    PartReference as PartReference,
     Section as Section,
     Source as Source,
     quantities_in as quantities_in,
@@ -23,20 +24,20 @@ from .overrides import (
     apply_overrides as apply_overrides,
     parse_overrides as parse_overrides,
 )
-from .parsing import parse as parse
-from .physical import (
-    QUANTITY_KEYWORD as QUANTITY_KEYWORD,
-    Physical as Physical,
-    default as default,
-    kind as kind,
-    written as written,
-)
+from .parsing import parse as parse, scalar_value as scalar_value
 from .quantities import (
     DEFAULT_SOURCE as DEFAULT_SOURCE,
     SCENARIO_SOURCE as SCENARIO_SOURCE,
     Quantity as Quantity,
     QuantityError as QuantityError,
     parse_quantity as parse_quantity,
+)
+from .quantity_field import (
+    QUANTITY_KEYWORD as QUANTITY_KEYWORD,
+    QuantityField as QuantityField,
+    default as default,
+    of_kind as of_kind,
+    written as written,
 )
 from .reading import (
     LIBRARY as LIBRARY,
@@ -47,8 +48,6 @@ from .reading import (
     unreadable_error as unreadable_error,
     whole_file as whole_file,
 )
-from .reference_schema import PartReference as PartReference
-from .scalars import resolve as resolve
 from .tree import (
     COMMAND_LINE as COMMAND_LINE,
     Document as Document,
@@ -64,4 +63,10 @@ from .tree import (
     plain as plain,
 )
 from .validation import dotted as dotted, validated as validated
-from .wording import nearest as nearest, quoted as quoted, suggestion as suggestion, visible as visible
+from .wording import (
+    nearest as nearest,
+    quoted as quoted,
+    short_example as short_example,
+    suggestion as suggestion,
+    visible as visible,
+)

@@ -1,4 +1,4 @@
-"""Messages about a file: where, what was found, what is accepted."""
+"""Diagnostics: the place in a file, what is wrong, and what to write."""
 
 import unicodedata
 from collections.abc import Iterable, Sequence
@@ -68,9 +68,11 @@ def diagnose(place: Place, message: str, key: str = "", hint: str = "") -> Diagn
 
 
 def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """File by file, as first met, and from top to bottom in each."""
-    met = {name: number for number, name in enumerate(dict.fromkeys(each.file for each in diagnostics))}
-    return sorted(diagnostics, key=lambda each: (met[each.file], each.line, each.column))
+    """Sorted by file, in the order of their first diagnostics, and by line."""
+    file_order = {
+        name: number for number, name in enumerate(dict.fromkeys(each.file for each in diagnostics))
+    }
+    return sorted(diagnostics, key=lambda each: (file_order[each.file], each.line, each.column))
 
 
 def single_error(place: Place, message: str, key: str = "", hint: str = "") -> ScenarioErrors:

@@ -1,4 +1,4 @@
-"""What a refused key or value was probably meant to be."""
+"""Hints for rejected keys and values: what to write instead."""
 
 import re
 from collections.abc import Iterator
@@ -8,14 +8,12 @@ from typing import Annotated, Any, Final, get_origin
 from pydantic import TypeAdapter, ValidationError
 
 from uictest import library
-from uictest.scenario.yaml.model import Key
+from uictest.scenario.yaml.model import Key, PartReference
 from uictest.scenario.yaml.model_keys import accepted_keys, models_at, models_in
 from uictest.scenario.yaml.quantities import NUMBER_PATTERN
-from uictest.scenario.yaml.reference_schema import PartReference
 from uictest.scenario.yaml.tree import Node, Scalar, Sequence as List, as_written, plain
-from uictest.scenario.yaml.wording import longer_name, suggestion, visible
+from uictest.scenario.yaml.wording import EXAMPLE_LENGTH, longer_name, short_example, suggestion, visible
 
-_LONGEST: Final = 80
 _FEWEST_LETTERS: Final = 3
 _DEEPEST: Final = 3
 """Levels of sections that are searched for a key."""
@@ -83,7 +81,7 @@ def _sections(model: Any) -> Iterator[tuple[str, Any]]:
 def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
     """What to write where ``node`` stands in place of the mapping ``name``: a key that takes the value."""
     value = as_written(node)
-    if value and len(value) <= _LONGEST:
+    if value and len(value) <= EXAMPLE_LENGTH:
         for each in models_at(model, key):
             for inner, field in each.model_fields.items():
                 if _takes(field, node):
@@ -110,17 +108,12 @@ def _takes(field: Any, node: Node) -> bool:
 
 def hint_for_list(key: str, node: List) -> str:
     """What to write where several values stand in place of one."""
-    return "several values go under matrix" + _example(f": `matrix: {{{key}: {as_written(node)}}}`")
+    return "several values go under matrix" + short_example(f": `matrix: {{{key}: {as_written(node)}}}`")
 
 
 def hint_for_item(key: Key, node: Node) -> str:
     """What to write where one value stands in place of a list."""
-    return (_example(f"write `{key[-1]}: [{as_written(node)}]`") or "write a list") if key else ""
-
-
-def _example(text: str) -> str:
-    """The text, or nothing where it is too long to be an example; half of one would be wrong."""
-    return visible(text) if len(text) <= _LONGEST else ""
+    return (short_example(f"write `{key[-1]}: [{as_written(node)}]`") or "write a list") if key else ""
 
 
 def switched(text: str, choices: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""`extends`: one parent each, maps merge, lists replace, no circles."""
+"""`extends`: one parent per file; maps merge, lists replace, circles are rejected."""
 
 from collections.abc import Callable
 from typing import Final
@@ -21,7 +21,7 @@ def inherit(
 
     ``fetch`` reads the parent that a reference names; ``check`` gets every parent, its own parents merged in,
     and what its child makes of it. Returns the merged tree and the documents it came from,
-    the child's first. Raises ScenarioErrors, for a circle at the reference that closes it.
+    the child's first. Raises ScenarioErrors; a circle is reported at the reference that closes it.
     """
     generations = [tree]
     while (entry := generations[-1].entries.get("extends")) is not None:
@@ -54,6 +54,6 @@ def _refuse_circle(parent: Map, generations: list[Map], reference: Scalar) -> No
     display = parent.place.document.display
     if display in seen:
         names = " -> ".join([*seen[seen.index(display) :], display])
-        raise single_error(reference.place, f"'extends' goes in a circle: {visible(names)}", "extends")
+        raise single_error(reference.place, f"circular 'extends': {visible(names)}", "extends")
     if len(seen) >= LONGEST_CHAIN:
         raise single_error(reference.place, f"more than {LONGEST_CHAIN} generations of 'extends'", "extends")

@@ -1,9 +1,18 @@
-"""What every model of a scenario shares: frozen, no unknown keys, inconsistencies told all at once."""
+"""Base classes of all models of files: frozen, no unknown keys, all inconsistencies reported at once."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any, ClassVar, Final, Literal, NamedTuple, Self
 
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, PrivateAttr, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    PrivateAttr,
+    model_validator,
+)
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from uictest.scenario.yaml.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
@@ -16,7 +25,7 @@ NAME_PATTERN: Final = r"^[a-z0-9][a-z0-9._-]{0,99}$"
 
 
 class Inconsistency(NamedTuple):
-    """Values that are acceptable one by one but impossible together; ``key`` is relative to the model."""
+    """Values that are valid one by one but impossible together; ``key`` is relative to the model."""
 
     key: Key
     message: str
@@ -29,20 +38,19 @@ class Model(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield what is impossible about these values taken together."""
+        """Yield values that are impossible together."""
         yield from ()
 
     def undescribed(self) -> Iterator[Inconsistency]:
-        """Yield what is said nowhere though something here refers to it."""
+        """Yield references to descriptions that are missing."""
         yield from ()
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        found = [*self.undescribed(), *self.inconsistencies()]
-        if found:
-            raise PydanticCustomError(
-                "contradiction", "{message}", {"message": found[0].message, "inconsistencies": found}
-            )
+        inconsistencies = [*self.undescribed(), *self.inconsistencies()]
+        if inconsistencies:
+            context = {"message": inconsistencies[0].message, "inconsistencies": inconsistencies}
+            raise PydanticCustomError("inconsistency", "{message}", context)
         return self
 
 
@@ -135,6 +143,35 @@ class Part(Model):
             "description": "Library name or relative path of the part that this mapping changes.",
         }
         return schema
+
+
+_LIBRARY_NAME_OR_PATH = {
+    "type": "string",
+    "minLength": 1,
+    "description": "A library name, or a relative path ending in .yaml.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class PartReference:
+    """Marks a field that refers to a part; ``default`` is the library name used if the key is missing.
+
+    With ``several``, the field also accepts a list of references.
+    """
+
+    model: Any
+    default: str
+    several: bool = False
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return handler(source)
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        if not self.several:
+            return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, handler(core)]}
+        inline = handler(core)["items"]
+        listed = {"type": "array", "minItems": 1, "items": {"anyOf": [_LIBRARY_NAME_OR_PATH, inline]}}
+        return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, inline, listed]}
 
 
 def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]]:

@@ -1,4 +1,4 @@
-"""What a model accepts at a key: found by walking its annotations, through lists, mappings and unions."""
+"""The keys that a model accepts, from its annotations: through lists, mappings and unions."""
 
 from collections.abc import Iterator
 from typing import Any, Literal, get_args, get_origin
@@ -25,7 +25,7 @@ def fields_named(model: Any, key: Key, name: str) -> Iterator[Any]:
 
 
 def models_at(model: Any, key: Key) -> list[Any]:
-    """The models that the mapping at ``key`` may be; indices, names in a dict and tags are passed over."""
+    """The models that the mapping at ``key`` may be; indices, names in a dict and tags are skipped."""
     here = models_in(model)
     for element in key:
         inner = [
@@ -34,7 +34,7 @@ def models_at(model: Any, key: Key) -> list[Any]:
             for name, field in each.model_fields.items()
             if element in (name, field.alias)
         ]
-        here = [found for annotation in inner for found in models_in(annotation)] or here
+        here = [inner_model for annotation in inner for inner_model in models_in(annotation)] or here
     return here
 
 
@@ -44,4 +44,4 @@ def models_in(annotation: Any) -> list[Any]:
         return [annotation]
     if get_origin(annotation) is Literal:
         return []
-    return [found for inner in get_args(annotation) for found in models_in(inner)]
+    return [inner_model for inner in get_args(annotation) for inner_model in models_in(inner)]

@@ -40,15 +40,15 @@ class Override:
 
 def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
     """Read ``--set`` options and the ``--seed`` option. Raises ScenarioErrors with the errors of all."""
-    found: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     overrides: list[Override] = []
     for text in texts:
         try:
             overrides.append(_parse(Document(COMMAND_LINE, Path(), text)))
         except ScenarioErrors as errors:
-            found.extend(errors.diagnostics)
-    if found:
-        raise ScenarioErrors(found)
+            diagnostics.extend(errors.diagnostics)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
     if seed is not None:
         place = Place(Document("--seed", Path(), str(seed)))
         overrides.append(Override("seed", place, (Scalar(seed, str(seed), place),)))
@@ -117,7 +117,7 @@ def _range(arguments: str, place: Place) -> list[str]:
 
 
 def apply_overrides(tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]) -> Map:
-    """The scenario's tree as if its file had said what the command line says."""
+    """The scenario's tree with the values of the command line in place of its own."""
     for override in overrides:
         tree = _without_axis(tree, override.key)
         if len(override.values) == 1:
@@ -136,7 +136,7 @@ def _with_axis(tree: Map, override: Override) -> Map:
 
 
 def _without_axis(tree: Map, key: str) -> Map:
-    """The tree in which ``key`` is swept no more: the command line decides its value."""
+    """The tree without ``key`` in its sweep sections: the command line sets its value."""
     for section in ("matrix", "zip", "include", "exclude"):
         entry = tree.entries.get(section)
         if entry is None or not _mentions(entry.node, key):
@@ -153,7 +153,7 @@ def _mentions(node: Node, key: str) -> bool:
 
 
 def _section_without(node: Node, key: str, section: str) -> Node | None:
-    """What remains of a section without ``key``: an included case loses it, an exclusion by it is void."""
+    """A section without ``key``: included cases lose it, exclusions by it are dropped."""
     if isinstance(node, Map):
         return node.without(key) if len(node.entries) > 1 else None
     assert isinstance(node, List)

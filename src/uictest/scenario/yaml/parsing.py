@@ -11,7 +11,6 @@ from typing import Any, Final
 import yaml
 
 from uictest.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose, single_error
-from uictest.scenario.yaml.scalars import resolve
 from uictest.scenario.yaml.tree import Document, Entry, Map, Node, Place, Scalar, Sequence
 from uictest.scenario.yaml.wording import quoted, visible
 
@@ -20,9 +19,20 @@ MOST_NODES: Final = 20_000
 MOST_DIAGNOSTICS: Final = 20
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-# What YAML 1.2 calls non-printable; the parser would stop at it without a usable position.
+# Non-printable characters of YAML 1.2; the parser would stop at them without a usable position.
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _BYTE_ORDER_MARK = "\ufeff"
+# Plain scalars of YAML 1.2 (core schema).
+_NULL: Final = frozenset({"", "~", "null", "Null", "NULL"})
+_TRUE: Final = frozenset({"true", "True", "TRUE"})
+_FALSE: Final = frozenset({"false", "False", "FALSE"})
+# Python refuses to convert thousands of digits; nothing here needs more than these.
+_INTEGER = re.compile(r"[-+]?[0-9]{1,30}")
+_OCTAL = re.compile(r"0o[0-7]{1,30}")
+_HEXADECIMAL = re.compile(r"0x[0-9a-fA-F]{1,30}")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
+_NAN: Final = frozenset({".nan", ".NaN", ".NAN"})
 
 
 def parse(
@@ -34,10 +44,10 @@ def parse(
 ) -> Node:
     """The tree of a document, or of a piece of it that starts at ``line`` and ``column``.
 
-    ``beginning`` is what to say of an empty document.
+    ``beginning`` is the hint for an empty document.
 
-    Raises ScenarioErrors with every structural error found and, where the text could be read all the same,
-    the tree that it was taken for.
+    Raises ScenarioErrors with every structural error and, if the text could be parsed in spite of them, the
+    tree.
     """
     return _Parser(document, document.text if text is None else text, line, column, beginning).parse()
 
@@ -51,7 +61,7 @@ class _Parser:
         self.line = line
         self.column = column
         self.beginning = beginning
-        self.found: list[Diagnostic] = []
+        self.diagnostics: list[Diagnostic] = []
         self.nodes = 0
         self.events: Iterator[Any] = iter(())
 
@@ -61,11 +71,11 @@ class _Parser:
         try:
             root = self._root()
         except yaml.YAMLError as error:
-            self.found.append(self._syntax_error(error))
+            self.diagnostics.append(self._syntax_error(error))
         except RecursionError:
             raise single_error(Place(self.document), "nested too deeply") from None
-        if self.found or root is None:
-            raise ScenarioErrors(self.found, root)
+        if self.diagnostics or root is None:
+            raise ScenarioErrors(self.diagnostics, root)
         return root
 
     def _refuse_control_characters(self) -> None:
@@ -99,7 +109,7 @@ class _Parser:
         if isinstance(event, yaml.AliasEvent):
             self._report(event, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
             return Scalar(None, "", place)
-        value = event.value if event.style else resolve(event.value)  # a style is a quotation or a block
+        value = event.value if event.style else scalar_value(event.value)  # a style is a quotation or a block
         return Scalar(value, event.value, place)
 
     def _guard(self, event: Any, depth: int) -> None:
@@ -121,9 +131,10 @@ class _Parser:
             key = self._node(event, depth + 1)
             node = self._node(next(self.events), depth + 1)
             if not isinstance(key, Scalar):
-                self.found.append(diagnose(key.place, "a key must be a text", hint="write `key: value`"))
+                error = diagnose(key.place, "a key must be a text", hint="write `key: value`")
+                self.diagnostics.append(error)
             elif key.text in entries:
-                self.found.append(_duplicate(key, entries[key.text]))
+                self.diagnostics.append(_duplicate(key, entries[key.text]))
             else:
                 entries[key.text] = Entry(key.place, node)
         return Map(entries, place)
@@ -135,9 +146,9 @@ class _Parser:
         return Sequence(tuple(items), place)
 
     def _report(self, event: Any, message: str, hint: str) -> None:
-        self.found.append(diagnose(self._place_of(event), message, hint=hint))
-        if len(self.found) >= MOST_DIAGNOSTICS:
-            raise ScenarioErrors(self.found)
+        self.diagnostics.append(diagnose(self._place_of(event), message, hint=hint))
+        if len(self.diagnostics) >= MOST_DIAGNOSTICS:
+            raise ScenarioErrors(self.diagnostics)
 
     def _place_of(self, event: Any) -> Place:
         return self._place(event.start_mark.line, event.start_mark.column)
@@ -173,3 +184,26 @@ def _syntax_hint(place: Place) -> str:
     lines = place.document.lines
     line = lines[place.line - 1]
     return "indent with blanks, not with tabs" if line[: len(line) - len(line.lstrip())].count("\t") else ""
+
+
+def scalar_value(text: str) -> str | int | float | bool | None:
+    """The value of a plain (unquoted) scalar: ``on`` and ``no`` are texts, ``1e3`` is a number."""
+    if text in _NULL:
+        return None
+    if text in _TRUE or text in _FALSE:
+        return text in _TRUE
+    return _scalar_number(text)
+
+
+def _scalar_number(text: str) -> str | int | float:
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    if _OCTAL.fullmatch(text):
+        return int(text[2:], 8)
+    if _HEXADECIMAL.fullmatch(text):
+        return int(text[2:], 16)
+    if _FLOAT.fullmatch(text):
+        return float(text)
+    if _INFINITE.fullmatch(text):
+        return float(text.replace(".", ""))
+    return float("nan") if text in _NAN else text

@@ -18,7 +18,7 @@ _BEGINNING: Final = "start with `schema: uictest/scenario/1`"
 
 
 def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
-    """The tree of a YAML file; ``beginning`` tells how one of its sort begins. Raises ScenarioErrors."""
+    """The tree of a YAML file; ``beginning`` is the hint for an empty file. Raises ScenarioErrors."""
     display = display_name(path)
     if not _is_unicode(display):
         raise single_error(
@@ -48,12 +48,12 @@ def _is_unicode(name: str) -> bool:
 
 
 def whole_file(path: Path) -> Place:
-    """The place of what is wrong with a file as a whole."""
+    """The place of an error of a file as a whole."""
     return Place(Document(display_name(path), path.parent, ""))
 
 
 def unreadable_error(place: Place, error: Exception) -> ScenarioErrors:
-    """What the operating system says against reading."""
+    """The error of a file that the operating system cannot read."""
     return single_error(place, f"cannot be read: {getattr(error, 'strerror', None) or error}")
 
 
@@ -83,7 +83,7 @@ def _tree(display: str, folder: Path, content: bytes, beginning: str = _BEGINNIN
     )
     root = parse(document, beginning=beginning)
     if not isinstance(root, Map):
-        raise single_error(root.place, "the file must hold a mapping of keys to values", hint=beginning)
+        raise single_error(root.place, "the file must contain a mapping of keys to values", hint=beginning)
     return root
 
 

@@ -1,4 +1,4 @@
-"""What a YAML file says, with the place of every key and value; changed by copying, never in place."""
+"""The tree of a YAML file, with the place of every key and value; immutable."""
 
 import re
 from collections.abc import Mapping
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 COMMAND_LINE: Final = "--set"
-"""What a text of that option is called where files have their names."""
+"""Display name of values from the command line, in place of a file name."""
 
 # libyaml counts these as line breaks, so excerpts must too.
 _LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")

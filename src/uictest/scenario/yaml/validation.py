@@ -1,4 +1,4 @@
-"""A tree against a model: every disagreement as a diagnostic at its place."""
+"""Validation of a tree against a model: every error as a diagnostic at its place."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -27,20 +27,20 @@ def validated(model: Any, data: object, tree: Node, prefix: Key = ()) -> Any:
     try:
         return _adapter(model).validate_python(data)
     except ValidationError as error:
-        found = error.errors(include_url=False)
+        errors = error.errors(include_url=False)
     raise ScenarioErrors(
-        diagnostic for each in found for diagnostic in _translated(each, model, tree, prefix)
+        diagnostic for each in errors for diagnostic in _translated(each, model, tree, prefix)
     )
 
 
 def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Diagnostic]:
     key: Key = error["loc"]
     context = error.get("ctx", {})
-    if error["type"] == "contradiction":
-        for found in context["inconsistencies"]:
-            entry, _ = entry_at(tree, (*key, *found.key))
-            written = dotted((*prefix, *_written_key(key, tree), *found.key))
-            yield diagnose(entry.node.place, found.message, written, found.hint)
+    if error["type"] == "inconsistency":
+        for inconsistency in context["inconsistencies"]:
+            entry, _ = entry_at(tree, (*key, *inconsistency.key))
+            written = dotted((*prefix, *_written_key(key, tree), *inconsistency.key))
+            yield diagnose(entry.node.place, inconsistency.message, written, inconsistency.hint)
     elif error["type"] == "extra_forbidden":
         yield _unknown_key(key, model, tree, prefix)
     elif error["type"].startswith("union_tag"):
@@ -70,7 +70,7 @@ def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) ->
 
 def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key = ()) -> Diagnostic:
     entry, _ = entry_at(tree, key)
-    # A key that is missing inside a mapping is told at the key of that mapping: there one looks for it.
+    # A missing key is reported at the key of the mapping that lacks it.
     place = entry.key if beyond else entry.node.place
     return diagnose(place, message, dotted((*prefix, *_written_key(key, tree), *beyond)), hint)
 
@@ -87,7 +87,7 @@ def _unknown_key(key: Key, model: Any, tree: Node, prefix: Key) -> Diagnostic:
 
 
 def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, prefix: Key) -> Diagnostic:
-    """The key that tells the members of a union apart is missing or says something unknown."""
+    """The discriminator of a union is missing or unknown."""
     name = _unquoted(context["discriminator"])
     choices = sorted(get_args(field.annotation)[0] for field in fields_named(model, key, name))
     if "tag" not in context:
@@ -119,13 +119,13 @@ def _written_key(key: Key, tree: Node) -> Key:
     return tuple(kept)
 
 
-def _worded(error: Any, context: dict[str, Any], found: Node) -> tuple[str, str]:
+def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
     """Message and hint for an error of a single value."""
     kind = error["type"]
     if "message" in context:
         return context["message"], context.get("hint", "")
     if kind == "literal_error":
-        return _not_one_of(found, _choices(context["expected"]))
+        return _not_one_of(node, _choices(context["expected"]))
     if kind == "string_pattern_mismatch":
         return f"{quoted(str(error['input']))} is not allowed", _pattern_hint(context["pattern"])
     if kind in _BOUNDED:
@@ -134,20 +134,20 @@ def _worded(error: Any, context: dict[str, Any], found: Node) -> tuple[str, str]
         words, name = _COUNTED[kind]
         return f"{words} {context[name]} {'characters' if 'string' in kind else 'entries'}", ""
     if kind in _EXPECTED:
-        hint = _quoting_hint(found) if kind == "string_type" else ""
-        if kind in ("bool_type", "bool_parsing") and isinstance(found, Scalar):
-            hint = _meant(found.text, ["true", "false"])
-        if kind == "int_type" and isinstance(found, Scalar) and found.text.isdecimal():
-            hint = f"write {found.text} without quotes"
-        return f"expected {_EXPECTED[kind]}, found {describe(found)}{_value(found)}", hint
+        hint = _quoting_hint(node) if kind == "string_type" else ""
+        if kind in ("bool_type", "bool_parsing") and isinstance(node, Scalar):
+            hint = _meant(node.text, ["true", "false"])
+        if kind == "int_type" and isinstance(node, Scalar) and node.text.isdecimal():
+            hint = f"write {node.text} without quotes"
+        return f"expected {_EXPECTED[kind]}, found {describe(node)}{_value(node)}", hint
     return _first_lower(error["msg"]), ""
 
 
-def _not_one_of(found: Node, choices: list[str]) -> tuple[str, str]:
-    if not isinstance(found, Scalar):
-        return f"expected one of {', '.join(choices)}, found {describe(found)}", ""
-    return f"unknown value {quoted(found.text)}, expected one of {', '.join(choices)}", _did_you_mean(
-        found.text, choices
+def _not_one_of(node: Node, choices: list[str]) -> tuple[str, str]:
+    if not isinstance(node, Scalar):
+        return f"expected one of {', '.join(choices)}, found {describe(node)}", ""
+    return f"unknown value {quoted(node.text)}, expected one of {', '.join(choices)}", _did_you_mean(
+        node.text, choices
     )
 
 
@@ -169,13 +169,13 @@ def _unquoted(text: str) -> str:
     return text.strip("'")
 
 
-def _value(found: Node) -> str:
-    return f" ({quoted(found.text)})" if isinstance(found, Scalar) and found.text else ""
+def _value(node: Node) -> str:
+    return f" ({quoted(node.text)})" if isinstance(node, Scalar) and node.text else ""
 
 
-def _quoting_hint(found: Node) -> str:
+def _quoting_hint(node: Node) -> str:
     # YAML takes 4.2, true and null for what they look like, unless they stand in quotes.
-    return f'write it in quotes: "{visible(found.text)}"' if isinstance(found, Scalar) and found.text else ""
+    return f'write it in quotes: "{visible(node.text)}"' if isinstance(node, Scalar) and node.text else ""
 
 
 def _bound(context: dict[str, Any]) -> object:

@@ -5,6 +5,7 @@ from difflib import get_close_matches
 from typing import Final
 
 QUOTED_LENGTH: Final = 60
+EXAMPLE_LENGTH: Final = 80
 
 
 def visible(text: str) -> str:
@@ -25,6 +26,11 @@ def quoted(text: str) -> str:
     """``text`` in single quotes, escaped and cut to a readable length."""
     short = text if len(text) <= QUOTED_LENGTH else text[: QUOTED_LENGTH - 3] + "..."
     return f"'{visible(short)}'"
+
+
+def short_example(text: str) -> str:
+    """Return the text, escaped; empty if it is too long for a hint, since half an example is wrong."""
+    return visible(text) if len(text) <= EXAMPLE_LENGTH else ""
 
 
 def nearest(text: str, valid: Iterable[str]) -> str | None:

@@ -15,7 +15,7 @@ from uictest.scenario.yaml import (
     Map,
     Model,
     Node,
-    Physical,
+    QuantityField,
     Scalar,
     ScenarioErrors,
     Sequence as List,
@@ -24,7 +24,7 @@ from uictest.scenario.yaml import (
     entry_at,
     plain,
     quoted,
-    resolve as plain_scalar,
+    scalar_value,
     single_error,
     validated,
     visible,
@@ -222,7 +222,7 @@ def range_node(values: Range, place_of: Node) -> List:
 
 
 def _scalar(text: str, place_of: Node) -> Scalar:
-    return Scalar(plain_scalar(text), text, place_of.place)
+    return Scalar(scalar_value(text), text, place_of.place)
 
 
 def quantity_field(scenario: Any, key: str) -> Any:
@@ -242,8 +242,8 @@ def quantity_field(scenario: Any, key: str) -> Any:
     return None if _physical(annotation) is None else annotation
 
 
-def _physical(annotation: Any) -> Physical | None:
-    if isinstance(annotation, Physical):
+def _physical(annotation: Any) -> QuantityField | None:
+    if isinstance(annotation, QuantityField):
         return annotation
     if isinstance(annotation, type) and issubclass(annotation, Model):
         return None  # the quantities inside a mapping are not the field itself

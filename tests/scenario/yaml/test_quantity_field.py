@@ -5,12 +5,12 @@ from typing import Annotated
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from uictest.scenario.yaml.physical import kind
 from uictest.scenario.yaml.quantities import Quantity
+from uictest.scenario.yaml.quantity_field import of_kind
 
 
 class Sample(BaseModel):
-    pressure: Annotated[Quantity, kind("pressure", above="0 bar", at_most="8 bar")]
+    pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="8 bar")]
 
 
 def message(value: object) -> str:

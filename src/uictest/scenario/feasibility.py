@@ -1,15 +1,51 @@
-"""The longest step with which the car on its springs and dampers can be simulated."""
+"""Limits of physics and of the integration: the shortest stop, the largest brake force, the longest step."""
 
 import math
 
+from uictest import physics
+from uictest.scenario.parts.brake import Disc
+from uictest.scenario.parts.caliper import Caliper
+from uictest.scenario.parts.compensation import Compensation
+from uictest.scenario.parts.criteria import WHEELSETS
 from uictest.scenario.parts.vehicle import Vehicle
+from uictest.units import STANDARD_GRAVITY
 
 _PRIMARIES, _SECONDARIES = 2.0, 2.0
 """Axle boxes of a wheelset, sides of a bogie."""
 
 
+def stopping_time_at_least(speed: float, friction: float, gradient: float, vehicle: Vehicle) -> float:
+    """Return the shortest time, s, of a stop from ``speed`` (m/s); infinite if the car never stops.
+
+    Friction, gradient and the running resistance at the initial speed act in full until the end.
+    """
+    resistance = vehicle.running_resistance
+    drag = resistance.constant + resistance.linear * speed + resistance.quadratic * speed**2
+    deceleration = STANDARD_GRAVITY * (friction + gradient) + drag / vehicle.total_mass
+    return speed / deceleration if deceleration > 0.0 else math.inf
+
+
+def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressure: float) -> float:
+    """Return the larger force, N, of caliper and compensation at a gauge pressure in Pa."""
+    lines = (compensation.linear, compensation.hysteresis.bc_releasing, compensation.hysteresis.wsp_releasing)
+    net = max(0.0, caliper.piston_area * pressure - caliper.preload)
+    return max(caliper.lever_ratio * net, *(line.force(pressure) for line in lines))
+
+
+def braking_force(disc: Disc, vehicle: Vehicle, clamping_force: float) -> float:
+    """Return the force at the rims of all wheelsets, N, with ``clamping_force`` N at every caliper."""
+    torque = physics.torque(
+        clamping_force,
+        disc.calipers_per_wheelset,
+        disc.pads_per_caliper,
+        disc.pad_friction,
+        disc.mean_radius,
+    )
+    return WHEELSETS * torque / vehicle.wheelset.radius
+
+
 def longest_step(vehicle: Vehicle) -> tuple[float, str]:
-    """Longest stable step in s, and the motion that limits it.
+    """Return the longest stable step, s, and the motion that limits it.
 
     Semi-implicit Euler with explicit damping keeps a motion of mass m, stiffness k and damping c bounded
     while k h2 + 2 c h < 4 m. Coupled to others a motion is at most twice as stiff (Gershgorin), so that

@@ -1,4 +1,4 @@
-"""Fields that are quantities: what pydantic accepts for them, and what their JSON Schema says."""
+"""Fields that are quantities: their validation by pydantic and their JSON Schema."""
 
 import re
 from collections.abc import Callable
@@ -27,8 +27,8 @@ QUANTITY_KEYWORD: Final = "x-quantity"
 
 
 @dataclass(frozen=True, slots=True)
-class Physical:
-    """Tells pydantic that a field is a quantity of one kind, within bounds given as written texts."""
+class QuantityField:
+    """Annotation of a field that is a quantity of one ``kind`` (speed, pressure, ...), within bounds."""
 
     kind: Kind
     above: Quantity | None = None
@@ -36,39 +36,39 @@ class Physical:
     at_most: Quantity | None = None
     below: Quantity | None = None
 
-    def validate(self, given: object) -> Quantity:
-        """The quantity that ``given`` (a text, a number, or a mapping of value and source) stands for."""
+    def validate(self, value: object) -> Quantity:
+        """The quantity of a text, a number, or a mapping of value and source."""
         try:
-            return self._within(self._read(given))
+            return self._within(self._read(value))
         except QuantityError as error:
             raise PydanticCustomError("quantity", "{message}", _context(error)) from None
 
-    def _read(self, given: object) -> Quantity:
-        if isinstance(given, Quantity):
-            return self._adopt(given)
-        if isinstance(given, dict):
-            return self._read_marked(given)
-        if isinstance(given, str) or (isinstance(given, int | float) and not isinstance(given, bool)):
-            text = getattr(given, "text", str(given))
+    def _read(self, value: object) -> Quantity:
+        if isinstance(value, Quantity):
+            return self._adopt(value)
+        if isinstance(value, dict):
+            return self._read_marked(value)
+        if isinstance(value, str) or (isinstance(value, int | float) and not isinstance(value, bool)):
+            text = getattr(value, "text", str(value))
             return parse_quantity(text, self.kind.name, accepts=self._accepts)
         raise QuantityError(f"expected {described(self.kind)}", f"write {example(self.kind)}")
 
-    def _read_marked(self, given: dict[str, object]) -> Quantity:
-        source = given.get("source")
-        if set(given) != {"value", "source"} or not isinstance(source, str):
+    def _read_marked(self, value: dict[str, object]) -> Quantity:
+        source = value.get("source")
+        if set(value) != {"value", "source"} or not isinstance(source, str):
             raise QuantityError(
                 f"expected {described(self.kind)}, found a mapping",
                 f"write {example(self.kind)}, or a mapping of 'value' and 'source'",
             )
-        bare = self._read(given["value"])
+        bare = self._read(value["value"])
         return Quantity(float(bare), bare.text, bare.unit, source)
 
-    def _adopt(self, given: Quantity) -> Quantity:
-        if given.unit != self.kind.canonical:
+    def _adopt(self, value: Quantity) -> Quantity:
+        if value.unit != self.kind.canonical:
             raise QuantityError(
-                f"{quoted(given.text)} is not {described(self.kind)}", f"write {example(self.kind)}"
+                f"{quoted(value.text)} is not {described(self.kind)}", f"write {example(self.kind)}"
             )
-        return given
+        return value
 
     def _within(self, value: Quantity) -> Quantity:
         if self.kind.name == "count" and not value.is_integer():
@@ -144,20 +144,20 @@ def written(quantity: Quantity) -> str | dict[str, str]:
     return {"value": quantity.text, "source": quantity.source}
 
 
-def kind(
+def of_kind(
     name: str,
     *,
     above: str | None = None,
     at_least: str | None = None,
     at_most: str | None = None,
     below: str | None = None,
-) -> Physical:
-    """Annotation of a field: a quantity of the named kind, within bounds written like ``"4 bar"``."""
+) -> QuantityField:
+    """Return the annotation of a field: a quantity of the named kind, within bounds like ``"4 bar"``."""
 
     def bound(text: str | None) -> Quantity | None:
         return None if text is None else parse_quantity(text, name)
 
-    return Physical(KINDS[name], bound(above), bound(at_least), bound(at_most), bound(below))
+    return QuantityField(KINDS[name], bound(above), bound(at_least), bound(at_most), bound(below))
 
 
 def default(text: str, name: str) -> Quantity:

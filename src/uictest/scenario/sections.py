@@ -1,0 +1,126 @@
+"""The sections of a scenario: brake, rail, rig and simulation."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from uictest.scenario.parts.brake import BrakeSystem
+from uictest.scenario.parts.caliper import Caliper
+from uictest.scenario.parts.compensation import Compensation
+from uictest.scenario.parts.friction import FactorProfile, FrictionProfile
+from uictest.scenario.parts.rail import Friction, RailCondition
+from uictest.scenario.parts.sensors import Sensors
+from uictest.scenario.yaml import (
+    Inconsistency,
+    Model,
+    PartReference,
+    Quantity,
+    default,
+    of_kind,
+    quoted,
+    suggestion,
+)
+
+
+def _friction_form(value: object) -> str:
+    points = isinstance(value, tuple) and any(isinstance(point, dict) for point in value)
+    return "profile" if points or isinstance(value, dict | FrictionProfile) else "number"
+
+
+class Brake(Model):
+    """The brake of the car and the command it gets."""
+
+    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
+        description="The brake system: a library name, a relative path or an inline mapping."
+    )
+    command: Annotated[Quantity, of_kind("share", at_least="1 %", at_most="100 %")] = Field(
+        default=default("100 %", "share"), description="Share of the full service command."
+    )
+    position: str = Field(
+        default="R", description="Brake position; one of the positions of the brake system."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a position that the system does not have."""
+        if self.position not in self.system.positions:
+            yield Inconsistency(
+                ("position",),
+                f"unknown brake position {quoted(self.position)}",
+                suggestion(self.position, self.system.positions),
+            )
+
+
+class Rail(Model):
+    """The rail under the car."""
+
+    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = Field(
+        description="Rail condition: dry, wet, a relative path or an inline mapping."
+    )
+    friction: (
+        Annotated[
+            Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
+            Discriminator(_friction_form),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="Initial friction coefficient, or points of it along the track; else the condition's.",
+    )
+    friction_over_time: FactorProfile | None = Field(
+        default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
+    )
+    gradient: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = (
+        Field(
+            default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
+        )
+    )
+
+    @property
+    def highest_friction(self) -> float:
+        """The highest friction coefficient anywhere, at any time."""
+        factor = (
+            1.0
+            if self.friction_over_time is None
+            else max(at.factor for at in self.friction_over_time.points)
+        )
+        if isinstance(self.friction, FrictionProfile):
+            return factor * max(at.friction for at in self.friction.points)
+        return factor * (self.condition.friction if self.friction is None else self.friction)
+
+
+class Rig(Model):
+    """How the rig is built up."""
+
+    topology: Literal["one-caliper", "four-caliper"] = Field(
+        default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
+    )
+    compensation: Literal["none", "hysteresis", "cylinder", "full"] = Field(
+        default="full",
+        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both.",
+    )
+    wsp: Literal["active", "bypassed"] = Field(
+        default="active", description="Whether the WSP valves obey the controller or always fill."
+    )
+    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = Field(
+        description="The caliper: a library name, a relative path or an inline mapping."
+    )
+    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = Field(
+        description="The compensation: a library name, a relative path or an inline mapping."
+    )
+    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = Field(
+        description="The sensors: a library name, a relative path or an inline mapping."
+    )
+
+
+class Simulation(Model):
+    """How the stop is simulated."""
+
+    time_step: Annotated[Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms")] = Field(
+        default=default("0.5 ms", "time"),
+        description="Base step; a whole number of them makes a controller cycle.",
+    )
+    maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
+        default=default("180 s", "time"),
+        description="Simulated time after which a stop is given up; what is open then is inconclusive.",
+    )
