@@ -11,13 +11,13 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from uictest.measures import MEASURES
 from uictest.scenario.model import Scenario
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.controller import SlipBandController, ThresholdController
 from uictest.scenario.parts.criteria import Criterion
-from uictest.scenario.parts.measure_catalogue import MEASURES
 from uictest.scenario.parts.measures import MeasureDefinitions
 from uictest.scenario.parts.rail import RailCondition
 from uictest.scenario.parts.sensors import Sensors

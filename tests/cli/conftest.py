@@ -16,12 +16,14 @@ import pytest
 from uictest import rig
 from uictest.campaign import CaseRun, RecordingRequest, batch
 from uictest.cli.entry import execute
-from uictest.evaluation import CaseMeasures, CaseResult, error_result
+from uictest.evaluation import CaseResult, error_result
+from uictest.measures import STOP_COLUMNS
 
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
-FIGURES = CaseMeasures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+_NUMBERS = (465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
 
 
 @dataclass(frozen=True)

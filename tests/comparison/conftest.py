@@ -8,11 +8,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
+from uictest.evaluation import CaseResult, Verdict
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.recording import Recording
 from uictest.report import CaseDescription, RunContent, RunManifest
 
-FIGURES = CaseMeasures(465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
+_NUMBERS = (465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
+FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
 VERDICT = Verdict("braking-distance", "validity", 465.0, "m", 440.0, 490.0, 25.0, "pass", "")
 
 
@@ -28,7 +30,7 @@ def make_run() -> Callable[..., RunContent]:
         friction: str = "0.3",
         **figures: float,
     ) -> RunContent:
-        wheelset = CaseWheelsetMeasures(0.02, 0.0, 11, 25e3, 1.5)
+        wheelset = dict(zip(WHEELSET_COLUMNS, (0.02, 0.0, 11, 25e3, 1.5), strict=True))
         result = CaseResult(
             id=case_id,
             scenario="dry.yaml",
@@ -36,7 +38,7 @@ def make_run() -> Callable[..., RunContent]:
             expect="pass",
             outcome=outcome,  # type: ignore[arg-type]
             criteria=(dataclasses.replace(VERDICT, status=verdict),),  # type: ignore[arg-type]
-            measures=dataclasses.replace(FIGURES, **figures),
+            measures=FIGURES | figures,
             wheelsets=(wheelset, wheelset),
         )
         manifest = RunManifest(seed=0, versions={"numba": "0.68.1"}, inputs={"dry.yaml": "a" * 64})

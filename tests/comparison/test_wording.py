@@ -86,7 +86,7 @@ def test_the_page_shows_both_sides(make_run: MakeRun, make_recording: MakeRecord
 
 def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for(make_run: MakeRun) -> None:
     before, after = make_run(), make_run()
-    slid = [dataclasses.replace(after.results[0].wheelsets[0], maximum_slide=slide) for slide in (0.3, 0.4)]
+    slid = [{**after.results[0].wheelsets[0], "maximum_slide": slide} for slide in (0.3, 0.4)]
     after = RunContent("after", [dataclasses.replace(after.results[0], wheelsets=tuple(slid))])
     found = compare_runs(before, after, DEFAULT)
     rows = [line.split() for line in comparison_lines(found) if line.startswith("DIFFERS")]

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, error_result, evaluate
+from uictest.evaluation import CaseResult, error_result, evaluate, evaluate_simulated
 
 G = 9.80665
 
@@ -23,14 +23,15 @@ def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
     assert (result.outcome, result.expect, result.met, result.reason) == ("pass", "pass", True, "")
     assert result.scenario == "scenarios/slip-120.yaml"
     figures = result.measures
-    assert figures.initial_adhesion_g == pytest.approx(0.07)
-    assert figures.mean_deceleration_mps2 == pytest.approx((120 / 3.6) ** 2 / 1800)
-    assert figures.reservoir_minimum_bar == pytest.approx(7.2)
-    assert figures.air_consumed_nl == pytest.approx(100.0)
-    assert figures.air_residual == -3e-14
+    assert figures["initial_adhesion_g"] == pytest.approx(0.07)
+    assert figures["mean_deceleration_mps2"] == pytest.approx((120 / 3.6) ** 2 / 1800)
+    assert figures["reservoir_minimum_bar"] == pytest.approx(7.2)
+    assert figures["air_consumed_nl"] == pytest.approx(100.0)
+    assert figures["air_residual"] == -3e-14
     first = result.wheelsets[0]
-    assert (first.maximum_slide, first.valve_actuations, first.maximum_clamping_force_n) == (0.9, 11, 41e3)
-    assert first.air_vented_nl == pytest.approx(10.0)
+    assert (first["maximum_slide"], first["valve_actuations"]) == (0.9, 11)
+    assert first["maximum_clamping_force_n"] == 41e3
+    assert first["air_vented_nl"] == pytest.approx(10.0)
 
 
 def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
@@ -40,8 +41,8 @@ def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
     phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
     slippery = profile(criterion("initial_adhesion", upper="0.2 g", definition=phase))
     result = evaluate(case(scenario(slippery)), sliding_stop(speed_after_sliding=speed), wheelsets(0.5))
-    assert result.measures.initial_adhesion_g * G == pytest.approx(1.0)
-    assert result.criteria[0].value == result.measures.initial_adhesion_g
+    assert result.measures["initial_adhesion_g"] * G == pytest.approx(1.0)
+    assert result.criteria[0].value == result.measures["initial_adhesion_g"]
 
 
 def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
@@ -109,4 +110,44 @@ def test_an_expectation_is_met_by_its_own_outcome(outcome: str, expect: str, met
 
 def test_a_figure_never_reached_is_nan(slip_test, stop, wheelsets) -> None:
     figures = evaluate(slip_test, stop(), wheelsets(0.0)).measures
-    assert math.isnan(figures.initial_adhesion_g)
+    assert math.isnan(figures["initial_adhesion_g"])
+
+
+@pytest.fixture
+def sound_test(shipped, scenario, case):
+    return case(scenario(shipped("uictest-stop"), condition="dry"))
+
+
+def test_a_stop_with_finite_measures_is_judged(sound_test, stop, wheelsets) -> None:
+    # The minimum deceleration is NaN where the stop ended before the brake was developed.
+    undeveloped = stop(minimum_deceleration=math.nan)
+    result = evaluate_simulated(sound_test, undeveloped, wheelsets(0.0, 0.0, 0.0, 0.0))
+
+    assert result.outcome == "pass"
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("name", ["air_residual", "energy_residual", "air_consumed", "end_distance"])
+def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(
+    sound_test, stop, wheelsets, name: str, value: float
+) -> None:
+    result = evaluate_simulated(sound_test, stop(**{name: value}), wheelsets(0.0, 0.0, 0.0, 0.0), 2.5)
+
+    assert (result.outcome, result.criteria, result.duration) == ("error", (), 2.5)
+    assert f"no finite {name}" in result.reason
+
+
+def test_a_measure_of_a_wheelset_that_is_no_number_is_an_error_and_named(sound_test, stop, wheelsets) -> None:
+    result = evaluate_simulated(sound_test, stop(), wheelsets(0.0, math.nan, 0.0, 0.0))
+
+    assert result.outcome == "error"
+    assert "no finite maximum_slide_2" in result.reason
+
+
+def test_a_stop_that_takes_no_air_has_no_air_balance(sound_test, stop, wheelsets) -> None:
+    measures = stop(air_consumed=0.0, air_residual=math.nan, end_time=0.086)
+
+    result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
+
+    assert result.outcome == "error"
+    assert "ended after 0.086 s, before the brake took any air" in result.reason

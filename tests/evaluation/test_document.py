@@ -110,6 +110,16 @@ def test_the_same_results_give_the_same_text_however_long_they_took(results) -> 
     assert to_json(result_document(slower)) == to_json(result_document(results))
 
 
+def test_a_column_of_another_version_is_refused(results) -> None:
+    document = result_document(results)
+    document["cases"][0]["measures"] = {"braking_distance_m": 465.0}
+    with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should have the columns braking_distance_m"):
+        results_of(document)
+    document["cases"][0]["measures"] = dict.fromkeys(MEASURES, "far")
+    with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should hold numbers only"):
+        results_of(document)
+
+
 BARE = {
     "id": "a",
     "scenario": "a.yaml",

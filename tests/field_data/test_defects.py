@@ -81,8 +81,8 @@ def test_a_gap_leaves_no_integrated_distance(channels: Channels, prepared: Any, 
     time = channels["speed"].time
     _keep(channels, (time < 3.0) | (time > 3.805))
     result = judge_stop(case, prepared(channels))
-    assert np.isnan(result.measures.braking_distance_m)
-    assert np.isfinite(result.measures.braking_time_s)
+    assert np.isnan(result.measures["braking_distance_m"])
+    assert np.isfinite(result.measures["braking_time_s"])
 
 
 def test_missing_samples(case: Any, channels: Channels, prepared: Any) -> None:
@@ -132,7 +132,7 @@ def test_a_stuck_pressure(channels: Channels, prepared: Any) -> None:
 def test_a_stuck_loadcell_is_no_clamping_force(case: Any, channels: Channels, prepared: Any) -> None:
     _change(channels, "clamping_force_1", np.zeros_like(channels["speed"].samples))
     result = judge_stop(case, prepared(channels))
-    assert all(np.isnan(wheelset.maximum_clamping_force_n) for wheelset in result.wheelsets)
+    assert all(np.isnan(wheelset["maximum_clamping_force_n"]) for wheelset in result.wheelsets)
 
 
 def test_an_offset_wheel_speed(channels: Channels, prepared: Any) -> None:
@@ -157,8 +157,8 @@ def test_a_record_that_starts_late(case: Any, channels: Channels, prepared: Any)
     stop = prepared(channels)
     assert ("starts-late", "the record") in _kinds(stop)
     result = judge_stop(case, stop)
-    assert np.isnan(result.measures.braking_time_s)
-    assert np.isnan(result.measures.initial_adhesion_g)
+    assert np.isnan(result.measures["braking_time_s"])
+    assert np.isnan(result.measures["initial_adhesion_g"])
 
 
 def test_a_record_that_starts_late_without_a_stated_command(channels: Channels, prepared: Any) -> None:

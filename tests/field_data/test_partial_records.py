@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation.measure_readers import read
 from uictest.field_data import stated_case
 from uictest.field_data.observation import observe
+from uictest.measures import MEASURES
 from uictest.scenario import Case
 from uictest.scenario.parts.criteria import Criteria, Criterion
-from uictest.scenario.parts.measure_catalogue import MEASURES
 from uictest.units import KINDS
 
 from .conftest import judge_stop
@@ -52,7 +51,7 @@ def _of_part(part: str, channels: Channels) -> Channels:
 def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
     observed = observe(stop, case.scenario.measures)
     records = observed.measures, observed.wheelset_measures
-    return {name: read(name, *records, DEFINITION).values for name in MEASURES}
+    return {name: measure.read(*records, DEFINITION).values for name, measure in MEASURES.items()}
 
 
 def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(

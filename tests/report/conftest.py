@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, Verdict
+from uictest.evaluation import CaseResult, Verdict
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.recording import Recording
 from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
@@ -37,7 +38,9 @@ def make_result() -> Callable[..., CaseResult]:
             "outcome": "pass",
             "criteria": (verdict(),),
             "measures": FIGURES,
-            "wheelsets": tuple(CaseWheelsetMeasures(0.02 * n, 0.0, n, 25e3, 1.5) for n in range(1, 5)),
+            "wheelsets": tuple(
+                dict(zip(WHEELSET_COLUMNS, (0.02 * n, 0.0, n, 25e3, 1.5), strict=True)) for n in range(1, 5)
+            ),
             "duration": 0.25,
         }
         return CaseResult(**(content | changes))  # type: ignore[arg-type]
@@ -107,7 +110,8 @@ def make_recording() -> Callable[..., Recording]:
     return make
 
 
-FIGURES = CaseMeasures(465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+_NUMBERS = (465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
+FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
 
 
 def verdict(**changes: object) -> Verdict:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -11,7 +10,7 @@ from uictest.comparison.difference import Comparison
 from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.parameters import parameter_changes
 from uictest.comparison.tolerance import Tolerances
-from uictest.evaluation import unit_of
+from uictest.measures import column_unit
 from uictest.report import Difference, wheelset_quantity
 
 _DIGEST_LENGTH = 64
@@ -64,7 +63,7 @@ def case_differences(
     figures, theirs = _figures(first), _figures(second)
     for name in dict.fromkeys([*figures, *theirs]):
         pair = figures.get(name, math.nan), theirs.get(name, math.nan)
-        yield compare_numbers(case_id, name, pair[0], pair[1], tolerances, unit_of(name))
+        yield compare_numbers(case_id, name, pair[0], pair[1], tolerances, column_unit(name))
 
 
 def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference | None:
@@ -76,11 +75,9 @@ def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
 
 
 def _figures(result: evaluation.CaseResult) -> dict[str, float]:
-    figures = dataclasses.asdict(result.measures) if result.measures is not None else {}
+    figures = dict(result.measures or {})
     for position, wheelset in enumerate(result.wheelsets, start=1):
-        figures |= {
-            wheelset_quantity(name, position): value for name, value in dataclasses.asdict(wheelset).items()
-        }
+        figures |= {wheelset_quantity(name, position): value for name, value in wheelset.items()}
     return figures
 
 

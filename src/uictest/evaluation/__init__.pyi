@@ -1,4 +1,9 @@
-from .case import JUDGED_KEYS as JUDGED_KEYS, error_result as error_result, evaluate as evaluate
+from .case import (
+    JUDGED_KEYS as JUDGED_KEYS,
+    error_result as error_result,
+    evaluate as evaluate,
+    evaluate_simulated as evaluate_simulated,
+)
 from .coverage import Coverage as Coverage, MissingData as MissingData
 from .document import (
     cases_document as cases_document,
@@ -31,9 +36,7 @@ from .result import (
     CaseMeasures as CaseMeasures,
     CaseResult as CaseResult,
     CaseWheelsetMeasures as CaseWheelsetMeasures,
-    unit_of as unit_of,
 )
-from .simulated import evaluate_simulated as evaluate_simulated
 from .verdict import (
     AppliedDefinition as AppliedDefinition,
     Sensitivity as Sensitivity,

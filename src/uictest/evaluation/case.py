@@ -1,25 +1,24 @@
-"""From a case and what was measured in it to its result."""
+"""From a case and the measures of its stop to its result."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Container, Iterator, Mapping
+from typing import Final
 
-from uictest.evaluation.adhesion import DEFAULT_FIRST_PHASE
+from uictest import scenario
 from uictest.evaluation.coverage import Coverage
-from uictest.evaluation.figures import (
-    figures_of,
-    known_figures,
-    known_wheelset_figures,
-    wheelset_figures_of,
-)
 from uictest.evaluation.judgement import judge
 from uictest.evaluation.outcome import outcome_of
-from uictest.evaluation.records import StopMeasures, Wheelsets
 from uictest.evaluation.result import CaseResult
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case, Scenario
-
+from uictest.measures import (
+    MEASURES,
+    STOP_COLUMNS,
+    StopRecord,
+    WheelsetRecords,
+    stop_column_values,
+    wheelset_column_values,
+)
 
 JUDGED_KEYS = (
     "brake.position",
@@ -35,17 +34,30 @@ JUDGED_KEYS = (
 )
 """Keys of a scenario at or below which :func:`evaluate` reads; all else reaches it through the measures."""
 
+_FINITE_IN_STOPS: Final = (
+    *("end_time", "end_distance", "end_speed"),
+    *(each.finite_field for each in MEASURES.values() if each.finite_field and not each.of_wheelsets),
+)
+_FINITE_IN_WHEELSETS: Final = tuple(
+    each.finite_field for each in MEASURES.values() if each.finite_field and each.of_wheelsets
+)
+"""Fields of the records that hold a number after every simulated stop; the others may be NaN."""
+
+_DEFAULTS: Final = {
+    name: value for column in STOP_COLUMNS.values() for name, value in column.defaults.items()
+}
+
 
 def evaluate(
-    case: Case,
-    measures: StopMeasures,
-    wheelset_measures: Wheelsets,
+    case: scenario.Case,
+    measures: StopRecord,
+    wheelset_measures: WheelsetRecords,
     duration: float = 0.0,
     *,
     explain: bool = True,
     coverage: Coverage | None = None,
 ) -> CaseResult:
-    """Return the judged result of a case whose stop was simulated or measured.
+    """Return the judged result of a case whose stop was simulated or recorded.
 
     Args:
         case: what was to be done.
@@ -58,26 +70,44 @@ def evaluate(
     """
     verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
     outcome, reason = outcome_of(verdicts)
-    figures = figures_of(measures, _first_phase_duration(case.scenario))
-    wheelsets = [wheelset_figures_of(wheelset) for wheelset in wheelset_measures]
+    of_stop = stop_column_values(measures, _column_definition(case.scenario))
+    of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
     if coverage is not None:
-        figures = known_figures(figures, coverage)
-        wheelsets = [known_wheelset_figures(each, coverage) for each in wheelsets]
+        unknown = _unknown_columns(coverage)
+        of_stop, *of_wheelsets = (_without(unknown, columns) for columns in (of_stop, *of_wheelsets))
     return CaseResult(
         id=case.id,
         scenario=case.path.as_posix(),
         parameters=dict(case.parameters),
         expect=case.scenario.expect,
         outcome=outcome,
-        criteria=tuple(verdicts),
-        measures=figures,
-        wheelsets=tuple(wheelsets),
         reason=reason,
+        criteria=tuple(verdicts),
+        measures=of_stop,
+        wheelsets=tuple(of_wheelsets),
         duration=duration,
     )
 
 
-def error_result(case: Case, reason: str, duration: float = 0.0) -> CaseResult:
+def evaluate_simulated(
+    case: scenario.Case,
+    measures: StopRecord,
+    wheelset_measures: WheelsetRecords,
+    duration: float = 0.0,
+    *,
+    explain: bool = True,
+) -> CaseResult:
+    """Return the judged result of a simulated case, outcome `error` where a measure is not finite.
+
+    Arguments as for :func:`evaluate`.
+    """
+    not_finite = list(_not_finite(measures, wheelset_measures))
+    if not_finite:
+        return error_result(case, _why_not_finite(measures, not_finite), duration)
+    return evaluate(case, measures, wheelset_measures, duration, explain=explain)
+
+
+def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:
     """Return the result of a case whose simulation failed: outcome `error`, why, and nothing judged."""
     return CaseResult(
         id=case.id,
@@ -90,10 +120,46 @@ def error_result(case: Case, reason: str, duration: float = 0.0) -> CaseResult:
     )
 
 
-def _first_phase_duration(scenario: Scenario) -> float:
-    """Return the first phase (s) of the first criterion that defines one: figure and verdict agree."""
-    for profile in scenario.criteria:
+def _column_definition(resolved: scenario.Scenario) -> dict[str, float]:
+    """Return the definitions that columns use: those of the first criterion that has them, else the defaults.
+
+    A column then agrees with the verdict of that criterion.
+    """
+    return {name: _stated(resolved, name, default) for name, default in _DEFAULTS.items()}
+
+
+def _stated(resolved: scenario.Scenario, name: str, default: float) -> float:
+    for profile in resolved.criteria:
         for criterion in profile.criteria:
-            if criterion.definition.first_phase_duration is not None:
-                return float(criterion.definition.first_phase_duration.value)
-    return DEFAULT_FIRST_PHASE
+            parameter = getattr(criterion.definition, name)
+            if parameter is not None:
+                return float(parameter.value)
+    return default
+
+
+def _unknown_columns(coverage: Coverage) -> set[str]:
+    """Return the columns whose measure lacks data in a record, for any wheelset."""
+    columns = (measure.column for name, measure in MEASURES.items() if name in coverage.missing)
+    return {column.name for column in columns if column}
+
+
+def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:
+    return {name: math.nan if name in unknown else value for name, value in columns.items()}
+
+
+def _not_finite(measures: StopRecord, wheelsets: WheelsetRecords) -> Iterator[str]:
+    yield from (name for name in _FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
+    for number, wheelset in enumerate(wheelsets, start=1):
+        for name in _FINITE_IN_WHEELSETS:
+            if not math.isfinite(getattr(wheelset, name)):
+                yield f"{name}_{number}"
+
+
+def _why_not_finite(measures: StopRecord, names: list[str]) -> str:
+    if names == ["air_residual"] and measures.air_consumed == 0.0:
+        return (
+            f"the stop ended after {measures.end_time:.3g} s, before the brake took any air, so that the air"
+            " balance has no value; brake from a higher speed or with a shorter dead time"
+        )
+    listed = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
+    return f"the simulation gives no finite {listed}: the numbers of the scenario do not fit together"

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from uictest import scenario
 from uictest.evaluation.bounds import Bounds, deciding
 from uictest.evaluation.coverage import MissingData, ObservedStop
-from uictest.evaluation.measure_readers import read
 from uictest.evaluation.verdict import Status
+from uictest.measures import MEASURES, Course
 from uictest.units import in_unit, to_12_digits, value_text, with_unit
 
 
@@ -37,12 +37,12 @@ def decide(
     criterion passes or fails only if it does so wherever in their intervals the values lie.
     """
     unit, course = criterion.unit, criterion.course
-    reading = read(criterion.measure, stop.measures, stop.wheelsets, definition)
-    values = [in_unit(number, unit) for number in reading.values]
-    settled = course == "settles" and not reading.missing
+    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
+    values = [in_unit(number, unit) for number in observed.values]
+    settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
-    if reading.missing:
-        return _without_value(reading.missing, missing)
+    if observed.unavailable_reason:
+        return _without_value(observed.unavailable_reason, missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
         return Decision("inconclusive", None, f"the record holds {len(values)} wheelsets")
@@ -80,7 +80,7 @@ def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
 def _of_intervals(
     values: Sequence[float],
     missing: Sequence[MissingData | None],
-    course: scenario.Course,
+    course: Course,
     bounds: Bounds,
     needed: int,
     unit: str,
@@ -113,7 +113,7 @@ def _known(value: float, gap: MissingData | None) -> bool:
     return gap is None or (gap.bounded and not math.isnan(value))
 
 
-def _holds(value: float, gap: MissingData | None, course: scenario.Course, bounds: Bounds) -> bool | None:
+def _holds(value: float, gap: MissingData | None, course: Course, bounds: Bounds) -> bool | None:
     """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
     if gap is None:
         return bounds.hold(value)

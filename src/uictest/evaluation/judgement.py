@@ -13,9 +13,9 @@ from uictest.evaluation.conditions import TestConditions, test_conditions_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, bounds_of, decide
 from uictest.evaluation.meaning import applied_definitions, meaning_of
-from uictest.evaluation.records import StopMeasures, Wheelsets
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
+from uictest.measures import StopRecord, WheelsetRecords
 
 if TYPE_CHECKING:
     from uictest.scenario import Criteria, Criterion, MeasureDefinitions, Scenario
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 def judge(
     scenario: Scenario,
-    measures: StopMeasures,
-    wheelset_measures: Wheelsets,
+    measures: StopRecord,
+    wheelset_measures: WheelsetRecords,
     *,
     explain: bool = True,
     coverage: Coverage | None = None,
@@ -33,8 +33,8 @@ def judge(
 
     Args:
         scenario: resolved; says the circumstances and the criteria.
-        measures: record of the stop (fields of `records.StopMeasures`, SI).
-        wheelset_measures: one record per wheelset from the leading end (`records.WheelsetMeasures`, SI).
+        measures: record of the stop (fields of `measures.StopRecord`, SI).
+        wheelset_measures: one record per wheelset from the leading end (`measures.WheelsetRecord`, SI).
         explain: whether the verdicts also say what they were taken to mean and how firmly they stand, which
             takes most of the time.
         coverage: what the record of a real stop lacks; None for a simulation.

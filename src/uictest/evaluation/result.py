@@ -3,69 +3,39 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, PlainSerializer, PlainValidator, ValidationInfo
+from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
-from uictest.evaluation.json_form import Number, finite_or_none, nan_for_none
+from uictest.evaluation.json_form import json_form
 from uictest.evaluation.parameters import EffectivePart
 from uictest.evaluation.verdict import Verdict
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
 Expectation = Literal["pass", "fail", "invalid"]
-_UNITS = {"m": "m", "s": "s", "mps2": "m/s2", "g": "g", "bar": "bar", "nl": "NL", "n": "N"}
-"""How the name of a figure ends -> its unit."""
 
 
-def unit_of(figure: str) -> str:
-    """Return the unit that the name of a figure says, `1` for a pure number.
-
-    The number of a wheelset may follow the name: `locked_time_s_3`.
-    """
-    words = figure.split("_")
-    return _UNITS.get(words[-2] if words[-1].isdigit() else words[-1], "1")
-
-
-def whole(count: float) -> float:
-    """Return a count as a whole number; NaN where nothing was counted."""
-    return count if math.isnan(count) else int(count)
+def _columns(content: object, known: Collection[str]) -> dict[str, float]:
+    """Return the numbers of a document in these columns, null as NaN."""
+    if not isinstance(content, Mapping) or set(content) != set(known):
+        raise ValueError(f"Input should have the columns {', '.join(known)}")
+    if any(value is not None and type(value) not in (int, float) for value in content.values()):
+        raise ValueError("Input should hold numbers only")
+    return {name: math.nan if (value := content[name]) is None else value for name in known}
 
 
-Count = Annotated[
-    float, BeforeValidator(nan_for_none), AfterValidator(whole), PlainSerializer(finite_or_none)
+_finite = PlainSerializer(json_form)
+CaseMeasures = Annotated[Mapping[str, float], PlainValidator(partial(_columns, known=STOP_COLUMNS)), _finite]
+"""What a result reports of a stop: :data:`~uictest.measures.STOP_COLUMNS` -> number, NaN: not reached."""
+
+CaseWheelsetMeasures = Annotated[
+    Mapping[str, float], PlainValidator(partial(_columns, known=WHEELSET_COLUMNS)), _finite
 ]
-
-
-@dataclass(frozen=True, slots=True)
-class CaseMeasures:
-    """The figures of one stop, units in the names (nl: litres at 20 degC and 1 bar). NaN: not reached."""
-
-    braking_distance_m: Number
-    braking_time_s: Number
-    mean_deceleration_mps2: Number
-    initial_adhesion_g: Number
-    minimum_deceleration_mps2: Number
-    maximum_deceleration_mps2: Number
-    reservoir_minimum_bar: Number
-    air_consumed_nl: Number
-    energy_residual: Number
-    air_residual: Number
-
-
-@dataclass(frozen=True, slots=True)
-class CaseWheelsetMeasures:
-    """The figures of one wheelset in one stop; `maximum_slide` is a share (1 = locked).
-
-    `valve_actuations` is a whole number, NaN where a record does not hold the valve's commands.
-    """
-
-    maximum_slide: Number
-    locked_time_s: Number
-    valve_actuations: Count
-    maximum_clamping_force_n: Number
-    air_vented_nl: Number
+"""What it reports of one wheelset: :data:`~uictest.measures.WHEELSET_COLUMNS` -> number, NaN: not reached."""
 
 
 def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:

@@ -9,54 +9,38 @@ from typing import Final
 import numpy as np
 
 from uictest.evaluation import Coverage, MissingData
-from uictest.field_data.channels import WHEELSETS, of_wheelsets
+from uictest.field_data.channels import WHEELSETS
 from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.time_axis import is_coarse
+from uictest.measures import MEASURES, RecordedData
 from uictest.recording import TIME
 
 Channels = tuple[str, ...]
 
 
-def _per_wheelset(*names: str) -> tuple[Channels, ...]:
-    return tuple(tuple(name.format(n=n) for name in names) for n in WHEELSETS)
-
-
-_WHEEL: Final = _per_wheelset("speed", "wheel_speed_{n}")
-
-_THROUGHOUT: Final = MappingProxyType(
-    {
-        "initial_adhesion": (("speed", *of_wheelsets("wheel_speed")),),
-        "minimum_deceleration": (("speed",),),
-        "maximum_deceleration": (("speed",),),
-        "reservoir_minimum_pressure": (("reservoir_pressure",),),
-        "maximum_slide_above_cutoff": _WHEEL,
-        "locked_time": _WHEEL,
-        "longest_lock": _WHEEL,
-        "sliding_duration": _WHEEL,
-        "valve_actuations": _per_wheelset("valve_command_{n}"),
-        "maximum_clamping_force": _per_wheelset("clamping_force_{n}"),
-    }
+_NEEDS: Final = MappingProxyType(
+    {name: measure.recorded for name, measure in MEASURES.items() if measure.recorded is not None}
 )
-"""Measure -> for each of its values the channels that must be known throughout the stop."""
+"""Measure -> the channels that it needs."""
 
-_AT_THE_ENDS: Final = MappingProxyType(
-    {
-        "braking_distance": (("speed", "distance"),),
-        "mean_deceleration": (("speed", "distance"),),
-        "braking_time": (("speed",),),
-        "standstill": (("speed",),),
-    }
-)
-"""Measure -> for its value the channels that must be known at the brake command and at standstill."""
 
-_NO_FLOW: Final = MissingData("not recorded: flow of air", bounded=False)
-_NEVER: Final = MappingProxyType({"air_consumed": (_NO_FLOW,), "air_vented": (_NO_FLOW,) * len(WHEELSETS)})
+def _values(measure: str, data: RecordedData) -> tuple[Channels, ...]:
+    """Return for each value of a measure the channels that it needs."""
+    per_wheelset = tuple(tuple(name.format(n=n) for name in data.channels) for n in WHEELSETS)
+    if MEASURES[measure].of_wheelsets:
+        return per_wheelset
+    return (tuple(dict.fromkeys(name for names in per_wheelset for name in names)),)
 
-_ALL_OR_NOTHING: Final = frozenset({"initial_adhesion", "mean_deceleration", "minimum_deceleration"})
-"""Measures whose value a part of the samples does not bound.
 
-The first two count from a moment that may not be in the record, and the filter of the third has to settle.
-"""
+_VALUES: Final = MappingProxyType({name: _values(name, data) for name, data in _NEEDS.items()})
+"""Measure -> for each of its values the channels that must be known."""
+
+_NEVER: Final = {
+    name: tuple(MissingData(f"not recorded: {', '.join(names)}", bounded=False) for names in values)
+    for name, values in _VALUES.items()
+    if _NEEDS[name].when == "never"
+}
+"""Measures of which no record holds the data."""
 _LATE: Final = "the record begins after the brake command"
 
 
@@ -64,7 +48,8 @@ def coverage_of(stop: RecordedStop) -> Coverage:
     """Return what a record lacks of each measure between brake command and its end."""
     missing = {
         measure: tuple(_missing(stop, measure, channels) for channels in values)
-        for measure, values in (*_THROUGHOUT.items(), *_AT_THE_ENDS.items())
+        for measure, values in _VALUES.items()
+        if measure not in _NEVER
     }
     lacking = {measure: gaps for measure, gaps in missing.items() if any(gaps)}
     return Coverage({**_NEVER, **lacking}, f"{_LATE}: no initial speed" if stop.trigger.late else "")
@@ -74,7 +59,7 @@ def _missing(stop: RecordedStop, measure: str, channels: Channels) -> MissingDat
     if unusable := list(_unusable(stop, measure, channels)):
         return MissingData("; ".join(unusable), bounded=False)
     if gaps := dict.fromkeys(_gaps(stop, measure, channels)):
-        return MissingData("; ".join(gaps), bounded=measure not in _ALL_OR_NOTHING)
+        return MissingData("; ".join(gaps), bounded=_NEEDS[measure].bounded)
     return None
 
 
@@ -82,32 +67,29 @@ def measures_of(channel: str) -> tuple[str, ...]:
     """Return the measures that need a channel; none need `distance`, which the speed gives, too."""
     if channel == "distance":
         return ()
-    needs = {**_THROUGHOUT, **_AT_THE_ENDS}
-    return tuple(measure for measure, values in needs.items() if any(channel in value for value in values))
+    return tuple(measure for measure, values in _VALUES.items() if any(channel in value for value in values))
 
 
 def _unusable(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
     """Yield why a value cannot even be bounded; all wheelsets that lack a channel are named together."""
     recorded = stop.recording.channels
     if any(name not in recorded for name in channels):
-        needed = dict.fromkeys(name for value in _needed(measure) for name in value)
+        needed = dict.fromkeys(name for value in _VALUES[measure] for name in value)
         yield f"not recorded: {', '.join(name for name in needed if name not in recorded)}"
     for defect in stop.defects:
         if defect.spoils and defect.channel in channels:
             yield str(defect)
 
 
-def _needed(measure: str) -> tuple[Channels, ...]:
-    return _THROUGHOUT[measure] if measure in _THROUGHOUT else _AT_THE_ENDS[measure]
-
-
 def _gaps(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
-    if stop.trigger.late and measure != "standstill":
+    data = _NEEDS[measure]
+    throughout = data.when == "throughout"
+    if stop.trigger.late and data.from_command:
         yield _LATE
     for name in channels:
-        yield from _unknown(stop, name, throughout=measure in _THROUGHOUT)
+        yield from _unknown(stop, name, throughout=throughout)
         interval = stop.intervals.get(name, 0.0)
-        if measure in _THROUGHOUT and is_coarse(interval):
+        if throughout and is_coarse(interval):
             yield f"samples are {interval:.6g} s apart"
 
 

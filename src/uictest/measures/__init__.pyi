@@ -1,9 +1,29 @@
+from .measure import (
+    Course as Course,
+    Definition as Definition,
+    Measure as Measure,
+    MeasureValue as MeasureValue,
+    RecordedData as RecordedData,
+    StopColumn as StopColumn,
+    StopRecord as StopRecord,
+    WheelsetColumn as WheelsetColumn,
+    WheelsetRecord as WheelsetRecord,
+    WheelsetRecords as WheelsetRecords,
+)
 from .records import (
     DEFINITION as DEFINITION,
     SPEED_CLASSES as SPEED_CLASSES,
     STOP_MEASURES as STOP_MEASURES,
     WHEELSET_MEASURES as WHEELSET_MEASURES,
     WINDOW_SECONDS as WINDOW_SECONDS,
+)
+from .registry import (
+    MEASURES as MEASURES,
+    STOP_COLUMNS as STOP_COLUMNS,
+    WHEELSET_COLUMNS as WHEELSET_COLUMNS,
+    column_unit as column_unit,
+    stop_column_values as stop_column_values,
+    wheelset_column_values as wheelset_column_values,
 )
 from .train import (
     begin as begin,

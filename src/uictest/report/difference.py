@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, ConfigDict, PlainSerializer, TypeAdapter
 
 from uictest import evaluation
 from uictest.evaluation import OptionalNumber
+from uictest.measures import WHEELSET_COLUMNS
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity
@@ -82,11 +83,7 @@ def wheelset_quantity(measure: str, wheelset: int) -> str:
 
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
     """Return the differences; of a measure that the wheelsets of a stop have, the worst stands for all."""
-    measures = {
-        wheelset_quantity(field.name, n): field.name
-        for field in dataclasses.fields(evaluation.CaseWheelsetMeasures)
-        for n in WHEELSETS
-    }
+    measures = {wheelset_quantity(name, n): name for name in WHEELSET_COLUMNS for n in WHEELSETS}
     by_measure: dict[tuple[str, str], list[Difference]] = {}
     for difference in differences:
         measure = measures.get(difference.quantity, difference.quantity)

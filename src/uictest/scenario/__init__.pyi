@@ -23,7 +23,6 @@ from .parts.compensation import Compensation as Compensation
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import Parameter as Parameter
 from .parts.friction import FrictionProfile as FrictionProfile
-from .parts.measure_catalogue import Course as Course
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.rail import RailCondition as RailCondition
 from .parts.vehicle import Vehicle as Vehicle

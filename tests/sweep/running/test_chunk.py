@@ -36,7 +36,7 @@ def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> N
         assert (row["index"], row["id"]) == (index, result.id)
         assert (row["outcome"], row["met"], row["reason"]) == (result.outcome, result.met, result.reason)
         assert result.measures is not None
-        assert row["braking_distance_m"] == result.measures.braking_distance_m
+        assert row["braking_distance_m"] == result.measures["braking_distance_m"]
     assert [row["parameters.brake.command"] for row in found] == ["80 %", "100 %"] * 3
     assert {row["outcome"] for row in found} == {"pass", "fail"}
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from uictest import evaluation
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, csv_text
 from uictest.report.format_registry import ReportFormat
@@ -34,14 +33,14 @@ def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
         "met",
         "reason",
         CHANGED,
-        *_names(evaluation.CaseMeasures),
+        *STOP_COLUMNS,
     ]
     return csv_text(columns, map(_summary_row, results))
 
 
 def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
     """Return one row per case and wheelset; wheelset 1 leads."""
-    return csv_text(["id", "wheelset", *_names(evaluation.CaseWheelsetMeasures)], _wheelset_rows(results))
+    return csv_text(["id", "wheelset", *WHEELSET_COLUMNS], _wheelset_rows(results))
 
 
 def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
@@ -52,14 +51,18 @@ def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
 def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
     own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
-    measures = dataclasses.asdict(result.measures) if result.measures is not None else {}
-    return {**parameters, **own, CHANGED: "; ".join(changed_parameters(result.parts)), **measures}
+    return {
+        **parameters,
+        **own,
+        CHANGED: "; ".join(changed_parameters(result.parts)),
+        **(result.measures or {}),
+    }
 
 
 def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
-            yield {"id": result.id, "wheelset": position, **dataclasses.asdict(wheelset)}
+            yield {"id": result.id, "wheelset": position, **wheelset}
 
 
 def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
@@ -72,10 +75,6 @@ def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[s
 def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
     """Return the cells of a verdict that every table of criteria has."""
     return {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
-
-
-def _names(figures: Any) -> list[str]:
-    return [field.name for field in dataclasses.fields(figures)]
 
 
 def _files(content: RunContent) -> dict[str, bytes]:

@@ -68,8 +68,9 @@ def _difference_row(difference: Difference) -> str:
 
 def _row(content: RunContent, result: evaluation.CaseResult) -> str:
     word, passes = content.word(result), content.passes(result)
-    slide = max((wheelset.maximum_slide for wheelset in result.wheelsets), default=None)
-    figures = [figure(getattr(result.measures, name, None), form) for name, form in _FIGURES.items()]
+    slide = max((wheelset["maximum_slide"] for wheelset in result.wheelsets), default=None)
+    measures = result.measures or {}
+    figures = [figure(measures.get(name), form) for name, form in _FIGURES.items()]
     figures.append(figure(None if slide is None else 100 * slide, ".1f"))
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
@@ -57,7 +56,7 @@ def result_row(result: evaluation.CaseResult) -> Row:
     """Return how a case came out, its figures, its parameters and the reason."""
     row: Row = {"met": "met" if result.met else "missed"}
     row |= {"outcome": result.outcome, "expect": result.expect}
-    row |= dataclasses.asdict(result.measures) if result.measures is not None else {}
+    row |= result.measures or {}
     row |= dict(result.parameters)
     return row | {CHANGED: "; ".join(changed_parameters(result.parts)), "reason": result.reason}
 
@@ -65,7 +64,7 @@ def result_row(result: evaluation.CaseResult) -> Row:
 def _wheelsets(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
-            yield {"case": result.id, "wheelset": position, **dataclasses.asdict(wheelset)}
+            yield {"case": result.id, "wheelset": position, **wheelset}
 
 
 def _criteria(content: RunContent) -> Iterator[Row]:

@@ -112,7 +112,7 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: Trace
     recorded = f", but none between two samples, {every} apart" if subject.recorded else ""
     yield f"Valves show every change that was recorded{recorded}."
     drawn = sum(len(vents(trace, n)) for n in WHEELSETS)
-    counted = sum(wheelset.valve_actuations for wheelset in result.wheelsets)
+    counted = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
     if drawn < counted:
         yield (
             f"The recording holds {drawn} of {counted:.0f} vents: those shorter than {every} can lie between"
@@ -124,17 +124,17 @@ def figures_of(result: evaluation.CaseResult) -> Iterator[Figure]:
     """Yield the figures that a brake engineer asks for first."""
     measures = result.measures
     if measures is not None:
-        yield "braking distance", _number(measures.braking_distance_m), "m"
-        yield "braking time", _number(measures.braking_time_s), "s"
-        yield "mean deceleration", _number(measures.mean_deceleration_mps2), "m/s²"
-        yield "initial adhesion", _number(measures.initial_adhesion_g), "g"
+        yield "braking distance", _number(measures["braking_distance_m"]), "m"
+        yield "braking time", _number(measures["braking_time_s"]), "s"
+        yield "mean deceleration", _number(measures["mean_deceleration_mps2"]), "m/s²"
+        yield "initial adhesion", _number(measures["initial_adhesion_g"]), "g"
     if result.wheelsets:
-        slides = [100 * wheelset.maximum_slide for wheelset in result.wheelsets]
+        slides = [100 * wheelset["maximum_slide"] for wheelset in result.wheelsets]
         yield "largest slide", _number(max(slides)), "%"
-        vents = sum(wheelset.valve_actuations for wheelset in result.wheelsets)
+        vents = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
         yield "valve actuations", str(vents) if vents == vents else "-", ""
     if measures is not None:
-        yield "air consumed", _number(measures.air_consumed_nl), "NL"
+        yield "air consumed", _number(measures["air_consumed_nl"]), "NL"
 
 
 def gauge_of(verdict: evaluation.Verdict) -> Gauge | None:

@@ -40,7 +40,7 @@ def notable_cases(content: SweepContent) -> list[NotableCase]:
 
 def _looked_at(result: evaluation.CaseResult) -> NotableCase:
     why = "" if result.met else "; ".join(explanation(result))
-    distance = getattr(result.measures, "braking_distance_m", None)
+    distance = (result.measures or {}).get("braking_distance_m")
     margin, criterion = evaluation.narrowest_margin(result)
     share = None if margin is None else 100.0 * margin
     word = verdict_word(result)

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from uictest import evaluation
+from uictest.measures import column_unit
 from uictest.report.wording import counted, counts_words
 
 _NAMED = 3  # values that are listed rather than counted
@@ -68,7 +68,7 @@ def circumstances_words(circumstances: Mapping[str, str]) -> str:
 
 def figure_words(column: str) -> str:
     """Return the name of a column of figures as a reader says it, e.g. `braking distance, m`."""
-    name, unit = column, evaluation.unit_of(column)
+    name, unit = column, column_unit(column)
     if unit != "1":
         name, _, _ = column.rpartition("_")
         return f"{name.replace('_', ' ')}, {unit}"

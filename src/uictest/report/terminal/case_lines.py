@@ -68,8 +68,8 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
 def _figures(result: evaluation.CaseResult) -> Iterator[str]:
     for name in SHOWN_MEASURES:
         if result.measures is not None:
-            yield f"{name}={number(getattr(result.measures, name))}"
+            yield f"{name}={number(result.measures[name])}"
     if result.wheelsets:
-        yield "maximum_slide=" + "/".join(number(wheelset.maximum_slide) for wheelset in result.wheelsets)
-        vents = (number(wheelset.valve_actuations) for wheelset in result.wheelsets)
+        yield "maximum_slide=" + "/".join(number(wheelset["maximum_slide"]) for wheelset in result.wheelsets)
+        vents = (number(wheelset["valve_actuations"]) for wheelset in result.wheelsets)
         yield "valve_actuations=" + "/".join(vents)

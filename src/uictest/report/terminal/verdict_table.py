@@ -64,7 +64,7 @@ def _columns(
         Column("outcome", [result.outcome for result in results], rank=1),
     ]
     for title, (name, form, rank) in _MEASURES.items():
-        cells = [_figure(getattr(result.measures, name, None), form) for result in results]
+        cells = [_figure((result.measures or {}).get(name), form) for result in results]
         columns.append(Column(title, cells, rank, right=True))
     slides = [_largest(result, "maximum_slide") for result in results]
     vents = [_largest(result, "valve_actuations") for result in results]
@@ -74,7 +74,7 @@ def _columns(
 
 
 def _largest(result: evaluation.CaseResult, figure: str) -> float | None:
-    return max((getattr(wheelset, figure) for wheelset in result.wheelsets), default=None)
+    return max((wheelset[figure] for wheelset in result.wheelsets), default=None)
 
 
 def explanation_text(

@@ -13,9 +13,9 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from uictest.measures import MEASURES, Course, Measure
 from uictest.scenario.parts.applicability import Applicability
 from uictest.scenario.parts.definition import Definition
-from uictest.scenario.parts.measure_catalogue import MEASURES, Course, Measure
 from uictest.scenario.yaml import (
     SCENARIO_SOURCE,
     Inconsistency,

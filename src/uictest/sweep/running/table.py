@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from uictest.evaluation import CaseMeasures, CaseResult, CaseWheelsetMeasures, narrowest_margin
+from uictest.evaluation import CaseResult, narrowest_margin
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.sweep.plan.plan import ListedGroup, Plan, is_numeric
 from uictest.sweep.running.case_blocks import CaseBlock
 
@@ -30,8 +30,8 @@ def number_column(key: str) -> str:
 def measure_columns() -> list[str]:
     """Return the columns of measures: those of the stop, then those of each wheelset."""
     return [
-        *_names(CaseMeasures),
-        *(each for name in _names(CaseWheelsetMeasures) for each in wheelset_columns(name)),
+        *STOP_COLUMNS,
+        *(column for name in WHEELSET_COLUMNS for column in wheelset_columns(name)),
     ]
 
 
@@ -93,14 +93,10 @@ def rows(plan: Plan, block: CaseBlock, results: Sequence[CaseResult]) -> pa.Tabl
 
 
 def _measures(result: CaseResult) -> Iterator[float | None]:
-    for name in _names(CaseMeasures):
-        yield getattr(result.measures, name, None)
-    for name in _names(CaseWheelsetMeasures):
-        yield from (getattr(wheelset, name, None) for wheelset in result.wheelsets or (None,) * WHEELSETS)
-
-
-def _names(measures: Any) -> list[str]:
-    return [field.name for field in dataclasses.fields(measures)]
+    of_stop, of_wheelsets = result.measures or {}, result.wheelsets or ({},) * WHEELSETS
+    yield from (of_stop.get(name) for name in STOP_COLUMNS)
+    for name in WHEELSET_COLUMNS:
+        yield from (wheelset.get(name) for wheelset in of_wheelsets)
 
 
 def _numbers() -> range:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.evaluation import unit_of
+from uictest.measures import column_unit
 from uictest.sweep.running.table import wheelset_columns
 from uictest.sweep.summaries.tally import OUTCOMES
 
@@ -53,7 +53,7 @@ def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
     usual = {name for figure in USUAL for name in figure.columns}
     return [
         *USUAL,
-        *(ReportedMeasure(name, unit_of(name), (name,)) for name in measures if name not in usual),
+        *(ReportedMeasure(name, column_unit(name), (name,)) for name in measures if name not in usual),
     ]
 
 

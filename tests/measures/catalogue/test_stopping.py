@@ -1,7 +1,7 @@
 import pytest
 
-from uictest.evaluation.measure_value import MeasureValue
-from uictest.evaluation.stopping import braking_distance, braking_time, mean_deceleration, standstill
+from uictest.measures import MeasureValue
+from uictest.measures.catalogue.stopping import braking_distance, braking_time, mean_deceleration, standstill
 
 
 def test_440_to_490_m_from_120_km_h_are_1_263_to_1_134_m_per_s2(stop) -> None:
@@ -15,4 +15,4 @@ def test_up_to_now_a_train_still_running_has_run_a_distance_that_can_only_grow(s
     assert braking_distance(running).values == (2500.0,)
     assert braking_time(running).values == (180.0,)
     assert mean_deceleration(running).values == (pytest.approx((120 / 3.6) ** 2 / 5000.0),)
-    assert standstill(running) == MeasureValue(missing="no standstill")
+    assert standstill(running) == MeasureValue(unavailable_reason="no standstill")

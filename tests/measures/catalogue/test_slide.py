@@ -1,6 +1,6 @@
 import numpy as np
 
-from uictest.evaluation.slide import maximum_slide_above_cutoff
+from uictest.measures.catalogue.slide import maximum_slide_above_cutoff
 
 KMH = 1 / 3.6
 
@@ -14,8 +14,8 @@ def test_slides_below_the_cutoff_do_not_count(stop, wheelsets) -> None:
 
 def test_a_train_slower_than_the_cutoff_supports_no_slide(stop, wheelsets) -> None:
     reading = maximum_slide_above_cutoff(stop(initial_speed=25 * KMH), wheelsets(0.9), 30 * KMH)
-    assert reading.missing == "the train never ran faster than the cut-off of 30 km/h"
+    assert reading.unavailable_reason == "the train never ran faster than the cut-off of 30 km/h"
 
 
 def test_nor_does_one_without_a_sample_above_it(stop, wheelsets) -> None:
-    assert maximum_slide_above_cutoff(stop(), wheelsets(np.nan, np.nan), 30 * KMH).missing
+    assert maximum_slide_above_cutoff(stop(), wheelsets(np.nan, np.nan), 30 * KMH).unavailable_reason

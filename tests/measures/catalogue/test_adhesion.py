@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from uictest.evaluation.adhesion import initial_adhesion
+from uictest.measures.catalogue.adhesion import initial_adhesion
 
 G = 9.80665
 
@@ -21,7 +21,7 @@ def test_between_whole_seconds_the_speed_is_linear(sliding_stop) -> None:
 
 
 def test_without_sliding_there_is_no_first_phase(stop) -> None:
-    assert "no wheelset slid" in initial_adhesion(stop(), 3.0).missing
+    assert "no wheelset slid" in initial_adhesion(stop(), 3.0).unavailable_reason
 
 
 @pytest.mark.parametrize("end", [math.nan, 0.0])
@@ -30,5 +30,5 @@ def test_a_stop_over_within_the_first_phase_supports_none(sliding_stop, end: flo
     speed = np.array([2.0, 1.0, end, *[end] * 8])
     measures = sliding_stop(speed_after_sliding=speed)
     assert initial_adhesion(measures, 1.0).values == (1.0,)
-    assert "ended within 1.5 s" in initial_adhesion(measures, 1.5).missing
-    assert "ended within 3 s" in initial_adhesion(measures, 3.0).missing
+    assert "ended within 1.5 s" in initial_adhesion(measures, 1.5).unavailable_reason
+    assert "ended within 3 s" in initial_adhesion(measures, 3.0).unavailable_reason

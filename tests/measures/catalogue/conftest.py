@@ -1,0 +1,72 @@
+"""Records of stops and wheelsets, each with a sound default and what a test changes."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+
+KMH = 1 / 3.6
+G = 9.80665
+
+
+def _record(dtype: np.dtype, fields: dict[str, Any]) -> Any:
+    records = np.zeros(1, dtype=dtype).view(np.recarray)
+    for name, value in fields.items():
+        records[name][0] = value
+    return records[0]
+
+
+def _stop(**changes: Any) -> Any:
+    """A sound dry stop from 120 km/h within 465 m, in which no wheelset slid."""
+    sound = {
+        "initial_speed": 120 * KMH,
+        "stopped": 1.0,
+        "braking_time": 28.0,
+        "braking_distance": 465.0,
+        "end_time": 28.0,
+        "end_distance": 465.0,
+        "minimum_deceleration": 1.1,
+        "maximum_deceleration": 1.4,
+        "sliding_time": np.nan,
+        "speed_after_sliding": np.nan,
+        "reservoir_minimum_pressure": 7.2e5,
+        "air_consumed": 0.1185,
+        "energy_residual": 2e-6,
+        "air_residual": -3e-14,
+    }
+    return _record(STOP_MEASURES, {**sound, **changes})
+
+
+def _sliding_stop(deceleration: float = 0.07 * G, **changes: Any) -> Any:
+    """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2)."""
+    speed = 33.0 - deceleration * np.arange(11.0)
+    return _stop(**{"sliding_time": 1.0, "speed_after_sliding": speed, **changes})
+
+
+def _wheelsets(*slides: float, **changes: Any) -> Any:
+    """One wheelset per slide (the same above every train speed)."""
+    records = np.zeros(len(slides), dtype=WHEELSET_MEASURES).view(np.recarray)
+    for record, slide in zip(records, slides, strict=True):
+        record.maximum_slide = slide
+        record.maximum_slide_above[:] = slide
+    for name, value in changes.items():
+        records[name] = value
+    return records
+
+
+@pytest.fixture(scope="session")
+def stop() -> Callable[..., Any]:
+    return _stop
+
+
+@pytest.fixture(scope="session")
+def sliding_stop() -> Callable[..., Any]:
+    return _sliding_stop
+
+
+@pytest.fixture(scope="session")
+def wheelsets() -> Callable[..., Any]:
+    return _wheelsets

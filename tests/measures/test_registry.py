@@ -1,0 +1,163 @@
+"""Every measure: found in the catalogue, read from the records of a stop, reported in its column."""
+
+import importlib
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from uictest.measures import (
+    DEFINITION,
+    MEASURES,
+    STOP_COLUMNS,
+    WHEELSET_COLUMNS,
+    WheelsetColumn,
+    column_unit,
+    stop_column_values,
+    wheelset_column_values,
+)
+from uictest.measures.registry import measures_in
+from uictest.units import KINDS
+
+from .catalogue.conftest import sliding_stop, stop, wheelsets
+
+__all__ = ["sliding_stop", "stop", "wheelsets"]
+
+DEFINED = {"first_phase_duration": 3.0, "low_speed_cutoff": 30 / 3.6}
+NEW = """
+from uictest.measures import Measure, MeasureValue, StopColumn
+
+MEASURES = (
+    Measure(
+        name={name!r},
+        kind="speed",
+        unit="km/h",
+        course="grows",
+        meaning="train speed at the brake command",
+        read=lambda stop, wheelsets, definition: MeasureValue((stop.initial_speed,)),
+        column=StopColumn({column!r}, "km/h", read=lambda stop, definition: stop.initial_speed),
+    ),
+)
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
+    """An empty package of measures."""
+    (tmp_path / "more_measures").mkdir()
+    (tmp_path / "more_measures" / "__init__.py").touch()
+    monkeypatch.syspath_prepend(tmp_path)
+    yield importlib.import_module("more_measures")
+    for name in [name for name in sys.modules if name.partition(".")[0] == "more_measures"]:
+        del sys.modules[name]
+
+
+def add(package: ModuleType, module: str, name: str, column: str) -> None:
+    Path(package.__path__[0], f"{module}.py").write_text(NEW.format(name=name, column=column))
+
+
+def test_a_new_module_is_found_without_a_further_edit(package: ModuleType, stop) -> None:
+    add(package, "speeds", "speed_at_command", "speed_at_command_kmh")
+    (measure,) = measures_in(package).values()
+    assert measure.name == "speed_at_command"
+    assert measure.read(stop(), (), {}).values == (120 / 3.6,)
+
+
+@pytest.mark.parametrize(("name", "column"), [("speed", "other_kmh"), ("other", "speed_kmh")])
+def test_two_measures_of_one_name_or_column_are_rejected(package: ModuleType, name: str, column: str) -> None:
+    add(package, "speeds", "speed", "speed_kmh")
+    add(package, "more_speeds", name, column)
+    with pytest.raises(ValueError, match="two measures are called 'speed"):
+        measures_in(package)
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_each_measure_gives_one_value_for_the_stop_or_one_per_wheelset(
+    name: str, sliding_stop, wheelsets
+) -> None:
+    value = MEASURES[name].read(sliding_stop(), wheelsets(0.1, 0.2, 0.3, 0.4), DEFINED)
+    assert not value.unavailable_reason
+    assert len(value.values) == (4 if MEASURES[name].of_wheelsets else 1)
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_each_measure_fits_its_declaration(name: str, stop, wheelsets) -> None:
+    measure = MEASURES[name]
+    assert measure.name == name
+    assert measure.kind in KINDS
+    assert (measure.recorded is None) == measure.of_simulation
+    if measure.column is not None:
+        assert isinstance(measure.column, WheelsetColumn) == measure.of_wheelsets
+    if measure.finite_field:
+        assert hasattr(wheelsets(0.1)[0] if measure.of_wheelsets else stop(), measure.finite_field)
+
+
+def test_what_decides_an_observation_is_a_definition_of_the_measures() -> None:
+    deciding = {name for measure in MEASURES.values() for name in measure.observed_by}
+    assert deciding == {name for name, _ in DEFINITION}
+
+
+def test_a_residual_counts_by_its_magnitude(stop, wheelsets) -> None:
+    residual = MEASURES["energy_residual"].read(stop(energy_residual=-0.5), wheelsets(0.1), {})
+    assert residual.values == (0.5,)
+    assert stop_column_values(stop(energy_residual=-0.5), DEFINED)["energy_residual"] == -0.5
+
+
+def test_air_is_measured_as_normal_volume(stop, wheelsets) -> None:
+    (volume,) = MEASURES["air_consumed"].read(stop(air_consumed=0.1185), wheelsets(0.1), {}).values
+    assert volume == pytest.approx(0.1)
+
+
+def test_a_brake_never_developed_has_no_least_deceleration(stop, wheelsets) -> None:
+    value = MEASURES["minimum_deceleration"].read(stop(minimum_deceleration=np.nan), wheelsets(0.1), {})
+    assert value.unavailable_reason == "the brake was never fully developed while the train ran"
+
+
+def test_before_standstill_a_stop_has_no_braking_distance_to_report(stop) -> None:
+    running = stop(stopped=0.0, braking_distance=np.nan, braking_time=np.nan, end_distance=2500.0)
+    columns = stop_column_values(running, DEFINED)
+    assert all(
+        np.isnan(columns[name]) for name in ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2")
+    )
+
+
+def test_a_count_is_a_whole_number_unless_nothing_was_counted(wheelsets) -> None:
+    counted, unknown = wheelsets(0.1, 0.1, valve_actuations=[11.0, np.nan])
+    assert type(wheelset_column_values(counted)["valve_actuations"]) is int
+    assert np.isnan(wheelset_column_values(unknown)["valve_actuations"])
+
+
+@pytest.mark.parametrize(
+    ("column", "unit"),
+    [
+        ("braking_distance_m", "m"),
+        ("mean_deceleration_mps2", "m/s2"),
+        ("reservoir_minimum_bar", "bar"),
+        ("energy_residual", "1"),
+        ("maximum_slide_4", "1"),
+        ("locked_time_s_2", "s"),
+        ("maximum_clamping_force_n_1", "N"),
+        ("met", "1"),
+    ],
+)
+def test_a_column_has_the_unit_it_is_reported_in(column: str, unit: str) -> None:
+    assert column_unit(column) == unit
+
+
+def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() -> None:
+    endings = {"m/s2": "mps2"}
+    columns = [*STOP_COLUMNS.values(), *WHEELSET_COLUMNS.values()]
+    for column in columns:
+        assert column.unit == "1" or column.name.endswith(f"_{endings.get(column.unit, column.unit.lower())}")
+    pure = {column.name for column in columns if column.unit == "1"}
+    assert pure == {"energy_residual", "air_residual", "maximum_slide", "valve_actuations"}
+
+
+def test_importing_the_catalogue_imports_no_numpy() -> None:
+    code = "import sys; from uictest.measures import MEASURES; print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == "False"
