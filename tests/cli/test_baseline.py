@@ -40,7 +40,7 @@ def test_a_run_like_its_baseline_exits_0_and_a_changed_one_1(
     scenario("a", DIFFERENT)
     answer = call("run", "--baseline", baseline)
     assert answer.code == 1
-    assert "DIFFERS a outcome=fail" in answer.out
+    assert "differs a outcome=fail" in answer.out
     assert "outcome was pass, is fail" in answer.out
     assert "22 quantities compared with the baseline accepted: 1 out of tolerance" in answer.err
     assert call("run", "--baseline", baseline, "--accept").code == 0
@@ -52,7 +52,7 @@ def test_every_report_of_a_run_says_what_differs_from_the_baseline(
 ) -> None:
     scenario("a", DIFFERENT)
     call("run", "--baseline", baseline, "--report", "html,md", "--junitxml", "own.xml")
-    headline = "2 cases: 1 met, 1 different from the baseline"
+    headline = "2 cases: 1 pass, 1 different from the baseline"
     page = Path("reports/latest/index.html").read_text()
     assert f"<h1>{headline}</h1>" in page
     assert "<td>outcome</td><td" in page[page.index("Differences from the baseline") :]
@@ -82,7 +82,7 @@ def test_a_missed_case_that_differs_is_one_failure_with_both_reasons(
     suite = _suite()
     assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
     text = str(suite.findtext("testcase[@name='a']/failure"))
-    assert "expected pass, came out fail" in text
+    assert "expected pass, got fail" in text
     assert "baseline: outcome was pass, is fail" in text
 
 
@@ -91,8 +91,8 @@ def test_github_shows_an_error_for_each_case_that_differs(call: Call, scenario: 
     Path("scenarios/b.yaml").unlink()
     shown = call("run", "--baseline", baseline, "--format", "github").out
     errors = [line.partition("::expected")[0] for line in shown.splitlines() if line.startswith("::error")]
-    assert errors[0] == "::error file=scenarios/a.yaml,title=DIFFERS a"
-    assert errors[1].startswith("::error file=scenarios/b.yaml,title=DIFFERS b::baseline: case was pass")
+    assert errors[0] == "::error file=scenarios/a.yaml,title=differs a"
+    assert errors[1].startswith("::error file=scenarios/b.yaml,title=differs b::baseline: case was pass")
 
 
 def test_the_results_hold_the_comparison_as_data(call: Call, scenario: Write, baseline: str) -> None:
@@ -113,7 +113,7 @@ def test_a_terminal_table_marks_the_case_that_differs(
     monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.setattr("uictest.cli.display.interactive", lambda stream: True)
     shown = call("run", "--baseline", baseline, "--color", "never").out
-    assert ["a", "DIFFERS", "fail"] in [line.split()[:3] for line in shown.splitlines()]
+    assert ["a", "differs", "fail"] in [line.split()[:3] for line in shown.splitlines()]
     assert "baseline: outcome was pass, is fail" in shown
 
 

@@ -60,7 +60,7 @@ def test_met_0_and_missed_1_with_a_recording(process: Call, scenario: Write) -> 
     scenario("stop")
     answer = process("run")
     assert answer.code == 0, answer.err
-    assert answer.out.startswith("met stop outcome=pass expect=pass braking_distance_m=")
+    assert answer.out.startswith("pass stop outcome=pass expect=pass braking_distance_m=")
     assert not Path("reports/latest/recordings").exists()
     scenario("stop", "expect: invalid\n")
     answer = process("run")
@@ -72,7 +72,7 @@ def test_json_on_stdout_and_messages_on_stderr(process: Call, scenario: Write) -
     scenario("stop")
     answer = process("run", "--format", "json")
     assert json.loads(answer.out)["cases"][0]["id"] == "stop"
-    assert "1 case: 1 met" in answer.err
+    assert "1 case: 1 pass" in answer.err
 
 
 def test_recordings_when_asked(process: Call, scenario: Write) -> None:
@@ -145,7 +145,7 @@ def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Wri
     values = ["--set", "rail.friction=range(0.1,0.3,0.00005)"]
     running = start("run", "-n1", *values, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert running.stdout is not None
-    assert running.stdout.readline().startswith("met stop[friction=0.10000]")
+    assert running.stdout.readline().startswith("pass stop[friction=0.10000]")
     running.send_signal(signal.SIGINT)
     # communicate() would miss the lines that readline() has buffered.
     assert running.stderr is not None

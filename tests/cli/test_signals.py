@@ -61,7 +61,7 @@ def test_a_closed_terminal_leaves_what_is_finished(program: Path, scenario: Writ
     command = [program, "run", "-n1", "--set", "rail.friction=range(0.1,0.3,0.0001)"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heeding) as running:
         assert running.stdout is not None
-        assert running.stdout.readline().startswith("met stop[friction=0.1000]")
+        assert running.stdout.readline().startswith("pass stop[friction=0.1000]")
         running.send_signal(signal.SIGHUP)
         # communicate() would miss the lines that readline() has buffered.
         out = running.stdout.read()

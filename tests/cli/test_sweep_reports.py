@@ -33,7 +33,11 @@ def pads(scenario: Callable[..., Path]) -> Path:
 
 def test_reports_are_written_in_the_formats_asked_for(call: Call, pads: Path) -> None:
     assert call("sweep", pads, "--report", "md,xlsx").code == 1
-    assert (FOLDER / "summary.md").read_text().startswith("## uictest sweep: 4 cases: 4 missed\n")
+    assert (
+        (FOLDER / "summary.md")
+        .read_text()
+        .startswith("## uictest sweep: 4 cases: 4 pass; 4 not as expected\n")
+    )
     assert (FOLDER / "report.xlsx").read_bytes().startswith(b"PK")
 
 
@@ -64,8 +68,11 @@ def test_github_gets_annotations_below_the_findings(call: Call, pads: Path) -> N
     lines = call("sweep", pads, "--format", "github").out.splitlines()
     errors = [line for line in lines if line.startswith("::error ")]
     assert len(errors) == 4
-    assert "file=pads.sweep.yaml,title=MISSED pads[" in errors[0]
-    assert lines[-1] == "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 missed"
+    assert "file=pads.sweep.yaml,title=unexpected pass pads[" in errors[0]
+    assert (
+        lines[-1]
+        == "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 pass; 4 not as expected"
+    )
     assert any("cases met" in line for line in lines)
 
 
@@ -80,7 +87,11 @@ def test_the_summary_is_appended_where_github_wants_it(
     Path("summary").write_text("# Before\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", "summary")
     call("sweep", pads, "--report", "csv")
-    assert Path("summary").read_text().startswith("# Before\n## uictest sweep: 4 cases: 4 missed\n")
+    assert (
+        Path("summary")
+        .read_text()
+        .startswith("# Before\n## uictest sweep: 4 cases: 4 pass; 4 not as expected\n")
+    )
 
 
 def test_a_summary_that_cannot_be_written_undoes_nothing(
@@ -123,5 +134,5 @@ def test_a_case_that_cannot_be_simulated_is_named_and_not_drawn(call: Call, pads
     pads.write_text(TEXT.split("grid")[0] + steps)
     assert call("sweep", pads).code == 3
     html = (FOLDER / "index.html").read_text()
-    assert 'class="word word-ERROR"' in html
+    assert 'class="word word-odd"' in html
     assert html.count('<details class="stop"') == 3

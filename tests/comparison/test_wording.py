@@ -29,8 +29,8 @@ def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run: MakeRun) 
     found = compare_runs(make_run(), make_run(braking_distance_m=470.0, braking_time_s=27.51), DEFAULT)
     heading, line = comparison_lines(found)
     assert heading.split() == ["case", "quantity", "first", "second", "deviation", "allowed", "unit"]
-    assert line.split()[:5] == ["DIFFERS", "dry-120", "braking_distance_m", "465", "470"]
-    assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["DIFFERS", "within"]
+    assert line.split()[:5] == ["differs", "dry-120", "braking_distance_m", "465", "470"]
+    assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["differs", "within"]
     assert verdict_line(found) == "22 quantities compared: 1 out of tolerance, 1 different within tolerance"
 
 
@@ -89,8 +89,8 @@ def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for(make_ru
     slid = [{**after.results[0].wheelsets[0], "maximum_slide": slide} for slide in (0.3, 0.4)]
     after = RunContent("after", [dataclasses.replace(after.results[0], wheelsets=tuple(slid))])
     found = compare_runs(before, after, DEFAULT)
-    rows = [line.split() for line in comparison_lines(found) if line.startswith("DIFFERS")]
+    rows = [line.split() for line in comparison_lines(found) if line.startswith("differs")]
     assert [row[2:5] for row in rows] == [["maximum_slide_2", "0.02", "0.4"]]
     assert rows[0][7:] == ["1", "worst", "of", "2", "wheelsets"]
-    every = [line.split()[2] for line in comparison_lines(found, every=True) if line.startswith("DIFFERS")]
+    every = [line.split()[2] for line in comparison_lines(found, every=True) if line.startswith("differs")]
     assert every == ["maximum_slide_1", "maximum_slide_2"]

@@ -15,8 +15,8 @@ def test_only_cases_that_are_not_met_are_annotated(make_result: MakeResult) -> N
     assert list(case_annotations(make_result())) == []
     (line,) = case_annotations(make_result(outcome="fail", criteria=(), reason="locked"))
     properties, message = line.removeprefix("::error ").split("::")
-    assert properties == "file=scenarios/dry/120.yaml,title=MISSED dry-120[command=90]"
-    assert message == "expected pass, came out fail%0Alocked"
+    assert properties == "file=scenarios/dry/120.yaml,title=fail dry-120[command=90]"
+    assert message == "expected pass, got fail%0Alocked"
 
 
 def test_an_annotation_carries_the_place_in_the_file() -> None:

@@ -56,8 +56,8 @@ def drawn(make_content: MakeContent, make_result: MakeResult, make_recording: Ma
 def test_every_case_has_a_row_with_its_figures(make_content: MakeContent, make_result: MakeResult) -> None:
     missed = make_result(id="b", outcome="invalid", criteria=(), reason="the rail was too dry")
     page = Page(page_html(make_content(make_result(), missed)))
-    assert "2 cases: 1 met, 1 missed" in page.text
-    for text in ("dry-120[command=90]", "465.2", "27.5", "MISSED", "the rail was too dry"):
+    assert "2 cases: 1 pass, 1 invalid; 1 not as expected" in page.text
+    for text in ("dry-120[command=90]", "465.2", "27.5", "invalid", "the rail was too dry"):
         assert text in page.text
     assert page.count("th") >= 12
 

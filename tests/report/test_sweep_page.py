@@ -26,7 +26,7 @@ MakeResult = Callable[..., CaseResult]
 def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
     text = Page(sweep_page_html(make_sweep())).text
     for heading in (
-        "4 cases: 3 met, 1 missed",
+        "4 cases: 3 pass, 1 fail; 1 not as expected",
         "Cases met",
         "Mean braking distance, m",
         "Frontier along 90 %",

@@ -1,11 +1,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import get_args
 
 import pytest
 
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report.wording import explanation, limits, number, quantity, tally
+from uictest.evaluation.result import Outcome
+from uictest.report.wording import (
+    CASE_WORDS,
+    counts_text,
+    explanation,
+    limits,
+    line_word,
+    number,
+    quantity,
+    result_word,
+    tally,
+    tone,
+)
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
@@ -40,7 +53,7 @@ def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
 ) -> None:
     absent = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
     assert explanation(make_result(outcome="skipped", criteria=(absent,))) == [
-        "expected pass, came out skipped",
+        "expected pass, got skipped",
         "braking-distance (validity) not applicable: the rail is dry",
     ]
 
@@ -52,14 +65,47 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged(
         status="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
     )
     assert explanation(make_result(outcome="inconclusive", criteria=(make_verdict(), undecided))) == [
-        "expected pass, came out inconclusive",
+        "expected pass, got inconclusive",
         "braking-distance (validity) inconclusive: the record ends after 2 s",
     ]
 
 
+@pytest.mark.parametrize(
+    ("expect", "words"),
+    [
+        ("pass", ("pass", "fail", "invalid", "inconclusive", "error", "skipped")),
+        (
+            "fail",
+            ("unexpected pass", "expected fail", "invalid", "inconclusive", "error", "unexpected skip"),
+        ),
+        (
+            "invalid",
+            ("unexpected pass", "fail", "expected invalid", "inconclusive", "error", "unexpected skip"),
+        ),
+    ],
+)
+def test_the_word_of_a_case_says_outcome_and_expectation(
+    make_result: MakeResult, expect: str, words: tuple[str, ...]
+) -> None:
+    results = [make_result(outcome=outcome, expect=expect) for outcome in get_args(Outcome)]
+    assert tuple(map(result_word, results)) == words
+    # What is met looks good, and nothing else does.
+    assert [tone(result_word(each)) == "good" for each in results] == [each.met for each in results]
+    assert {word for word in words if tone(word) == "odd"} == {"error"}
+
+
+def test_every_word_is_counted_and_is_one_field_of_a_line() -> None:
+    counts = dict.fromkeys(CASE_WORDS, 1)
+    assert len(counts_text(counts, 0).split(", ")) == len(CASE_WORDS)
+    assert not any(" " in line_word(word) for word in CASE_WORDS)
+    assert line_word("expected fail") == "expected-fail"
+
+
 def test_the_tally_counts_only_what_there_is(make_result: MakeResult) -> None:
-    met, missed, error = make_result(), make_result(outcome="fail"), make_result(outcome="error")
-    assert tally([met]) == "1 case: 1 met"
-    assert tally([met, missed, error, met]) == "4 cases: 2 met, 1 missed, 1 in error"
-    undecided = make_result(outcome="inconclusive")
-    assert tally([met, missed, undecided]) == "3 cases: 1 met, 2 missed (1 inconclusive)"
+    passed, failed, error = make_result(), make_result(outcome="fail"), make_result(outcome="error")
+    assert tally([passed]) == "1 case: 1 pass"
+    assert tally([passed, failed, error, passed]) == "4 cases: 2 pass, 1 fail, 1 error; 2 not as expected"
+    known, undecided = make_result(outcome="fail", expect="fail"), make_result(outcome="inconclusive")
+    assert tally([known, undecided]) == "2 cases: 1 expected fail, 1 inconclusive; 1 not as expected"
+    assert tally([passed, known], [known.id]) == "2 cases: 2 different from the baseline"
+    assert tally([]) == "no case"

@@ -10,19 +10,8 @@ from typing import Protocol, TextIO
 from uictest import evaluation, report
 from uictest.cli.options import Colour, Format
 from uictest.cli.streams import coloured, data
-from uictest.report import (
-    DIFFERS,
-    case_annotations,
-    case_line,
-    case_word,
-    criterion_lines,
-    definition_lines,
-    missing_annotations,
-    missing_lines,
-    part_lines,
-)
 
-_ANSI = {"met": "\x1b[32m", "MISSED": "\x1b[1;31m", "ERROR": "\x1b[1;35m", "DIFFERS": "\x1b[1;31m"}
+_ANSI = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _ANSI_END = "\x1b[0m"
 
 
@@ -48,21 +37,23 @@ class Lines:
         """Show one result."""
         if self._quiet and result.met and not differences:
             return
-        self._show(case_word(result, differences), case_line(result, differences))
+        self._show(report.case_word(result, differences), report.case_line(result, differences))
         if self._verbose:
-            for line in criterion_lines(result):
+            for line in report.criterion_lines(result):
                 data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the missing cases of the baseline; with -v what criteria mean and what cases were run with."""
-        for line in missing_lines(content.baseline) if content.baseline else ():
-            self._show(DIFFERS, line)
+        for line in report.missing_lines(content.baseline) if content.baseline else ():
+            self._show(report.DIFFERS, line)
         if self._verbose:
             for line in _common_lines(_shown(content, quiet=self._quiet)):
                 data(line)
 
     def _show(self, word: str, line: str) -> None:
-        data(f"{_ANSI[word]}{word}{_ANSI_END}{line.removeprefix(word)}" if self._colour else line)
+        first = report.line_word(word)
+        colour = _ANSI[report.tone(word)]
+        data(f"{colour}{first}{_ANSI_END}{line.removeprefix(first)}" if self._colour else line)
 
 
 class Annotations(Lines):
@@ -71,13 +62,13 @@ class Annotations(Lines):
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result."""
         super().case(result, differences)
-        for line in case_annotations(result, differences):
+        for line in report.case_annotations(result, differences):
             data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the rest, and an annotation for each missing case of the baseline."""
         super().end(content, document)
-        for line in missing_annotations(content.baseline) if content.baseline else ():
+        for line in report.missing_annotations(content.baseline) if content.baseline else ():
             data(line)
 
 
@@ -119,7 +110,7 @@ class VerdictTable:
         for result in shown:
             if self._verbose or not content.passes(result):
                 console.print(report.explanation_text(content, result, every_criterion=self._verbose))
-        for line in missing_lines(content.baseline) if content.baseline else ():
+        for line in report.missing_lines(content.baseline) if content.baseline else ():
             console.print(line, markup=False)
         if self._verbose:
             for line in _common_lines(shown):
@@ -128,8 +119,8 @@ class VerdictTable:
 
 def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield what cases have in common: the meaning of criteria, and parts."""
-    yield from definition_lines(results)
-    yield from part_lines(results)
+    yield from report.definition_lines(results)
+    yield from report.part_lines(results)
 
 
 def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool) -> Display:

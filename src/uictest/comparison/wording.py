@@ -89,7 +89,7 @@ def verdict_line(comparison: Comparison) -> str:
 
 def _columns(differences: Sequence[report.Difference]) -> list[Column]:
     """Return the table of differences; without a case for recordings."""
-    words = ["within" if difference.within else "DIFFERS" for difference in differences]
+    words = ["within" if difference.within else report.DIFFERS for difference in differences]
     # A word that all rows share is the first to give way.
     rank_of_words = 5 if len(set(words)) == 1 else 0
     cases = [printable(difference.case) for difference in differences]

@@ -87,9 +87,13 @@ from .traces.trace import (
     trace_of as trace_of,
 )
 from .wording import (
+    CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,
     counted as counted,
+    line_word as line_word,
     listed as listed,
     number as number,
+    outcome_word as outcome_word,
     tally as tally,
+    tone as tone,
 )

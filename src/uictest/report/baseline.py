@@ -25,7 +25,7 @@ from uictest.report.difference import (
     worst_of_wheelsets,
 )
 from uictest.report.escaping import printable
-from uictest.report.wording import DIFFERS, counted, explanation, listed, tally, verdict_word
+from uictest.report.wording import DIFFERS, counted, explanation, listed, result_word, tally
 
 DifferencesByCase = Mapping[str, Sequence[Difference]]
 
@@ -117,8 +117,8 @@ def read_baseline(document: Mapping[str, Any]) -> BaselineComparison | None:
 
 
 def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) -> str:
-    """Return how a case stands: `DIFFERS` where only its baseline says otherwise, else the verdict's word."""
-    return DIFFERS if differences and result.met else verdict_word(result)
+    """Return the word of a case: `differs` where it meets its expectation and differs from the baseline."""
+    return DIFFERS if differences and result.met else result_word(result)
 
 
 def case_explanation(result: evaluation.CaseResult, differences: Sequence[Difference]) -> list[str]:
@@ -135,7 +135,7 @@ def difference_sentences(differences: Sequence[Difference]) -> list[str]:
 
 
 def run_tally(results: Iterable[evaluation.CaseResult], baseline: BaselineComparison | None) -> str:
-    """Return the counts of a run, e.g. `3 cases: 2 met, 1 different from the baseline; 1 case missing`."""
+    """Return the counts of a run, e.g. `3 cases: 2 pass, 1 different from the baseline`."""
     counts = tally(results, baseline.differences if baseline else ())
     missing = len(baseline.missing) if baseline else 0
     return f"{counts}; {counted(missing, 'case')} of the baseline missing" if missing else counts

@@ -52,7 +52,7 @@ class RunContent:
         return result.met and not self.differences(result.id)
 
     def word(self, result: evaluation.CaseResult) -> str:
-        """Return `met`, `MISSED`, `ERROR` or `DIFFERS`: how a case stands to expectation and baseline."""
+        """Return the word of a case: how it stands to its expectation and to the baseline."""
         return case_word(result, self.differences(result.id))
 
     def explanation(self, result: evaluation.CaseResult) -> list[str]:

@@ -8,10 +8,11 @@ import itertools
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
+from uictest.report.wording import CASE_WORDS, tone
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook
@@ -122,7 +123,9 @@ def width(name: str, values: Iterable[Cell]) -> int:
     return min(max(longest + 2, _NARROWEST), _WIDEST)
 
 
-_COLOURS = {"met": "good", "pass": "good", "missed": "bad", "fail": "bad", "inconclusive": "bad"}
+_STATUSES: Final = {"pass": "good", "fail": "bad", "inconclusive": "bad"}
+"""Statuses of criteria."""
+_COLOURS: Final = {word: "good" if tone(word) == "good" else "bad" for word in CASE_WORDS} | _STATUSES
 
 
 def _colour_verdicts(sheet: Worksheet, columns: Sequence[str], rows: int, styles: Styles) -> None:

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from typing import Final, Literal
 
 from uictest import evaluation
 from uictest.report.escaping import printable
 
-DIFFERS = "DIFFERS"
+DIFFERS: Final = "differs"
 """The word for a case that meets its expectation and differs from the baseline."""
+
+_AS_EXPECTED: Final = ("pass", "expected fail", "expected invalid", "skipped")
+_NOT_AS_EXPECTED: Final = ("fail", "invalid", "inconclusive", "unexpected pass", "unexpected skip", "error")
+
+CASE_WORDS: Final = (*_AS_EXPECTED, *_NOT_AS_EXPECTED, DIFFERS)
+"""Words that say how a case came out, in the order in which they are counted."""
 
 _NAMED = 3
 """Names that a list shows before it counts the rest."""
@@ -39,7 +46,7 @@ def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
 
 
 def value_and_limits(verdict: evaluation.Verdict) -> str:
-    """Return what a criterion found beside its limits, e.g. `0.3 %, upper limit 0.1 %`."""
+    """Return the value of a criterion next to its limits, e.g. `0.3 %, upper limit 0.1 %`."""
     return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict)}"
 
 
@@ -52,14 +59,14 @@ def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Ver
 
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
-    """Return one line that says what a criterion found: verdict and reason, or value, limits and margin."""
+    """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
     value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
-    found = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
-    return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {found}")
+    reason = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
+    return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {reason}")
 
 
 def definition_sentence(verdict: evaluation.Verdict) -> str:
-    """Return the definitions a verdict rests on, e.g. `first_phase_duration = 3 s`, or an empty text."""
+    """Return the definitions that a verdict depends on, e.g. `first_phase_duration = 3 s`."""
     return printable(", ".join(f"{name} = {text}" for name, text in verdict.definition.items()))
 
 
@@ -68,11 +75,11 @@ def explanation(result: evaluation.CaseResult) -> list[str]:
     deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
     # With criteria the reason of a result repeats theirs; without any it is all there is.
     reason = [printable(result.reason)] if result.reason and not deciding else []
-    return [f"expected {result.expect}, came out {result.outcome}", *reason, *deciding]
+    return [f"expected {result.expect}, got {result.outcome}", *reason, *deciding]
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield what each criterion found, failing ones first, and how firmly it stands on its definitions."""
+    """Yield the verdict of each criterion, failing ones first, and how sensitive it is to definitions."""
     for verdict in failing_first(result.criteria):
         yield verdict_sentence(verdict)
         for sensitivity in verdict.sensitivity:
@@ -86,32 +93,62 @@ def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
             yield verdict
 
 
-def verdict_word(result: evaluation.CaseResult) -> str:
-    """Return `met`, `MISSED` or `ERROR`: how a case stands to its expectation."""
-    if result.outcome == "error":
-        return "ERROR"
-    return "met" if result.met else "MISSED"
+def outcome_word(outcome: str, *, met: bool) -> str:
+    """Return how a case came out: its outcome, and whether that is against the ordinary.
+
+    A case that is expected to fail, or to be invalid, and does so is an `expected fail` or `expected
+    invalid`. A case that should not pass and does is an `unexpected pass`; one to which no criterion applies
+    is an `unexpected skip`. In all other cases the word is the outcome.
+
+    Args:
+        outcome: of the case.
+        met: whether the case was expected to come out so.
+
+    """
+    if met:
+        return outcome if outcome in _AS_EXPECTED else f"expected {outcome}"
+    return {"pass": "unexpected pass", "skipped": "unexpected skip"}.get(outcome, outcome)
+
+
+def result_word(result: evaluation.CaseResult) -> str:
+    """Return the word of `CASE_WORDS` that says how a case came out, whatever its baseline."""
+    return outcome_word(result.outcome, met=result.met)
+
+
+def line_word(word: str) -> str:
+    """Return a word of `CASE_WORDS` without blanks: in a line for grep it is the first field."""
+    return word.replace(" ", "-")
+
+
+Tone = Literal["good", "bad", "odd"]
+"""How a word is coloured. odd: an error of the program or the scenario, not of what was tested."""
+
+
+def tone(word: str) -> Tone:
+    """Return the tone of a word of `CASE_WORDS`."""
+    if word == "error":
+        return "odd"
+    return "good" if word in _AS_EXPECTED else "bad"
 
 
 def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = ()) -> str:
-    """Return the counts of a run, e.g. `12 cases: 9 met, 3 missed (1 inconclusive)`.
+    """Return the counts of a run, e.g. `12 cases: 9 pass, 1 expected fail, 2 fail; 2 not as expected`.
 
     A case that is met counts as different where its id is among those `differing` from the baseline.
     """
     results = list(results)
-    words = [DIFFERS if result.met and result.id in differing else verdict_word(result) for result in results]
-    undecided = sum(result.outcome == "inconclusive" for result in results)
-    met, missed, errors, different = (words.count(word) for word in ("met", "MISSED", "ERROR", DIFFERS))
-    shown = counts_words(met, missed, errors, undecided, different)
-    return f"{counted(len(words), 'case')}: {shown}" if words else "no case"
+    if not results:
+        return "no case"
+    words = [DIFFERS if result.met and result.id in differing else result_word(result) for result in results]
+    counts = {word: words.count(word) for word in CASE_WORDS}
+    return f"{counted(len(words), 'case')}: {counts_text(counts, sum(not each.met for each in results))}"
 
 
-def counts_words(met: int, missed: int, errors: int, inconclusive: int, different: int = 0) -> str:
-    """Return counts of cases, those of none left out; the `inconclusive` ones are among the `missed`."""
-    open_ = f" ({inconclusive} inconclusive)" if inconclusive else ""
-    counts = {"met": met, f"missed{open_}": missed, "in error": errors}
-    counts["different from the baseline"] = different
-    return ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+def counts_text(counts: Mapping[str, int], not_met: int) -> str:
+    """Return counts of cases by word, those of none left out, and how many do not meet their expectation."""
+    labels = {DIFFERS: "different from the baseline"}
+    shown = ", ".join(f"{count} {labels.get(word, word)}" for word, count in counts.items() if count)
+    return f"{shown}; {not_met} not as expected" if not_met else shown
 
 
 def listed(names: Sequence[str]) -> str:

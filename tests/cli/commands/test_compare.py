@@ -32,7 +32,7 @@ def test_a_run_and_itself_agree_and_another_differs(call: Call, scenario: Write,
     assert "no difference" in same.err
     differing = call("compare", "one/latest", "other/latest")
     assert differing.code == 1
-    assert "DIFFERS  a     outcome" in differing.out
+    assert "differs  a     outcome" in differing.out
     assert "note: inputs: scenarios/a.yaml" in differing.out
 
 
@@ -131,7 +131,7 @@ def test_the_summary_of_a_job_is_appended(
     scenario("a")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", "step.md")
     assert call("run").code == 0
-    assert "## uictest: 1 case: 1 met" in Path("step.md").read_text()
+    assert "## uictest: 1 case: 1 pass" in Path("step.md").read_text()
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", "no/such/folder")
     answer = call("run")
     assert answer.code == 0

@@ -34,7 +34,7 @@ def stop(workplace: Path) -> Path:
 def test_a_stop_is_judged_and_reported_as_by_run(call: Call, stop: Path) -> None:
     answer = call("evaluate", stop, *STATED)
     assert answer.code == 0
-    assert answer.out.startswith("met stop-1 outcome=pass")
+    assert answer.out.startswith("pass stop-1 outcome=pass")
     assert "trigger: at 0 s, stated by the file; raster: 10 ms" in answer.err
     assert "distance: integrated from speed" in answer.err
     files = {path.name for path in Path("reports/latest/").iterdir()}
@@ -94,7 +94,7 @@ def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace:
     writer_of("parquet")(_recording(wheel_speed_3=locked), workplace / "locked.parquet")
     answer = call("evaluate", "locked.parquet", *STATED)
     assert answer.code == 1
-    assert "locked-wheels" in answer.err + answer.out or "MISSED" in answer.out
+    assert "locked-wheels" in answer.err + answer.out or "fail" in answer.out
     assert Path("reports/latest/recordings/locked.parquet").exists()
 
 
@@ -105,10 +105,12 @@ def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
     writer_of("csv")(_recording(end), workplace / "cut.csv")
     answer = call("evaluate", "cut.csv", *STATED)
     assert answer.code == 1
-    assert answer.out.startswith("MISSED cut outcome=inconclusive expect=pass")
+    assert answer.out.startswith("inconclusive cut outcome=inconclusive expect=pass")
     assert "standstill (requirement) inconclusive: no standstill; the record ends after" in answer.out
     assert "locked-wheels (requirement) inconclusive" in answer.out
-    assert answer.err.splitlines()[-1].startswith("uictest: 1 case: 1 missed (1 inconclusive); reports in")
+    assert answer.err.splitlines()[-1].startswith(
+        "uictest: 1 case: 1 inconclusive; 1 not as expected; reports in"
+    )
 
 
 def test_a_record_without_wheel_speeds_is_inconclusive_and_exits_1(call: Call, workplace: Path) -> None:

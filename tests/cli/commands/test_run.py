@@ -25,8 +25,8 @@ def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, sce
     scenario("b")
     answer = call("run")
     assert answer.code == 0
-    assert [line.split()[:2] for line in answer.out.splitlines()] == [["met", "a"], ["met", "b"]]
-    assert "2 cases: 2 met" in answer.err
+    assert [line.split()[:2] for line in answer.out.splitlines()] == [["pass", "a"], ["pass", "b"]]
+    assert "2 cases: 2 pass" in answer.err
     files = sorted(path.name for path in Path("reports/latest/").iterdir())
     assert files == [
         "criteria.csv",
@@ -45,7 +45,7 @@ def test_a_missed_case_exits_1_and_an_error_3(call: Call, scenario: Write) -> No
     scenario("b", "tags: [error]\n")
     answer = call("run")
     assert answer.code == 3
-    assert "ERROR b outcome=error expect=pass reason=ZeroDivisionError: no wheel load" in answer.out
+    assert "error b outcome=error expect=pass reason=ZeroDivisionError: no wheel load" in answer.out
 
 
 def test_an_expected_failure_is_met(call: Call, scenario: Write) -> None:
@@ -146,8 +146,8 @@ def test_github_annotates_what_is_not_met(call: Call, scenario: Write) -> None:
     scenario("a")
     scenario("b", "tags: [fail]\n")
     lines = call("run", "--format", "github").out.splitlines()
-    assert [line.split()[0] for line in lines] == ["met", "MISSED", "::error"]
-    assert lines[2].startswith("::error file=scenarios/b.yaml,title=MISSED b::")
+    assert [line.split()[0] for line in lines] == ["pass", "fail", "::error"]
+    assert lines[2].startswith("::error file=scenarios/b.yaml,title=fail b::")
 
 
 @pytest.mark.parametrize(
@@ -186,7 +186,7 @@ def test_the_first_missed_case_ends_the_run(call: Call, scenario: Write, option:
         scenario(name, "tags: [fail]\n")
     answer = call("run", *option)
     assert answer.code == 1
-    assert answer.out.count("MISSED") == 1
+    assert answer.out.count("outcome=fail expect=pass") == 1
     assert "2 not run" in answer.err
     assert json.loads(Path("reports/latest/results.json").read_text())["complete"] is False
 
@@ -226,7 +226,7 @@ def test_quiet_shows_only_what_is_not_met(call: Call, scenario: Write) -> None:
     scenario("a")
     scenario("b", "tags: [fail]\n")
     answer = call("run", "-q")
-    assert [line.split()[0] for line in answer.out.splitlines()] == ["MISSED"]
+    assert [line.split()[0] for line in answer.out.splitlines()] == ["fail"]
     assert answer.err == ""
 
 
@@ -250,7 +250,7 @@ def test_durations_name_the_slowest(call: Call, scenario: Write) -> None:
 def test_colour_is_off_unless_wanted(call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch) -> None:
     scenario("a")
     assert "\x1b" not in call("run").out
-    assert "\x1b[32mmet\x1b[0m a" in call("run", "--color", "always").out
+    assert "\x1b[32mpass\x1b[0m a" in call("run", "--color", "always").out
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\x1b" not in call("run").out
 

@@ -65,5 +65,5 @@ def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> N
     assert found["fail"].is_failure
     assert found["skipped"].is_skipped
     assert found["error"].is_error
-    assert "expected pass, came out invalid" in found["invalid"].result[0].text
+    assert "expected pass, got invalid" in found["invalid"].result[0].text
     assert any("<b>&" in name for name in found)

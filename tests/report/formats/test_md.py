@@ -28,10 +28,10 @@ def test_the_summary_is_one_table_with_cases_not_met_first(
 ) -> None:
     missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
     lines = markdown_summary(make_content(make_result(), missed)).splitlines()
-    assert lines[0] == "## uictest: 2 cases: 1 met, 1 missed"
-    assert lines[4].startswith("| **MISSED** | `b[x]` | fail | 465.2 |")
+    assert lines[0] == "## uictest: 2 cases: 1 pass, 1 fail; 1 not as expected"
+    assert lines[4].startswith("| **fail** | `b[x]` | fail | 465.2 |")
     assert "locked" in lines[4]
-    assert lines[5].startswith("| met | `dry-120[command=90]` | pass | 465.2 | 27.5 | 1.195 | – |")  # noqa: RUF001
+    assert lines[5].startswith("| pass | `dry-120[command=90]` | pass | 465.2 | 27.5 | 1.195 | – |")  # noqa: RUF001
 
 
 def test_a_recorded_stop_is_told_from_a_simulated_one(
@@ -50,7 +50,7 @@ def test_ten_thousand_cases_stay_within_the_limit_and_say_what_is_missing(
     results = [make_result(id=f"wet-80-friction[friction={n}]", outcome="fail") for n in range(10_000)]
     text = markdown_summary(make_content(*results))
     assert len(text.encode()) <= LIMIT
-    shown = text.count("\n| **MISSED**")
+    shown = text.count("\n| **fail**")
     assert f"{10_000 - shown} more cases are in" in text
 
 
@@ -74,7 +74,7 @@ def test_the_summary_is_appended_where_github_wants_it(
     place.write_text("# Before\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(place))
     append_step_summary(make_content(make_result()))
-    assert place.read_text().startswith("# Before\n## uictest: 1 case: 1 met")
+    assert place.read_text().startswith("# Before\n## uictest: 1 case: 1 pass")
 
 
 def test_what_is_in_the_summary_already_counts(

@@ -33,7 +33,7 @@ def test_the_sheets_hold_what_the_run_found(make_content: MakeContent, make_resu
     assert workbook.sheetnames == ["Cases", "Wheelsets", "Criteria", "Provenance"]
     (case,) = _table(workbook["Cases"])
     assert (case["case"], case["title"], case["tags"]) == ("dry-120[command=90]", "A dry stop", "dry stop")
-    assert (case["met"], case["braking_distance_m"], case["brake.command"]) == ("met", 465.25, "90 %")
+    assert (case["verdict"], case["braking_distance_m"], case["brake.command"]) == ("pass", 465.25, "90 %")
     assert case["initial_adhesion_g"] is None
     assert [row["wheelset"] for row in _table(workbook["Wheelsets"])] == [1, 2, 3, 4]
     (criterion,) = _table(workbook["Criteria"])

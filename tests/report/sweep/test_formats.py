@@ -20,7 +20,9 @@ def content(make_sweep: MakeSweep) -> SweepContent:
     made = make_sweep()
     for name in ("rates.csv", "summary.csv"):
         (made.folder / name).write_text(f"{name}\n")
-    pq.write_table(pa.table({"id": ["a"], "met": [True]}), made.folder / "summary.parquet")
+    pq.write_table(
+        pa.table({"id": ["a"], "met": [True], "outcome": ["pass"]}), made.folder / "summary.parquet"
+    )
     return made
 
 

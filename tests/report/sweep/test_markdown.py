@@ -25,7 +25,7 @@ def _count(label: str, cases: int = 1) -> dict[str, Any]:
 def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: MakeResult) -> None:
     worst = (make_result(id="b[x]", outcome="fail", criteria=(), reason="locked"), make_result())
     text = sweep_markdown(make_sweep(worst))
-    assert text.startswith("## uictest sweep: 4 cases: 3 met, 1 missed\n")
+    assert text.startswith("## uictest sweep: 4 cases: 3 pass, 1 fail; 1 not as expected\n")
     assert [line.removeprefix("### ") for line in text.splitlines() if line.startswith("### ")] == [
         "90 %",
         "Share of cases met, %",
@@ -38,7 +38,7 @@ def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: Mak
     ]
     assert "| `brake.90 %` ↓ `rail.friction` → | 0.10 | 0.12 |" in text
     assert "| 90 % | **0** | 100 |" in text
-    assert "| **MISSED** | `b[x]` | fail | 465.2 | – |  | expected pass, came out fail; locked |" in text  # noqa: RUF001 - a dash on paper
+    assert "| **fail** | `b[x]` | fail | 465.2 | – |  | expected pass, got fail; locked |" in text  # noqa: RUF001 - a dash on paper
     assert "|  | 90 % | 2 | 1 | 50 | █████░░░░░ |" in text
     assert "| 90 % = 90 % | not met up to 90 %, met from 0.11 | 90 % |" in text
 

@@ -17,10 +17,10 @@ def test_each_case_stands_once_and_those_not_met_in_front(
     worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
     cases = notable_cases(make_sweep(worst, missed=missed))
     assert [case.id for case in cases] == ["a", "b", "narrow"]
-    assert [case.word for case in cases] == ["ERROR", "ERROR", "met"]
+    assert [case.word for case in cases] == ["error", "error", "pass"]
     assert [case.why for case in cases] == [
-        "expected pass, came out error; no air",
-        "came out error: no air",
+        "expected pass, got error; no air",
+        "got error: no air",
         "",
     ]
     assert [case.distance for case in cases] == [465.25, None, 465.25]
@@ -28,4 +28,4 @@ def test_each_case_stands_once_and_those_not_met_in_front(
 
 def test_without_a_reason_the_outcome_is_one(make_sweep: MakeSweep) -> None:
     (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]))
-    assert case.why == "came out skipped"
+    assert case.why == "got skipped"

@@ -36,7 +36,8 @@ def _write_summary(folder: Path, rows: list[dict[str, Any]]) -> None:
 
 def _rows(count: int, **changes: object) -> list[dict[str, Any]]:
     own = {"parameters.rail.friction": "0.1", "reason": "", "braking_distance_m": None}
-    return [{"index": k, "id": f"case-{k}", "met": k % 3 > 0, **own, **changes} for k in range(count)]
+    cases = ({"index": k, "id": f"case-{k}", "met": k % 3 > 0} for k in range(count))
+    return [{**case, "outcome": "pass" if case["met"] else "fail", **own, **changes} for case in cases]
 
 
 def _read(content: SweepContent, **options: int) -> Any:
@@ -57,7 +58,7 @@ def test_the_sheets_hold_what_the_sweep_found(make_sweep: MakeSweep, make_result
     assert (summary["cases"], summary["met"], summary["outcome fail"]) == (4, 3, 1)
     case = _table(workbook["Cases"])[0]
     assert next(iter(case)) == "id"
-    assert (case["id"], case["met"], case["braking_distance_m"]) == ("case-0", "missed", 465.25)
+    assert (case["id"], case["met"], case["braking_distance_m"]) == ("case-0", "fail", 465.25)
     assert _table(workbook["Rates"])[1]["share_met"] == 0.5
     trend = _table(workbook["Trends"])
     assert [(row["value"], row["cases"], row["mean"]) for row in trend] == [("80 %", 2, 2), ("90 %", 1, 4)]

@@ -11,7 +11,7 @@ MakeVerdict = Callable[..., Verdict]
 
 def test_the_line_of_a_case_that_is_met(make_result: MakeResult) -> None:
     assert case_line(make_result()) == (
-        "met dry-120[command=90] outcome=pass expect=pass braking_distance_m=465.25 braking_time_s=27.5 "
+        "pass dry-120[command=90] outcome=pass expect=pass braking_distance_m=465.25 braking_time_s=27.5 "
         "mean_deceleration_mps2=1.195 initial_adhesion_g=- maximum_slide=0.02/0.04/0.06/0.08 "
         "valve_actuations=1/2/3/4"
     )
@@ -22,17 +22,17 @@ def test_a_missed_case_gives_its_reason_on_the_same_line(
 ) -> None:
     broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     line = case_line(make_result(outcome="fail", criteria=(broken,)))
-    assert line.startswith("MISSED dry-120[command=90] outcome=fail expect=pass ")
+    assert line.startswith("fail dry-120[command=90] outcome=fail expect=pass ")
     assert line.endswith("reason=locked (validity) fail: locked for 3 s")
 
 
 def test_a_case_that_passes_against_expectation_says_so(make_result: MakeResult) -> None:
-    assert case_line(make_result(expect="fail")).endswith("reason=expected fail, came out pass")
+    assert case_line(make_result(expect="fail")).endswith("reason=expected fail, got pass")
 
 
 def test_a_crash_stands_first_on_its_line(make_result: MakeResult) -> None:
     crashed = make_result(outcome="error", reason="ValueError: x", measures=None, wheelsets=(), criteria=())
-    assert case_line(crashed) == "ERROR dry-120[command=90] outcome=error expect=pass reason=ValueError: x"
+    assert case_line(crashed) == "error dry-120[command=90] outcome=error expect=pass reason=ValueError: x"
 
 
 def test_every_line_is_one_line_whatever_is_in_it(make_result: MakeResult, hostile: str) -> None:

@@ -33,7 +33,7 @@ def _rendered(renderable: RenderableType, width: int = 120, *, terminal: bool = 
 
 def test_a_row_holds_verdict_and_figures(make_result: MakeResult) -> None:
     row = _rendered(_table(make_result())).splitlines()[-1].split()
-    assert row == ["dry-120[command=90]", "met", "pass", "465.2", "27.5", "1.20", "-", "8", "4"]
+    assert row == ["dry-120[command=90]", "pass", "pass", "465.2", "27.5", "1.20", "-", "8", "4"]
 
 
 def test_a_long_id_is_folded_and_not_cut(make_result: MakeResult) -> None:
@@ -57,8 +57,8 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
     broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
-        "MISSED dry-120[command=90]",
-        "  expected pass, came out fail",
+        "fail dry-120[command=90]",
+        "  expected pass, got fail",
         "  locked (validity) fail: locked for 3 s",
     ]
 

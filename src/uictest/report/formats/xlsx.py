@@ -15,7 +15,7 @@ from uictest.report.formats.csv import CHANGED, criterion_cells
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changed_parameters
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.wording import definition_sentence
+from uictest.report.wording import definition_sentence, result_word
 
 
 def workbook_bytes(content: RunContent) -> bytes:
@@ -54,7 +54,7 @@ def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row
 
 def result_row(result: evaluation.CaseResult) -> Row:
     """Return how a case came out, its figures, its parameters and the reason."""
-    row: Row = {"met": "met" if result.met else "missed"}
+    row: Row = {"verdict": result_word(result)}
     row |= {"outcome": result.outcome, "expect": result.expect}
     row |= result.measures or {}
     row |= dict(result.parameters)

@@ -12,7 +12,7 @@ from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.ranking import DRAWN, worst_first
 from uictest.report.page.rendering import render
-from uictest.report.wording import DIFFERS, counted, failing_first, number
+from uictest.report.wording import CASE_WORDS, counted, failing_first, number, tone
 
 if TYPE_CHECKING:
     from uictest.report.baseline import BaselineComparison
@@ -43,6 +43,7 @@ def page_html(content: RunContent) -> str:
         figures_of=figures_of,
         gauge_of=gauge_of,
         number=number,
+        tone=tone,
         value_text=value_text,
         **PARAMETER_WORDS,
     )
@@ -73,7 +74,7 @@ def _opened(content: RunContent, drawn: Sequence[CaseView]) -> str:
 
 def _words(content: RunContent) -> dict[str, int]:
     words = [content.word(result) for result in content.results]
-    return {word: words.count(word) for word in ("met", "MISSED", "ERROR", DIFFERS) if word in words}
+    return {word: words.count(word) for word in CASE_WORDS if word in words}
 
 
 def _baseline_lines(baseline: BaselineComparison | None) -> list[str]:
@@ -88,7 +89,7 @@ def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:
         return ""
     if len(drawn) == DRAWN:
         return (
-            f"{counted(missing, 'case')} not drawn: a page draws {DRAWN}, those not met first, then those "
-            "with the narrowest margins. Every criterion of every case is in criteria.csv."
+            f"{counted(missing, 'case')} not drawn: a page draws {DRAWN}, those not as expected first, then "
+            "those with the narrowest margins. Every criterion of every case is in criteria.csv."
         )
     return f"{counted(missing, 'case')} not drawn: there is no recording of it here, or the stop failed."

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from uictest.report.sheet import Row, Styles, write_table
+from uictest.report.wording import outcome_word
 
 if TYPE_CHECKING:
     import pyarrow.parquet as pq
@@ -46,4 +47,4 @@ def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:
         for batch in summary.iter_batches(_AT_ONCE):
             for row in batch.to_pylist():
                 if wanted is None or row["met"] == wanted:
-                    yield row | {"met": "met" if row["met"] else "missed"}
+                    yield row | {"met": outcome_word(row["outcome"], met=row["met"])}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.escaping import printable
-from uictest.report.wording import explanation, verdict_word
+from uictest.report.wording import explanation, outcome_word, result_word
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent
@@ -43,12 +43,12 @@ def _looked_at(result: evaluation.CaseResult) -> NotableCase:
     distance = (result.measures or {}).get("braking_distance_m")
     margin, criterion = evaluation.narrowest_margin(result)
     share = None if margin is None else 100.0 * margin
-    word = verdict_word(result)
+    word = result_word(result)
     return NotableCase(result.id, result.met, word, result.outcome, why, distance, share, criterion)
 
 
 def _counted(missed: Mapping[str, str]) -> NotableCase:
     """Return a case of which only the outcome and the reason were kept."""
     outcome = missed["outcome"]
-    why = printable(": ".join(text for text in (f"came out {outcome}", missed["reason"]) if text))
-    return NotableCase(missed["id"], False, "ERROR" if outcome == "error" else "MISSED", outcome, why)
+    why = printable(": ".join(text for text in (f"got {outcome}", missed["reason"]) if text))
+    return NotableCase(missed["id"], False, outcome_word(outcome, met=False), outcome, why)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from uictest.measures import column_unit
-from uictest.report.wording import counted, counts_words
+from uictest.report.wording import counted, counts_text
 
 _NAMED = 3  # values that are listed rather than counted
 STRETCH = " .. "
@@ -15,11 +15,10 @@ STRETCH = " .. "
 
 
 def sweep_tally(document: Mapping[str, Any]) -> str:
-    """Return the counts of a sweep, e.g. `75 cases: 70 met, 4 missed (2 inconclusive), 1 in error`."""
-    cases, met, outcomes = document["cases"], document["met"], document["outcomes"]
-    errors, undecided = outcomes["error"], outcomes.get("inconclusive", 0)  # sweeps of 0.1 have none of these
-    shown = counts_words(met, cases - met - errors, errors, undecided)
-    return f"{counted(cases, 'case')}{not_judged_words(outcomes)}: {shown}"
+    """Return the counts of a sweep, e.g. `75 cases: 70 pass, 4 fail, 1 error; 5 not as expected`."""
+    cases = document["cases"]
+    shown = counts_text(document["outcomes"], cases - document["met"])
+    return f"{counted(cases, 'case')}: {shown}"
 
 
 def not_judged_words(outcomes: Mapping[str, int]) -> str:

@@ -103,6 +103,6 @@ def _sensitivities(found: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
 def _worst(content: SweepContent) -> Iterator[Row]:
     results = {result.id: result for result in content.worst}
     for case in notable_cases(content):
-        row: Row = {"case": case.id, "met": "met" if case.met else "missed", "outcome": case.outcome}
+        row: Row = {"case": case.id, "verdict": case.word, "outcome": case.outcome}
         result = results.get(case.id)
         yield row | (result_row(result) if result else {}) | {"why": case.why}

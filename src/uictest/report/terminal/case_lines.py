@@ -1,4 +1,4 @@
-"""One line per case, made for grep: the verdict first, then the case id, then `key=value` pairs."""
+"""One line per case, made for grep: the word of the case first, then the case id, then `key=value` pairs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,14 @@ from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word, difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences
-from uictest.report.wording import DIFFERS, criterion_sentences, definition_sentence, listed, number
+from uictest.report.wording import (
+    DIFFERS,
+    criterion_sentences,
+    definition_sentence,
+    line_word,
+    listed,
+    number,
+)
 
 if TYPE_CHECKING:
     from uictest.report.baseline import BaselineComparison
@@ -20,7 +27,7 @@ SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps
 
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case; the explanation of one that is not met, or differs, stands at its end."""
-    words = [case_word(result, differences), printable(result.id)]
+    words = [line_word(case_word(result, differences)), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}", *_figures(result)]
     if differences or not result.met:
         outcomes, *reasons = case_explanation(result, differences)

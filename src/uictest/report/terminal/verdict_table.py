@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.terminal.fitted_columns import Column, columns_not_shown, fitted
-from uictest.report.wording import DIFFERS, criterion_sentences
+from uictest.report.wording import Tone, criterion_sentences, tone
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from uictest.report.content import RunContent
 
-_STYLES = {"met": "green", "MISSED": "bold red", "ERROR": "bold magenta", DIFFERS: "bold red"}
+_STYLES: Final[dict[Tone, str]] = {"good": "green", "bad": "bold red", "odd": "bold magenta"}
 _MEASURES = {
     "distance\nm": ("braking_distance_m", ".1f", 2),
     "time\ns": ("braking_time_s", ".1f", 5),
@@ -46,7 +46,7 @@ def verdict_table(
     for column in columns:
         justify: JustifyMethod = "right" if column.right else "left"
         table.add_column(column.title, justify=justify, no_wrap=not column.wraps, overflow="fold")
-    styles = [_STYLES[word(result)] for result in results]
+    styles = [_STYLES[tone(word(result))] for result in results]
     for style, row in zip(styles, zip(*(column.cells for column in columns), strict=True), strict=True):
         texts = zip(columns, row, strict=True)
         table.add_row(
@@ -84,7 +84,7 @@ def explanation_text(
     from rich.text import Text
 
     word = content.word(result)
-    text = Text(f"{word} ", style=_STYLES[word])
+    text = Text(f"{word} ", style=_STYLES[tone(word)])
     text.append(printable(result.id), style="bold")
     lines = content.explanation(result)
     if every_criterion:

@@ -21,7 +21,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, failing_first
+from uictest.report.wording import counted, failing_first, tone
 
 if TYPE_CHECKING:
     from uictest.report.sweep.content import SweepContent
@@ -63,6 +63,7 @@ def sweep_page_html(content: SweepContent) -> str:
         figures_of=figures_of,
         gauge_of=gauge_of,
         share_words=share_words,
+        tone=tone,
         **PARAMETER_WORDS,
     )
 
