@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.recording import Recording
 from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.result import read_sweep_document
 from uictest.report.traces.trace import Trace
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
@@ -77,7 +79,8 @@ def make_sweep(tmp_path: Path) -> Callable[..., SweepContent]:
     ) -> SweepContent:
         (tmp_path / "sweep").mkdir(exist_ok=True)
         manifest = {"file": f"scenarios/{text}.sweep.yaml", "versions": {"uictest": "0.1.0"}, "set": [text]}
-        return SweepContent(tmp_path / "sweep", _findings(text) | findings, manifest, worst, {}, traces or {})
+        result = replace(read_sweep_document(_document(text) | findings), worst=worst)
+        return SweepContent(tmp_path / "sweep", result, manifest, traces or {})
 
     return make
 
@@ -130,7 +133,7 @@ def verdict(**changes: object) -> Verdict:
     return Verdict(**(content | changes))  # type: ignore[arg-type]
 
 
-def _findings(text: str) -> dict[str, Any]:
+def _document(text: str) -> dict[str, Any]:
     """What sweep.json holds of four cases, one of which missed; `text` stands wherever a user's may."""
     outcomes = {"pass": 3, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
     counts = [("80 %", 2, outcomes | {"pass": 2, "fail": 0}), (text, 1, outcomes | {"pass": 1})]

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
+from pydantic import TypeAdapter
 
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
+from uictest.report import Frontier, MeasureHistogram, OutcomeCount, SweepMap, Trend, WrittenValue
 from uictest.report.page import sweep_page_html
 from uictest.report.page.sweep.frontier_plot import frontier_plot
 from uictest.report.page.sweep.heat import heat_map
-from uictest.report.page.sweep.histogram import histogram
+from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
 from uictest.report.traces.trace import trace_of
@@ -21,6 +23,12 @@ from .test_page import Page
 
 MakeSweep = Callable[..., SweepContent]
 MakeResult = Callable[..., CaseResult]
+Content = TypeVar("Content")
+
+
+def of_json(kind: type[Content], form: dict[str, Any]) -> Content:
+    """Return what stands in `sweep.json` in this form."""
+    return TypeAdapter(kind).validate_python(form)
 
 
 def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
@@ -79,9 +87,10 @@ def test_a_map_of_a_million_cells_is_bundled(make_sweep: MakeSweep) -> None:
     assert "map-met.csv has each" in html
 
 
-def cells(**changes: Any) -> dict[str, Any]:
+def cells(**changes: Any) -> SweepMap:
     axes = {"rows": {"parameter": "a", "values": ["1"]}, "columns": {"parameter": "b", "values": ["x", "y"]}}
-    return {"measure": "met", **axes, "means": [[0.5, None]], "met": [[1, 0]], "cases": [[2, 0]], **changes}
+    counts = {"means": [[0.5, None]], "met": [[1, 0]], "cases": [[2, 0]]}
+    return of_json(SweepMap, {"measure": "met", **axes, **counts, **changes})
 
 
 def test_cells_say_their_share_and_lead_to_a_drawn_case() -> None:
@@ -101,9 +110,8 @@ def test_cells_of_a_figure_are_toned_between_its_ends(mean: float, tone: int) ->
 def test_bars_stack_to_the_cases_of_their_bin() -> None:
     counts = {"pass": [3, 0], "fail": [1, 2]}
     ends = {"minimum": 0.0, "mean": 1.0, "maximum": 2.0}
-    drawn = histogram(
-        {"measure": "slide", "unit": "1", "cases": 6, "edges": [0.0, 1.0, 2.0], "counts": counts, **ends}
-    )
+    form = {"measure": "slide", "unit": "1", "cases": 6, "edges": [0.0, 1.0, 2.0], "counts": counts, **ends}
+    drawn = histogram_plot(of_json(MeasureHistogram, form))
     height = {(bar.outcome, round(bar.x)): bar.height for bar in drawn.bars}
     per_case = (drawn.bottom - drawn.top) / 4
     assert sorted(height.values()) == pytest.approx([per_case, 2 * per_case, 3 * per_case])
@@ -113,8 +121,8 @@ def test_bars_stack_to_the_cases_of_their_bin() -> None:
 def drawn(values: list[str], means: list[float | None], cases: int = 1, met: int = 1) -> TrendPlot | None:
     ends = {"minimum": [mean and mean - 1.0 for mean in means], "maximum": means}
     own = {"parameter": "speed", "measure": "distance", "unit": "m", "cases": [cases] * len(values)}
-    counts = [{"cases": cases, "met": met}] * len(values)
-    return trend_plot({**own, "values": values, "mean": means, **ends}, counts)
+    counts = [OutcomeCount(WrittenValue(value), cases, met, {}) for value in values]
+    return trend_plot(of_json(Trend, {**own, "values": values, "mean": means, **ends}), counts)
 
 
 def test_a_trend_is_drawn_in_the_order_of_its_numbers() -> None:
@@ -143,8 +151,8 @@ def test_a_point_says_how_many_cases_its_mean_is_of() -> None:
     """Two of four stops are not met; the figure is known of three of them."""
     own = {"parameter": "speed", "measure": "distance", "unit": "m", "cases": [3, 1]}
     ends = {"minimum": [1.0, 4.0], "mean": [2.0, 4.0], "maximum": [3.0, 4.0]}
-    counts = [{"cases": 4, "met": 2}, {"cases": 4, "met": 4}]
-    plot = trend_plot({**own, "values": ["60", "80"], **ends}, counts)
+    counts = [OutcomeCount(WrittenValue("60"), 4, 2, {}), OutcomeCount(WrittenValue("80"), 4, 4, {})]
+    plot = trend_plot(of_json(Trend, {**own, "values": ["60", "80"], **ends}), counts)
     assert plot is not None
     assert [point.label for point in plot.points] == ["60: 2 (1 .. 3), 3 cases; 2 not met", "80: 4, 1 case"]
 
@@ -173,7 +181,7 @@ def test_the_frontier_is_drawn_over_the_first_parameter_that_changes() -> None:
         stretch("80 %", "90 km/h", "0.12", "0.14"),
         stretch("80 %", "120 km/h", "0.14", "0.16"),
     ]
-    plot = frontier_plot({"parameter": "rail.friction", "stretches": stretches})
+    plot = frontier_plot(of_json(Frontier, {"parameter": "rail.friction", "stretches": stretches}))
     assert plot is not None
     assert plot.x_title == "speed, km/h"
     (series,) = plot.series
@@ -192,7 +200,7 @@ def test_a_window_has_a_line_at_each_end_and_a_gap_where_nothing_flips() -> None
         {"circumstances": {"speed": f"{speed} km/h"}, "flips": flips, "note": ""}
         for speed, flips in ((60, window), (80, window), (100, []), (120, window), (160, []))
     ]
-    plot = frontier_plot({"parameter": "rail.friction", "stretches": stretches})
+    plot = frontier_plot(of_json(Frontier, {"parameter": "rail.friction", "stretches": stretches}))
     assert plot is not None
     (series,) = plot.series
     # At either end of the window: two neighbours joined, and one beyond the gap alone.
@@ -204,4 +212,5 @@ def test_a_window_has_a_line_at_each_end_and_a_gap_where_nothing_flips() -> None
 
 
 def test_a_frontier_over_no_other_number_is_a_table_only() -> None:
-    assert frontier_plot({"parameter": "rail.friction", "stretches": [stretch("a", "b", "1", "2")]}) is None
+    scans = [stretch("a", "b", "1", "2")]
+    assert frontier_plot(of_json(Frontier, {"parameter": "rail.friction", "stretches": scans})) is None

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+import shutil
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from uictest import recording, report, rig, sweep
+from uictest import campaign, recording, report, rig, sweep
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import message
 from uictest.cli.sweep_display import reason_missed
 from uictest.cli.sweep_progress import sweep_progress
+from uictest.evaluation import CaseResult
 from uictest.report import counted
 from uictest.sweep import (
     CaseSelection,
@@ -24,9 +27,6 @@ from uictest.sweep import (
     FrontierSearch,
     Shard,
 )
-
-if TYPE_CHECKING:
-    from uictest.campaign import CaseRun
 
 
 @dataclass(frozen=True)
@@ -193,8 +193,6 @@ class _Failures:
 
 def _missed(content: bytes) -> list[tuple[str, str, str]]:
     """Return outcome, id and reason of the missed cases in a chunk."""
-    import io
-
     import pyarrow.parquet as pq
 
     names = ["met", "outcome", "id", "reason"]
@@ -203,27 +201,28 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
     return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
 
 
-def publish(run: SweepRun, store: ChunkStore) -> tuple[sweep.SweepFindings, str, report.SweepContent]:
-    """Write the findings of a finished sweep; return them, the result document, and what reports show.
+def publish(run: SweepRun, store: ChunkStore) -> tuple[report.SweepResult, str, report.SweepContent]:
+    """Write the result of a finished sweep; return it, its document, and what reports show.
 
     Raises OSError, and MissingChunksError.
     """
-    findings = sweep.gather(run.selection, store, run.pair, run.measures)
-    if run.search is not None:
-        _add_frontier(run, findings, run.search)
-    _examine_worst(run, findings, store.folder)
-    document = sweep.write_findings(store.folder, findings)
+    summary = sweep.summarize(run.selection, store, run.pair, run.measures)
+    frontier = None if run.search is None else _frontier(run, summary, run.search)
+    worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
+    result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
+    file = run.selection.plan.file
+    document = report.write_sweep_result(store.folder, result, file)
     content = _write_reports(run, store.folder)
     if run.junit is not None:
-        recording.write_text_atomic(run.junit, sweep.junit_xml(findings.tally))
+        recording.write_text_atomic(run.junit, report.sweep_junit_xml(result, file))
     store.remove_partial_files()
-    return findings, document, content
+    return result, document, content
 
 
 def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
     content = report.read_sweep(folder, traces=report.draws_stops(run.formats))
     report.write_sweep_formats(folder, content, run.formats)
-    # The findings are written already: a step summary that cannot be written is no reason to fail.
+    # The results are written already: a step summary that cannot be written is no reason to fail.
     try:
         report.append_sweep_step_summary(content)
     except OSError as error:
@@ -231,58 +230,50 @@ def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
     return content
 
 
-def _examine_worst(run: SweepRun, findings: sweep.SweepFindings, folder: Path) -> None:
+def _run_worst(
+    run: SweepRun, indices: Sequence[int], folder: Path
+) -> tuple[tuple[CaseResult, ...], Mapping[str, report.CaseDescription]]:
     """Run the worst cases again, with explanations and recordings, which go beside the tables.
 
-    Raises OSError, and KeyboardInterrupt where it is interrupted.
+    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt where it is
+    interrupted.
     """
-    import shutil
-
-    from uictest.campaign import (
-        RecordingRequest,
-        parts_of_cases,
-        run_cases,
-        shortest_cycle,
-        subjects_of,
-    )
-
-    cases = sweep.cases_of(run.selection.plan, findings.worst_indices)
+    cases = sweep.cases_of(run.selection.plan, indices)
     shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
 
-    def write_recording(case_run: CaseRun) -> None:
+    def write_recording(case_run: campaign.CaseRun) -> None:
         if case_run.recording is not None:
             report.write_recording(folder, case_run.result.id, case_run.recording)
 
-    request = RecordingRequest("all")
-    request = replace(request, every=min(request.every, shortest_cycle(cases)))
-    parts = parts_of_cases(cases)
-    batch = run_cases(cases, jobs=run.jobs, recording=request, parts=parts, on_result=write_recording)
+    request = campaign.RecordingRequest("all")
+    request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
+    parts = campaign.parts_of_cases(cases)
+    batch = campaign.run_cases(
+        cases, jobs=run.jobs, recording=request, parts=parts, on_result=write_recording
+    )
     if batch.interrupted:
         raise KeyboardInterrupt
-    findings.worst, findings.subjects = batch.results, subjects_of(cases)
+    return tuple(batch.results), campaign.subjects_of(cases)
 
 
-def _add_frontier(run: SweepRun, findings: sweep.SweepFindings, search: FrontierSearch) -> None:
+def _frontier(run: SweepRun, summary: sweep.SweepSummary, search: FrontierSearch) -> report.Frontier:
     if not run.quiet:
         message(f"uictest: searching the frontier along {search.key}")
     simulate = prepared_runner(run).simulate
-    findings.frontier_key = search.key
-    findings.frontier = search.run(
-        findings.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
+    scans = search.run(
+        summary.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
     )
+    return report.Frontier(search.key, tuple(scans))
 
 
-def exit_code(findings: sweep.SweepFindings) -> ExitCode:
+def exit_code(result: report.SweepResult) -> ExitCode:
     """Return the exit code of a complete sweep: an error takes precedence over a missed case."""
-    total = findings.tally.total()
-    if total.outcomes["error"]:
+    if result.outcomes["error"]:
         return ExitCode.ERROR
-    return ExitCode.MET if total.met == total.cases else ExitCode.MISSED
+    return ExitCode.MET if result.met == result.cases else ExitCode.MISSED
 
 
-def sum_up(run: SweepRun, findings: sweep.SweepFindings, started: float) -> None:
+def sum_up(run: SweepRun, result: report.SweepResult, started: float) -> None:
     """Report on stderr the counts of the sweep and the folder of its files."""
-    total = findings.tally.total()
-    shown = report.sweep_tally({"cases": total.cases, "met": total.met, "outcomes": total.outcomes})
     seconds = perf_counter() - started
-    message(f"uictest: {shown} in {seconds:.1f} s; results in {run.folder}")
+    message(f"uictest: {report.sweep_tally(result)} in {seconds:.1f} s; results in {run.folder}")

@@ -36,6 +36,7 @@ from .result import (
     CaseMeasures as CaseMeasures,
     CaseResult as CaseResult,
     CaseWheelsetMeasures as CaseWheelsetMeasures,
+    NamedParts as NamedParts,
 )
 from .verdict import (
     AppliedDefinition as AppliedDefinition,

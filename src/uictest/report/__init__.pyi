@@ -47,16 +47,37 @@ from .run_report import (
 from .sweep.content import SweepContent as SweepContent
 from .sweep.formats import SWEEP_FORMATS as SWEEP_FORMATS, write_sweep_formats as write_sweep_formats
 from .sweep.github import sweep_annotations as sweep_annotations
+from .sweep.junit import sweep_junit_xml as sweep_junit_xml
+from .sweep.map_text import map_lines as map_lines
 from .sweep.markdown import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.reading import SWEEP_RESULTS as SWEEP_RESULTS, read_sweep as read_sweep
-from .sweep.trends import TREND_COLUMNS as TREND_COLUMNS, trend_rows as trend_rows
+from .sweep.result import (
+    MET as MET,
+    Flip as Flip,
+    Frontier as Frontier,
+    FrontierScan as FrontierScan,
+    MapAxis as MapAxis,
+    MeasureHistogram as MeasureHistogram,
+    MissedCase as MissedCase,
+    OutcomeCount as OutcomeCount,
+    SobolIndex as SobolIndex,
+    SobolSensitivity as SobolSensitivity,
+    SweepMap as SweepMap,
+    SweepResult as SweepResult,
+    Trend as Trend,
+)
+from .sweep.values import (
+    DrawnInterval as DrawnInterval,
+    SweptValue as SweptValue,
+    WrittenValue as WrittenValue,
+)
 from .sweep.wording import (
-    STRETCH as STRETCH,
     circumstances_words as circumstances_words,
     flip_words as flip_words,
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
+from .sweep.writing import write_sweep_result as write_sweep_result
 from .terminal.case_lines import (
     case_line as case_line,
     criterion_lines as criterion_lines,

@@ -1,5 +1,3 @@
-from .junit import junit_xml as junit_xml
-from .map_text import map_lines as map_lines
 from .plan.decimal_quantity import parse_decimal_quantity as parse_decimal_quantity
 from .plan.definition import load_sweep as load_sweep
 from .plan.nominal import drawn_ranges as drawn_ranges
@@ -26,17 +24,10 @@ from .running.store import (
     MissingChunksError as MissingChunksError,
 )
 from .running.table import measure_columns as measure_columns
-from .summaries.findings import (
-    SweepFindings as SweepFindings,
-    gather as gather,
-    write_findings as write_findings,
-)
 from .summaries.frontier import (
     FrontierError as FrontierError,
-    FrontierScan as FrontierScan,
     FrontierSearch as FrontierSearch,
+    verdicts_of as verdicts_of,
 )
-from .summaries.sensitivity import Sensitivity as Sensitivity
-from .summaries.tally import OutcomeCount as OutcomeCount, Tally as Tally
-from .summaries.verdicts import verdicts_of as verdicts_of
+from .summaries.summary import SweepSummary as SweepSummary, summarize as summarize
 from .summaries.worst import cases_of as cases_of

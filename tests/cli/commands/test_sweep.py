@@ -211,7 +211,7 @@ def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(room, "write_findings", interrupted)
+        patch.setattr(room, "summarize", interrupted)
         answer = call("sweep", study)
     assert answer.code == 2
     assert "uictest: interrupted\nuictest: finished chunks are kept in reports/study; the same" in answer.err

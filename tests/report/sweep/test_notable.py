@@ -15,7 +15,7 @@ def test_each_case_stands_once_and_those_not_met_in_front(
 ) -> None:
     missed = [{"id": name, "outcome": "error", "reason": "no air"} for name in ("a", "b")]
     worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
-    cases = notable_cases(make_sweep(worst, missed=missed))
+    cases = notable_cases(make_sweep(worst, missed=missed).result)
     assert [case.id for case in cases] == ["a", "b", "narrow"]
     assert [case.word for case in cases] == ["error", "error", "pass"]
     assert [case.why for case in cases] == [
@@ -27,5 +27,5 @@ def test_each_case_stands_once_and_those_not_met_in_front(
 
 
 def test_without_a_reason_the_outcome_is_one(make_sweep: MakeSweep) -> None:
-    (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]))
+    (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]).result)
     assert case.why == "got skipped"

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult, cases_document
+from uictest.evaluation import CaseResult
 from uictest.recording import Recording
 from uictest.report import write_recording
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.reading import read_sweep
+from uictest.report.sweep.result import sweep_document
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]
@@ -19,8 +20,8 @@ MakeSweep = Callable[..., SweepContent]
 @pytest.fixture
 def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
     """The folder of a finished sweep with one case worth looking at."""
-    content = make_sweep()
-    document = {**content.document, "worst": cases_document([make_result()])}
+    content = make_sweep((make_result(),))
+    document = sweep_document(content.result)
     (content.folder / "sweep.json").write_text(json.dumps(document))
     (content.folder / "manifest.json").write_text(json.dumps(content.manifest))
     return content.folder
@@ -28,9 +29,8 @@ def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
 
 def test_a_sweep_is_read_back(folder: Path, make_sweep: MakeSweep, make_result: MakeResult) -> None:
     content = read_sweep(folder)
-    assert {**content.document, "worst": []} == {**make_sweep().document, "worst": []}
+    assert sweep_document(content.result) == sweep_document(make_sweep((make_result(),)).result)
     assert (content.folder, content.manifest) == (folder, make_sweep().manifest)
-    assert cases_document(content.worst) == cases_document([make_result()])
     assert content.traces == {}
 
 

@@ -1,9 +1,11 @@
 from __future__ import annotations
 
 import shlex
+from typing import Any
 
 import pytest
 
+from uictest.report import DrawnInterval, Flip, SweepResult, SweptValue, WrittenValue
 from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
@@ -15,28 +17,36 @@ from uictest.report.sweep.wording import (
 )
 
 
+def _counts(met: int, **outcomes: int) -> SweepResult:
+    """A sweep of 75 cases, as far as counting goes."""
+    empty: Any = {"missed": (), "rates": {}, "maps": (), "distributions": (), "trends": (), "worst": ()}
+    rest: Any = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": ()}
+    return SweepResult(name="", title="", cases=75, met=met, outcomes=outcomes, **empty, **rest)
+
+
 def test_a_sweep_is_counted_by_outcome() -> None:
     outcomes = {"pass": 70, "fail": 1, "invalid": 0, "error": 1, "skipped": 0, "inconclusive": 3}
-    document = {"cases": 75, "met": 70, "outcomes": outcomes}
-    assert sweep_tally(document) == "75 cases: 70 pass, 1 fail, 1 error, 3 inconclusive; 5 not as expected"
+    counts = "75 cases: 70 pass, 1 fail, 1 error, 3 inconclusive; 5 not as expected"
+    assert sweep_tally(_counts(70, **outcomes)) == counts
 
 
 def test_cases_that_no_criterion_applies_to_are_counted_as_skipped() -> None:
-    document = {"cases": 75, "met": 75, "outcomes": {"pass": 3, "error": 0, "skipped": 72}}
-    assert sweep_tally(document) == "75 cases: 3 pass, 72 skipped"
+    assert (
+        sweep_tally(_counts(75, **{"pass": 3, "error": 0, "skipped": 72})) == "75 cases: 3 pass, 72 skipped"
+    )
 
 
 @pytest.mark.parametrize(
-    ("labels", "shown"),
+    ("values", "shown"),
     [
-        (["80 %", "90 %"], "80 %, 90 %"),
-        (["0.1", "0.2", "0.3", "0.4"], "0.1 .. 0.4 (4 values)"),
-        (["0.08 .. 0.12", "0.12 .. 0.16 m/s"], "0.08 .. 0.16 m/s, drawn"),
+        ([WrittenValue("80 %"), WrittenValue("90 %")], "80 %, 90 %"),
+        ([WrittenValue(f"0.{k}") for k in (1, 2, 3, 4)], "0.1 .. 0.4 (4 values)"),
+        ([DrawnInterval(0.08, 0.12, "m/s"), DrawnInterval(0.12, 0.16, "m/s")], "0.08 .. 0.16 m/s, drawn"),
         ([], ""),
     ],
 )
-def test_what_is_swept_is_said_by_its_ends(labels: list[str], shown: str) -> None:
-    assert swept_words(labels) == shown
+def test_what_is_swept_is_said_by_its_ends(values: list[SweptValue], shown: str) -> None:
+    assert swept_words(values) == shown
 
 
 @pytest.mark.parametrize(
@@ -54,13 +64,13 @@ def test_no_case_has_no_share() -> None:
 
 
 def test_a_flip_is_said_in_the_direction_it_has() -> None:
-    flip = {"low": "0.10", "high": "0.11", "met_at_low": True}
-    assert flip_words(flip) == "met up to 0.10, not met from 0.11"
-    assert flip_words(flip | {"met_at_low": False}) == "not met up to 0.10, met from 0.11"
+    low, high = WrittenValue("0.10"), WrittenValue("0.11")
+    assert flip_words(Flip(low, high, met_at_low=True)) == "met up to 0.10, not met from 0.11"
+    assert flip_words(Flip(low, high, met_at_low=False)) == "not met up to 0.10, met from 0.11"
 
 
 def test_circumstances_are_listed() -> None:
-    assert circumstances_words({"a": "1", "b": "2 m"}) == "a = 1, b = 2 m"
+    assert circumstances_words({"a": WrittenValue("1"), "b": WrittenValue("2 m")}) == "a = 1, b = 2 m"
     assert circumstances_words({}) == "all cases"
 
 

@@ -39,8 +39,8 @@ def test_those_not_met_come_first_then_the_narrowest(
     found: list[tuple[bool, float | None, str]], cut: int
 ) -> None:
     worst = WorstCases()
-    worst.take(table(found[:cut]))
-    worst.take(table(found[cut:], min(cut, len(found))))
+    worst.add(table(found[:cut]))
+    worst.add(table(found[cut:], min(cut, len(found))))
     seen = [
         (met, 9.0 if margin is None else margin, place)
         for place, (met, margin, outcome) in enumerate(found)

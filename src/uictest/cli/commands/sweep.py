@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -212,13 +212,13 @@ def _simulated_and_shown(run: SweepRun, store: ChunkStore, shown: Format) -> Exi
     if run.shard.count > 1:
         message(f"uictest: {_shard_words(run)}")
         return ExitCode.MET
-    findings, document, content = publish(run, store)
-    show_findings(findings, document, shown, quiet=run.quiet)
+    result, document, content = publish(run, store)
+    show_result(result, document, shown, quiet=run.quiet)
     if shown is Format.GITHUB:
         show_annotations(content)
     if not run.quiet:
-        sum_up(run, findings, started)
-    return exit_code(findings)
+        sum_up(run, result, started)
+    return exit_code(result)
 
 
 def _report_finished_chunks(store: ChunkStore) -> None:
@@ -264,12 +264,12 @@ def show_ids(selection: CaseSelection) -> bool:
     return True
 
 
-def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -> None:
+def show_result(result: report.SweepResult, document: str, shown: Format, *, quiet: bool) -> None:
     """Write the result document, or maps, rates and the frontier as text, to stdout.
 
     If `quiet`, write only the cases that missed their expectation; annotations list these already.
     """
-    from uictest.cli.sweep_display import finding_lines, missed_lines
+    from uictest.cli.sweep_display import missed_lines, result_lines
 
     if shown is Format.JSON:
         data(document.rstrip("\n"))
@@ -277,7 +277,7 @@ def show_findings(findings: Any, document: str, shown: Format, *, quiet: bool) -
     if quiet and shown is Format.GITHUB:
         return
     width = terminal_width(sys.stdout)
-    for line in missed_lines(findings) if quiet else finding_lines(findings, width):
+    for line in missed_lines(result) if quiet else result_lines(result, width):
         text = printable(line) if line else line
         if shown is Format.GITHUB:
             data(no_command(text))

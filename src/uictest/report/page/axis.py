@@ -62,3 +62,8 @@ def span(groups: Iterable[NDArray[np.float64]], include: Iterable[float]) -> tup
         return low, low + 1.0
     air = 0.04 * (high - low)
     return (low if low == 0.0 else low - air), high + air
+
+
+def axis_title(name: str, unit: str) -> str:
+    """Return the title of an axis: name and unit, where there is one."""
+    return f"{name}, {unit}" if unit else name

@@ -1,4 +1,4 @@
-"""The cases of a sweep on a sheet, read from summary.parquet piece by piece."""
+"""The cases of a sweep on a sheet, read from summary.parquet in batches."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ def left_out(cases: int, written: int) -> str:
 
 
 def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:
-    for wanted in (False, True) if by_verdict else (None,):
+    for shown_verdict in (False, True) if by_verdict else (None,):
         for batch in summary.iter_batches(_AT_ONCE):
             for row in batch.to_pylist():
-                if wanted is None or row["met"] == wanted:
+                if shown_verdict is None or row["met"] == shown_verdict:
                     yield row | {"met": outcome_word(row["outcome"], met=row["met"])}

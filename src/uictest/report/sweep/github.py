@@ -1,16 +1,14 @@
-"""Annotations for GitHub Actions: the worst cases of a sweep that are not met, and what it came to."""
+"""Annotations for GitHub Actions: the worst missed cases of a sweep, and its counts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from uictest.report.github import annotation
+from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.wording import sweep_tally
-
-if TYPE_CHECKING:
-    from uictest.report.sweep.content import SweepContent
 
 MOST_ANNOTATED: Final = 10
 """GitHub shows ten annotations of one kind per step."""
@@ -19,8 +17,8 @@ MOST_ANNOTATED: Final = 10
 def sweep_annotations(content: SweepContent) -> Iterator[str]:
     """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
     file = str(content.manifest.get("file", ""))
-    missed = [case for case in notable_cases(content) if not case.met]
+    missed = [case for case in notable_cases(content.result) if not case.met]
     for case in missed[:MOST_ANNOTATED]:
         yield annotation(file, f"{case.word} {case.id}", case.why)
-    title = f"uictest sweep {content.document['name']}"
-    yield annotation(file, title, sweep_tally(content.document), level="notice")
+    title = f"uictest sweep {content.result.name}"
+    yield annotation(file, title, sweep_tally(content.result), level="notice")

@@ -1,15 +1,24 @@
-"""The findings of a sweep in Markdown, as a job's summary on GitHub shows them."""
+"""The result of a sweep in Markdown, as a job's summary on GitHub shows it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
-from uictest.report.sweep.bundles import bundled, is_large
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folding import folded, is_large, short_label
 from uictest.report.sweep.notable import NotableCase, notable_cases
+from uictest.report.sweep.result import (
+    Frontier,
+    MeasureHistogram,
+    OutcomeCount,
+    SobolIndex,
+    SobolSensitivity,
+    SweepMap,
+    SweepResult,
+)
 from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
@@ -18,9 +27,6 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-
-if TYPE_CHECKING:
-    from uictest.report.sweep.content import SweepContent
 
 _MOST_ROWS = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown here."""
@@ -36,9 +42,9 @@ def sweep_markdown(content: SweepContent, limit: int = LIMIT) -> str:
 
     What would go beyond `limit` bytes is left out, and lines say how much that is.
     """
-    text = f"## uictest sweep: {sweep_tally(content.document)}\n"
+    text = f"## uictest sweep: {sweep_tally(content.result)}\n"
     left_out = 0
-    for heading, table in _findings(content):
+    for heading, table in _findings(content.result):
         title = f"\n### {heading}\n\n"
         shown = table.within(limit - len(f"{text}{title}".encode()) - _RESERVE)
         text += f"{title}{shown}" if shown else ""
@@ -51,39 +57,41 @@ def append_sweep_step_summary(content: SweepContent) -> None:
     append_to_step_summary(partial(sweep_markdown, content))
 
 
-def _findings(content: SweepContent) -> Iterator[Finding]:
-    document = content.document
-    yield prose(document["title"] or document["name"]), _swept(document["rates"])
-    yield from (_map(found) for found in document["maps"] if found["measure"] == "met")
-    if cases := notable_cases(content):
+def _findings(result: SweepResult) -> Iterator[Finding]:
+    yield prose(result.title or result.name), _swept(result.rates)
+    yield from (_map(sweep_map) for sweep_map in result.maps if sweep_map.shows_met)
+    if cases := notable_cases(result):
         yield "Cases most worth looking at", _notable(cases)
-    yield "Cases met by value of each parameter", _rates(document["rates"])
-    if document["frontier"]:
-        yield _frontier(document["frontier"])
-    if document["sensitivities"]:
-        yield "Share of the variance that each parameter explains", _sensitivities(document["sensitivities"])
-    if document["distributions"]:
-        yield "Figures", _figures(document["distributions"])
-    if document["notes"]:
-        yield "Notes", MarkdownTable(("note",), "l", [row([prose(note)]) for note in document["notes"]])
+    yield "Cases met by value of each parameter", _rates(result.rates)
+    if result.frontier is not None:
+        yield _frontier(result.frontier)
+    if result.sensitivities:
+        yield "Share of the variance that each parameter explains", _sensitivities(result.sensitivities)
+    if result.distributions:
+        yield "Figures", _measures(result.distributions)
+    if result.notes:
+        yield "Notes", MarkdownTable(("note",), "l", [row([prose(note)]) for note in result.notes])
 
 
-def _swept(rates: Mapping[str, Any]) -> MarkdownTable:
-    rows = [row([code(key), prose(swept_words([each["value"] for each in rates[key]]))]) for key in rates]
+def _swept(rates: Mapping[str, Sequence[OutcomeCount]]) -> MarkdownTable:
+    rows = [
+        row([code(key), prose(swept_words([count.value for count in counts]))])
+        for key, counts in rates.items()
+    ]
     return MarkdownTable(("parameter", "values"), "ll", rows, "more parameters were swept.")
 
 
-def _map(found: Mapping[str, Any]) -> Finding:
-    down, across = (code(found[axis]["parameter"]) for axis in ("rows", "columns"))
+def _map(sweep_map: SweepMap) -> Finding:
+    down, across = (code(axis.parameter) for axis in (sweep_map.rows, sweep_map.columns))
     heading = "Share of cases met, %"
-    if is_large(found):
+    if is_large(sweep_map):
         heading += "\n\nNeighbouring values are shown together; `map-met.csv` has each of them."
-    shown = bundled(found)
-    labels = shown["columns"]["values"]
-    lines = zip(shown["rows"]["values"], shown["met"], shown["cases"], strict=True)
-    rows = [row([prose(label), *map(_share, met, cases)]) for label, met, cases in lines]
-    columns = (f"{down} ↓ {across} →", *map(prose, labels))
-    return heading, MarkdownTable(columns, "l" + "r" * len(labels), rows, "more rows are in `map-met.csv`.")
+    shown = folded(sweep_map)
+    lines = zip(shown.rows, shown.met, shown.cases, strict=True)
+    rows = [row([prose(short_label(values)), *map(_share, met, cases)]) for values, met, cases in lines]
+    columns = (f"{down} ↓ {across} →", *(prose(short_label(values)) for values in shown.columns))
+    alignment = "l" + "r" * len(shown.columns)
+    return heading, MarkdownTable(columns, alignment, rows, "more rows are in `map-met.csv`.")
 
 
 def _share(met: int, cases: int) -> str:
@@ -111,77 +119,74 @@ def _case(case: NotableCase) -> str:
     )
 
 
-def _rates(rates: Mapping[str, Any]) -> MarkdownTable:
+def _rates(rates: Mapping[str, Sequence[OutcomeCount]]) -> MarkdownTable:
     rows = [line for key, counts in rates.items() for line in _rates_of(key, counts)]
     columns = ("parameter", "value", "cases", "met", "met, %", "")
     return MarkdownTable(columns, "llrrrl", rows, "more lines are in `rates.csv`.")
 
 
-def _rates_of(key: str, counts: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+def _rates_of(key: str, counts: Sequence[OutcomeCount]) -> Iterator[str]:
     if len(counts) > _MOST_ROWS:
         yield row([code(key), f"{len(counts)} values, see `rates.csv`", "", "", "", ""])
         return
-    for place, each in enumerate(counts):
-        met, cases = each["met"], each["cases"]
+    for place, count in enumerate(counts):
+        met, cases = count.met, count.cases
         # Under its name stands what belongs to a parameter, as in a printed table.
         name = "" if place else code(key)
-        yield row(
-            [name, prose(each["value"]), str(cases), str(met), share_words(met, cases), bar(met, cases)]
-        )
+        label = prose(count.value.label)
+        yield row([name, label, str(cases), str(met), share_words(met, cases), bar(met, cases)])
 
 
-def _frontier(found: Mapping[str, Any]) -> Finding:
+def _frontier(frontier: Frontier) -> Finding:
     rows = [
         row(
             [
-                prose(circumstances_words(each["circumstances"])),
-                prose("; ".join(map(flip_words, each["flips"]))),
-                prose(each["note"]),
+                prose(circumstances_words(scan.circumstances)),
+                prose("; ".join(map(flip_words, scan.flips))),
+                prose(scan.note),
             ]
         )
-        for each in found["stretches"]
+        for scan in frontier.scans
     ]
     table = MarkdownTable(
         ("at", "verdict", "note"), "lll", rows, "more lines are in `frontier.csv`.", _MOST_ROWS
     )
-    return f"Frontier along {code(found['parameter'])}", table
+    return f"Frontier along {code(frontier.parameter)}", table
 
 
-def _sensitivities(found: Sequence[Mapping[str, Any]]) -> MarkdownTable:
+def _sensitivities(sensitivities: Sequence[SobolSensitivity]) -> MarkdownTable:
     columns = ("figure", "parameter", "at", "alone", "95 %", "with the others", "95 %")
     rows = [
         row(
             [
-                code(each["measure"]),
-                code(each["key"]),
-                prose(circumstances_words(each["circumstances"])),
-                *_index(each["first"]),
-                *_index(each["total"]),
+                code(each.measure),
+                code(each.key),
+                prose(circumstances_words(each.circumstances)),
+                *_index(each.first),
+                *_index(each.total),
             ]
         )
-        for each in found
+        for each in sensitivities
     ]
     return MarkdownTable(columns, "lllrlrl", rows, "more lines are in `sensitivity.csv`.")
 
 
-def _index(index: Mapping[str, float | None]) -> tuple[str, str]:
-    value, low, high = (figure(index[name], ".3f") for name in ("value", "low", "high"))
+def _index(index: SobolIndex) -> tuple[str, str]:
+    value, low, high = (figure(number, ".3f") for number in (index.value, index.low, index.high))
     return value, f"{low} .. {high}"
 
 
-def _figures(found: Sequence[Mapping[str, Any]]) -> MarkdownTable:
-    ends = ("minimum", "mean", "maximum")
+def _measures(histograms: Sequence[MeasureHistogram]) -> MarkdownTable:
     rows = [
         row(
             [
-                code(each["measure"]),
-                prose(each["unit"]),
-                str(each["cases"]),
-                *(figure(each[end], ".4g") for end in ends),
+                code(each.measure),
+                prose(each.unit),
+                str(each.cases),
+                *(figure(number, ".4g") for number in (each.minimum, each.mean, each.maximum)),
             ]
         )
-        for each in found
+        for each in histograms
     ]
-    return MarkdownTable(
-        ("figure", "unit", "cases", *ends), "llrrrr", rows, "more figures are in `sweep.json`."
-    )
+    columns = ("figure", "unit", "cases", "minimum", "mean", "maximum")
+    return MarkdownTable(columns, "llrrrr", rows, "more figures are in `sweep.json`.")

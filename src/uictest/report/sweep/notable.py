@@ -1,22 +1,18 @@
-"""The cases of a sweep that are worth a line of their own: the worst ones, and others that were not met."""
+"""The cases of a sweep that reports list: the worst ones, and others that were not met."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.escaping import printable
+from uictest.report.sweep.result import MissedCase, SweepResult
 from uictest.report.wording import explanation, outcome_word, result_word
-
-if TYPE_CHECKING:
-    from uictest.report.sweep.content import SweepContent
 
 
 @dataclass(frozen=True, slots=True)
 class NotableCase:
-    """A case as a line of a report has it; `why` is empty where it was met."""
+    """A case as one line of a report; `why` is empty where it was met."""
 
     id: str
     met: bool
@@ -30,15 +26,15 @@ class NotableCase:
     criterion: str = ""
 
 
-def notable_cases(content: SweepContent) -> list[NotableCase]:
-    """Return the worst cases and the first that were not met, each once, those not met in front."""
-    worst = [_looked_at(result) for result in content.worst]
+def notable_cases(result: SweepResult) -> list[NotableCase]:
+    """Return the worst cases and the first missed ones, each once, missed cases first."""
+    worst = [_from_result(case) for case in result.worst]
     known = {case.id for case in worst}
-    others = [_counted(each) for each in content.document["missed"] if each["id"] not in known]
+    others = [_from_missed(case) for case in result.missed if case.id not in known]
     return sorted([*worst, *others], key=lambda case: case.met)
 
 
-def _looked_at(result: evaluation.CaseResult) -> NotableCase:
+def _from_result(result: evaluation.CaseResult) -> NotableCase:
     why = "" if result.met else "; ".join(explanation(result))
     distance = (result.measures or {}).get("braking_distance_m")
     margin, criterion = evaluation.narrowest_margin(result)
@@ -47,8 +43,7 @@ def _looked_at(result: evaluation.CaseResult) -> NotableCase:
     return NotableCase(result.id, result.met, word, result.outcome, why, distance, share, criterion)
 
 
-def _counted(missed: Mapping[str, str]) -> NotableCase:
-    """Return a case of which only the outcome and the reason were kept."""
-    outcome = missed["outcome"]
-    why = printable(": ".join(text for text in (f"got {outcome}", missed["reason"]) if text))
-    return NotableCase(missed["id"], False, outcome_word(outcome, met=False), outcome, why)
+def _from_missed(case: MissedCase) -> NotableCase:
+    """Return a case of which only outcome and reason are known."""
+    why = printable(": ".join(text for text in (f"got {case.outcome}", case.reason) if text))
+    return NotableCase(case.id, False, outcome_word(case.outcome, met=False), case.outcome, why)

@@ -1,4 +1,4 @@
-"""A finished sweep read back from its folder."""
+"""Read a finished sweep from its folder."""
 
 from __future__ import annotations
 
@@ -6,22 +6,16 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
-from uictest import evaluation
-from uictest.report.case_description import read_subjects
 from uictest.report.run_contents import read_traces
 from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.result import read_sweep_document
 
 SWEEP_RESULTS: Final = "sweep.json"
 _MANIFEST: Final = "manifest.json"
-_SCHEMA: Final = "uictest/sweep-result/1"
-_FINDINGS: Final = (
-    *("name", "title", "cases", "met", "outcomes", "missed", "rates", "maps", "distributions"),
-    *("trends", "worst", "subjects", "frontier", "sensitivities", "notes"),
-)
 
 
 def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
-    """Return what a sweep's folder holds; with `traces`, what there is to draw of its worst cases, too.
+    """Return the sweep in a folder; with `traces`, what there is to draw of its worst cases, too.
 
     Raises:
         OSError: sweep.json, manifest.json or a recording cannot be read.
@@ -29,30 +23,23 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
 
     """
     path = folder / SWEEP_RESULTS
-    document = _findings(path)
     try:
-        parts = evaluation.parts_of(document)
-        worst = evaluation.cases_of(document["worst"], parts, "worst")
-        base = {role: parts[part_id] for role, part_id in document.get("base", {}).items()}
-        subjects = read_subjects(document)
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
-        raise ValueError(f"{path}: not the result of a sweep: {error}") from error
-    drawn = read_traces(folder, worst) if traces else {}
-    return SweepContent(folder, document, _mapping(folder / _MANIFEST), worst, subjects, drawn, base)
-
-
-def _findings(path: Path) -> dict[str, Any]:
-    document = _mapping(path)
-    if document.get("schema") != _SCHEMA or any(name not in document for name in _FINDINGS):
-        raise ValueError(f"{path}: not the result of a sweep")
-    return document
-
-
-def _mapping(path: Path) -> dict[str, Any]:
-    try:
-        content = json.loads(path.read_bytes())
+        result = read_sweep_document(_read_mapping(path))
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+        raise ValueError(f"{path}: not the result of a sweep: {error}") from error
+    drawn = read_traces(folder, result.worst) if traces else {}
+    return SweepContent(folder, result, _read_manifest(folder / _MANIFEST), drawn)
+
+
+def _read_manifest(path: Path) -> dict[str, Any]:
+    try:
+        return _read_mapping(path)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the manifest of a sweep: {error}") from error
+
+
+def _read_mapping(path: Path) -> dict[str, Any]:
+    content = json.loads(path.read_bytes())
     if not isinstance(content, dict):
-        raise ValueError(f"{path}: not the result of a sweep")
+        raise ValueError("expected an object")
     return content

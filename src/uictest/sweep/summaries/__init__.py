@@ -1,1 +1,1 @@
-"""What the rows of a sweep amount to: counts, maps, trends, sensitivities, frontiers."""
+"""Summarise the rows of a sweep: counts, maps, trends, histograms, sensitivities, frontiers."""

@@ -1,4 +1,4 @@
-"""Where the verdict flips along one parameter, for every combination of the others."""
+"""Search where the verdict flips along one parameter, for every combination of the others."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.campaign import map_on_threads
+from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.scenario import Setting, value_label
 from uictest.scenario.yaml import Document, Entry, Place, Quantity, Scalar, parse_quantity
 from uictest.sweep.plan.decimal_quantity import (
@@ -22,6 +24,9 @@ from uictest.sweep.plan.decimal_quantity import (
     rounded_decimal,
 )
 from uictest.sweep.plan.plan import ListedGroup, ParameterValue, Plan
+from uictest.sweep.running.case_blocks import BlockAssembler
+from uictest.sweep.running.chunk import ChunkRunner
+from uictest.sweep.running.device import Simulate
 from uictest.units import KINDS
 
 UNKNOWN: Final = -1
@@ -30,34 +35,17 @@ Verdicts = NDArray[np.int8]
 """1 met, 0 not met, -1 unknown."""
 Judge = Callable[[Plan, NDArray[np.int64]], Verdicts]
 _FINEST: Final = 64
-"""Parts that the smallest step of the scan is divided into where no tolerance is stated."""
+"""Fraction of the smallest step of the scan that is the tolerance where none is stated."""
+_CASES_AT_ONCE: Final = 256
 
 
 class FrontierError(ValueError):
-    """The parameter has no frontier that could be looked for; the message says why."""
-
-
-@dataclass(frozen=True)
-class Flip:
-    """Two neighbouring values with different verdicts; the verdict flips between them."""
-
-    low: str
-    high: str
-    met_at_low: bool
-
-
-@dataclass(frozen=True)
-class FrontierScan:
-    """What was found along the parameter for one combination of the others."""
-
-    circumstances: dict[str, str]
-    flips: tuple[Flip, ...]
-    note: str
+    """No frontier can be searched along the parameter; the message says why."""
 
 
 @dataclass
 class _Bracket:
-    """An interval that a flip lies in, halved until it is small enough."""
+    """An interval that contains a flip, halved until it is as narrow as the tolerance."""
 
     combination: int
     low: Decimal
@@ -72,8 +60,8 @@ class FrontierSearch:
         """Raises FrontierError."""
         self.plan, self.key = plan, key
         self._place, self._group = _scanned(plan, key)
-        self._amounts = [parse_decimal_quantity(row[0].text) for row in self._group.rows]
-        unit = common_unit(self._amounts)
+        self._scanned_values = [parse_decimal_quantity(row[0].text) for row in self._group.rows]
+        unit = common_unit(self._scanned_values)
         if unit is None:
             raise FrontierError(f"the values of {key} have different units")
         if tolerance is not None and (tolerance.unit != unit or tolerance.number <= 0):
@@ -81,22 +69,22 @@ class FrontierSearch:
                 f"the tolerance must be above zero and in {unit or 'no unit'}, as {key} is written"
             )
         self.unit = unit
-        self._order = sorted(range(len(self._amounts)), key=lambda k: self._amounts[k].number)
-        numbers = [self._amounts[k].number for k in self._order]
+        self._order = sorted(range(len(self._scanned_values)), key=lambda k: self._scanned_values[k].number)
+        numbers = [self._scanned_values[k].number for k in self._order]
         smallest = min(b - a for a, b in pairwise(numbers))
         self.tolerance = tolerance.number if tolerance else smallest / _FINEST
 
     def run(self, verdicts: Verdicts, judge: Judge) -> list[FrontierScan]:
-        """Return what is found for every combination of the other parameters.
+        """Return the flips for every combination of the other parameters.
 
         Args:
             verdicts: of every case of the plan.
             judge: gives the verdicts of further cases: those of a plan with the given indices.
         """
         scanned = self._scanned_verdicts(verdicts)
-        brackets = [found for number, row in enumerate(scanned) for found in self._brackets(number, row)]
+        brackets = [bracket for number, row in enumerate(scanned) for bracket in self._brackets(number, row)]
         self._narrow(brackets, judge)
-        return [self._stretch(number, row, brackets) for number, row in enumerate(scanned)]
+        return [self._scan(number, row, brackets) for number, row in enumerate(scanned)]
 
     def _scanned_verdicts(self, verdicts: Verdicts) -> Verdicts:
         """Return the verdicts by combination of the others and rising value of the parameter."""
@@ -104,7 +92,7 @@ class FrontierSearch:
         return cube.reshape(-1, self._group.size)[:, self._order]
 
     def _brackets(self, combination: int, row: Verdicts) -> list[_Bracket]:
-        numbers = [self._amounts[k].number for k in self._order]
+        numbers = [self._scanned_values[k].number for k in self._order]
         return [
             _Bracket(combination, numbers[k], numbers[k + 1], bool(row[k]))
             for k in range(row.size - 1)
@@ -125,7 +113,7 @@ class FrontierSearch:
     def _cases(
         self, combinations: Sequence[int], numbers: Sequence[Decimal]
     ) -> tuple[Plan, NDArray[np.int64]]:
-        """Return a plan with the given values of the parameter, and the indices of the cases meant."""
+        """Return a plan with these values of the parameter, and the indices of its cases with them."""
         distinct = sorted(set(numbers))
         group = ListedGroup((self.key,), tuple((self._value(number),) for number in distinct))
         groups = list(self.plan.groups)
@@ -138,22 +126,26 @@ class FrontierSearch:
 
     def _value(self, number: Decimal) -> ParameterValue:
         text = quantity_text(number, self.unit)
-        like = self._group.rows[0][0].content
+        example = self._group.rows[0][0].content
         place = Place(Document("--frontier", Path(), text))
         setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
-        return ParameterValue(text, parse_quantity(text, _kind_of(like, self.unit)), value_label(setting))
+        return ParameterValue(text, parse_quantity(text, _kind_of(example, self.unit)), value_label(setting))
 
-    def _stretch(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
+    def _scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
         flips = tuple(
-            Flip(quantity_text(each.low, self.unit), quantity_text(each.high, self.unit), each.met_at_low)
-            for each in brackets
-            if each.combination == number
+            Flip(self._written(bracket.low), self._written(bracket.high), bracket.met_at_low)
+            for bracket in brackets
+            if bracket.combination == number
         )
         return FrontierScan(self._circumstances(number), flips, _note(row, len(flips)))
 
-    def _circumstances(self, combination: int) -> dict[str, str]:
-        plan, indices = self._cases([combination], [self._amounts[0].number])
-        return {key: values[0].text for key, values in plan.settings(indices).items() if key != self.key}
+    def _written(self, number: Decimal) -> WrittenValue:
+        return WrittenValue(quantity_text(number, self.unit))
+
+    def _circumstances(self, combination: int) -> dict[str, WrittenValue]:
+        plan, indices = self._cases([combination], [self._scanned_values[0].number])
+        settings = plan.settings(indices).items()
+        return {key: WrittenValue(values[0].text) for key, values in settings if key != self.key}
 
 
 def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
@@ -163,14 +155,14 @@ def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
         if isinstance(group, ListedGroup) and group.size > 1:
             if all(isinstance(row[0].content, Quantity) for row in group.rows):
                 return place, group
-            raise FrontierError(f"{key} is no quantity")
+            raise FrontierError(f"{key} is not a quantity")
     listed = ", ".join(each for each, values in plan.listed().items() if len(values) > 1) or "none"
     raise FrontierError(f"{key} needs two values or more under grid or ranges; there are: {listed}")
 
 
-def _kind_of(like: Quantity, unit: str) -> str:
-    """Return a kind of quantity in which the unit means what it means for a value at hand."""
-    kinds = (kind for kind in KINDS.values() if kind.canonical == like.unit)
+def _kind_of(example: Quantity, unit: str) -> str:
+    """Return a kind of quantity in which the unit has the meaning that it has for the example."""
+    kinds = (kind for kind in KINDS.values() if kind.canonical == example.unit)
     return next(kind.name for kind in kinds if (unit in kind.units if unit else kind.bare))
 
 
@@ -180,3 +172,15 @@ def _note(row: Verdicts, flips: int) -> str:
     if flips == 0:
         return f"met at all {row.size} values" if row[0] else f"met at none of the {row.size} values"
     return "" if flips == 1 else f"flips {flips} times"
+
+
+def verdicts_of(plan: Plan, indices: NDArray[np.int64], simulate: Simulate, jobs: int) -> Verdicts:
+    """Return 1 for each case with the given indices that meets its expectation, else 0."""
+    runner = ChunkRunner(BlockAssembler(plan), simulate, plan)
+
+    def met(block: NDArray[np.int64]) -> list[bool]:
+        return [result.met for result in runner.results(runner.assembler.block(block))]
+
+    blocks = np.array_split(indices, max(jobs, -(-indices.size // _CASES_AT_ONCE)))
+    verdicts = map_on_threads(met, [block for block in blocks if block.size], jobs=jobs)
+    return np.array([each for block in verdicts for each in block], np.int8)

@@ -1,15 +1,16 @@
-"""How the figures of a sweep are distributed: histograms by outcome, in two passes over the parts."""
+"""Distributions of the measures of a sweep: histograms by outcome, in two passes over the chunks."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.measures import column_unit
+from uictest.report import MeasureHistogram
 from uictest.sweep.running.table import wheelset_columns
 from uictest.sweep.summaries.tally import OUTCOMES
 
@@ -18,12 +19,12 @@ if TYPE_CHECKING:
 
 _BINS: Final = 30
 _MOST_WHOLE: Final = 40
-"""Values up to which a count of something gets a bin for each whole number."""
+"""Most values of a whole-number measure for which each value has its own bin."""
 
 
 @dataclass(frozen=True)
 class ReportedMeasure:
-    """A figure to look at: the largest of some columns of the rows, times a scale."""
+    """A measure that reports show: the largest of some columns of the rows, times a scale."""
 
     name: str
     unit: str
@@ -31,7 +32,7 @@ class ReportedMeasure:
     scale: float = 1.0
 
     def of(self, table: pa.Table) -> NDArray[np.float64]:
-        """Return the figure of each row; NaN where it was not reached."""
+        """Return the measure of each row, NaN where it has no value."""
         columns = [
             np.array(table.column(name).to_numpy(zero_copy_only=False), float) for name in self.columns
         ]
@@ -49,8 +50,8 @@ USUAL: Final = (
 
 
 def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
-    """Return the usual figures and those columns of the rows that were asked for besides."""
-    usual = {name for figure in USUAL for name in figure.columns}
+    """Return the usual measures and the other columns of the rows that are asked for."""
+    usual = {name for measure in USUAL for name in measure.columns}
     return [
         *USUAL,
         *(ReportedMeasure(name, column_unit(name), (name,)) for name in measures if name not in usual),
@@ -58,10 +59,10 @@ def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
 
 
 @dataclass
-class MeasureHistogram:
-    """Cases of a figure by bin and outcome; every part is first spanned, then counted."""
+class HistogramCounts:
+    """Cases by bin of a measure and outcome: add the range of every chunk, then open the bins, then count."""
 
-    figure: ReportedMeasure
+    measure: ReportedMeasure
     minimum: float = np.inf
     maximum: float = -np.inf
     cases: int = 0
@@ -70,9 +71,9 @@ class MeasureHistogram:
     _edges: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     _counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 0), np.int64))
 
-    def span(self, table: pa.Table) -> None:
-        """Find out how far the figure reaches."""
-        values = self.figure.of(table)
+    def add_range(self, table: pa.Table) -> None:
+        """Widen the range to the rows of a chunk."""
+        values = self.measure.of(table)
         values = values[np.isfinite(values)]
         if values.size:
             self.minimum = min(self.minimum, float(values.min()))
@@ -81,8 +82,8 @@ class MeasureHistogram:
             self._sum += float(values.sum())
             self._whole &= bool(np.all(values == np.round(values)))
 
-    def begin(self) -> None:
-        """Cut the span into bins. There must be a case."""
+    def open_bins(self) -> None:
+        """Divide the range into bins. There must be a case."""
         span = self.maximum - self.minimum
         if self._whole and span <= _MOST_WHOLE:
             self._edges = np.arange(self.minimum, self.maximum + 2.0) - 0.5
@@ -91,25 +92,25 @@ class MeasureHistogram:
             self._edges = np.linspace(self.minimum - margin, self.maximum + margin, _BINS + 1)
         self._counts = np.zeros((len(OUTCOMES), self._edges.size - 1), np.int64)
 
-    def take(self, table: pa.Table) -> None:
-        """Count the rows of a part."""
-        values = self.figure.of(table)
+    def add(self, table: pa.Table) -> None:
+        """Count the rows of a chunk."""
+        values = self.measure.of(table)
         outcomes = np.array(table.column("outcome").to_pylist())
         for place, outcome in enumerate(OUTCOMES):
-            found = values[(outcomes == outcome) & np.isfinite(values)]
-            self._counts[place] += np.histogram(found, self._edges)[0]
+            of_outcome = values[(outcomes == outcome) & np.isfinite(values)]
+            self._counts[place] += np.histogram(of_outcome, self._edges)[0]
 
-    def form(self) -> dict[str, Any]:
-        """Return the JSON form."""
+    def histogram(self) -> MeasureHistogram:
+        """Return the histogram of the rows that were added."""
         counts = zip(OUTCOMES, self._counts.tolist(), strict=True)
-        return {
-            "measure": self.figure.name,
-            "unit": self.figure.unit,
-            "columns": list(self.figure.columns),
-            "cases": self.cases,
-            "minimum": self.minimum,
-            "mean": self._sum / self.cases,
-            "maximum": self.maximum,
-            "edges": self._edges.tolist(),
-            "counts": {outcome: row for outcome, row in counts if any(row)},
-        }
+        return MeasureHistogram(
+            measure=self.measure.name,
+            unit=self.measure.unit,
+            columns=self.measure.columns,
+            cases=self.cases,
+            minimum=self.minimum,
+            mean=self._sum / self.cases,
+            maximum=self.maximum,
+            edges=self._edges.tolist(),
+            counts={outcome: row for outcome, row in counts if any(row)},
+        )

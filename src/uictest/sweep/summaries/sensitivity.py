@@ -1,95 +1,73 @@
-"""Which parameter moves a figure how much: first-order and total Sobol indices of a Saltelli sample."""
+"""First-order and total Sobol indices of a Saltelli sample: how much each parameter affects a measure."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
 from uictest.sweep.plan.plan import Plan, saltelli_sample
 
 Numbers = NDArray[np.float64]
 _RESAMPLES: Final = 200
 _CONFIDENCE: Final = 0.95
 _WIDE: Final = 0.2
-"""Width of an interval from which an index says little: chosen."""
+"""Width of a confidence interval above which an index says little: chosen."""
 
 
-@dataclass(frozen=True)
-class Index:
-    """A Sobol index with the interval that holds it with 95 % confidence (bootstrap over the base points)."""
-
-    value: float
-    low: float
-    high: float
-
-    @property
-    def uncertainty(self) -> float:
-        """How wide the interval is."""
-        return self.high - self.low
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """How much one parameter moves one figure, alone and together with all others.
-
-    `circumstances` holds the values of the parameters that were listed, not drawn.
-    """
-
-    measure: str
-    circumstances: dict[str, str]
-    key: str
-    first: Index
-    total: Index
-
-
-def doubts(found: Sequence[Sensitivity]) -> str:
-    """Return that the sample is too small for the indices of a figure; nothing where it is not."""
-    widest = max((index.uncertainty for each in found for index in (each.first, each.total)), default=0.0)
+def uncertainty_note(sensitivities: Sequence[SobolSensitivity]) -> str:
+    """Return a note if the sample is too small for the indices of a measure, else an empty text."""
+    widest = max(
+        (index.uncertainty for each in sensitivities for index in (each.first, each.total)), default=0.0
+    )
     if widest <= _WIDE:
         return ""
     return (
-        f"sensitivity of {found[0].measure}: intervals are up to {widest:.2f} wide; a sample of "
+        f"sensitivity of {sensitivities[0].measure}: intervals are up to {widest:.2f} wide; a sample of "
         "four times the size halves them"
     )
 
 
-def sensitivities(plan: Plan, measure: str, values: NDArray[np.float64]) -> tuple[list[Sensitivity], str]:
-    """Return the indices of a figure, and why they are missing where they are.
+def sobol_sensitivities(
+    plan: Plan, measure: str, values: NDArray[np.float64]
+) -> tuple[list[SobolSensitivity], str]:
+    """Return the indices of a measure, and the reason where there are none.
 
     Args:
         plan: of a Saltelli sample.
-        measure: name of the figure.
-        values: the figure for every case of the plan.
+        measure: name of the measure.
+        values: the measure for every case of the plan.
     """
     sample = saltelli_sample(plan)
     assert sample is not None
     missing = np.count_nonzero(~np.isfinite(values))
     if missing:
         return [], f"{missing} of {values.size} cases have no {measure}"
-    found: list[Sensitivity] = []
-    for number, stretch in enumerate(values.reshape(-1, sample.size)):
-        if np.ptp(stretch) == 0.0:
+    sensitivities: list[SobolSensitivity] = []
+    for number, in_sample in enumerate(values.reshape(-1, sample.size)):
+        if np.ptp(in_sample) == 0.0:
             return [], f"{measure} is the same in all cases"
-        first = np.array([number * sample.size])
+        first_case = plan.settings(np.array([number * sample.size]))
         listed = {
-            key: column[0].text for key, column in plan.settings(first).items() if key not in sample.keys
+            key: WrittenValue(column[0].text) for key, column in first_case.items() if key not in sample.keys
         }
-        firsts, totals = _indices(stretch.reshape(sample.points, -1), sample.seed)
-        each = zip(sample.keys, firsts, totals, strict=True)
-        found.extend(Sensitivity(measure, listed, key, one, all_) for key, one, all_ in each)
-    return found, ""
+        firsts, totals = _indices(in_sample.reshape(sample.points, -1), sample.seed)
+        sensitivities.extend(
+            SobolSensitivity(measure, listed, key, first, total)
+            for key, first, total in zip(sample.keys, firsts, totals, strict=True)
+        )
+    return sensitivities, ""
 
 
-def _indices(rows: Numbers, seed: int) -> tuple[list[Index], list[Index]]:
+def _indices(rows: Numbers, seed: int) -> tuple[list[SobolIndex], list[SobolIndex]]:
     """Return first-order and total indices; `rows` holds base points: A, B, A with one column of B."""
     low, high = confidence_interval(_estimate, rows, seed)
     first, total = zip(_estimate(rows).tolist(), low.tolist(), high.tolist(), strict=True)
-    return [Index(*each) for each in zip(*first, strict=True)], [
-        Index(*each) for each in zip(*total, strict=True)
+    return [SobolIndex(*each) for each in zip(*first, strict=True)], [
+        SobolIndex(*each) for each in zip(*total, strict=True)
     ]
 
 
@@ -99,9 +77,9 @@ def confidence_interval(
     """Return the ends of the 95 % confidence interval of an estimate from rows: percentile bootstrap."""
     generator = np.random.default_rng(seed)
     points = rows.shape[0]
-    again = np.array([estimate(rows[generator.integers(0, points, points)]) for _ in range(_RESAMPLES)])
+    resampled = np.array([estimate(rows[generator.integers(0, points, points)]) for _ in range(_RESAMPLES)])
     outside = 0.5 * (1.0 - _CONFIDENCE)
-    low, high = np.nanquantile(again, [outside, 1.0 - outside], axis=0)
+    low, high = np.nanquantile(resampled, [outside, 1.0 - outside], axis=0)
     return low, high
 
 

@@ -1,4 +1,4 @@
-"""How figures change along a parameter: smallest, mean and largest at each of its values."""
+"""Measures along a parameter: smallest, mean and largest at each of its values."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
+from uictest.report import Trend
 from uictest.sweep.plan.plan import Plan
 from uictest.sweep.summaries.bins import ParameterBins
 from uictest.sweep.summaries.histograms import ReportedMeasure
@@ -15,46 +17,52 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 MOST_VALUES: Final = 200
-"""Values up to which a parameter has trends: with more, the rows themselves tell better."""
+"""Values up to which a parameter has trends: with more, the rows themselves show it better."""
 
 
-class Trends:
-    """Figures over the classes of one parameter, taken part by part."""
+class TrendSums:
+    """Measures over the bins of one parameter, added chunk by chunk."""
 
-    def __init__(self, plan: Plan, classes: ParameterBins, figures: Sequence[ReportedMeasure]) -> None:
-        self.classes, self.figures = classes, figures
+    def __init__(self, plan: Plan, bins: ParameterBins, measures: Sequence[ReportedMeasure]) -> None:
+        self.bins, self.measures = bins, measures
         self._plan = plan
-        shape = (len(figures), len(classes.labels))
+        shape = (len(measures), len(bins.values))
         self._cases, self._sum = np.zeros(shape, np.int64), np.zeros(shape)
-        self._least, self._most = np.full(shape, np.inf), np.full(shape, -np.inf)
+        self._minimum, self._maximum = np.full(shape, np.inf), np.full(shape, -np.inf)
 
-    def take(self, table: pa.Table) -> None:
-        """Add the rows of a part; a case without a figure has no part in its trend."""
-        codes = self.classes.of(self._plan, table.column("index").to_numpy(), table)
-        for place, figure in enumerate(self.figures):
-            values = figure.of(table)
+    def add(self, table: pa.Table) -> None:
+        """Add the rows of a chunk; a case without a measure does not count in its trend."""
+        bins = self.bins.of(self._plan, table.column("index").to_numpy(), table)
+        for place, measure in enumerate(self.measures):
+            values = measure.of(table)
             known = np.isfinite(values)
-            at, values = codes[known], values[known]
+            at, values = bins[known], values[known]
             np.add.at(self._cases[place], at, 1)
             np.add.at(self._sum[place], at, values)
-            np.minimum.at(self._least[place], at, values)
-            np.maximum.at(self._most[place], at, values)
+            np.minimum.at(self._minimum[place], at, values)
+            np.maximum.at(self._maximum[place], at, values)
 
-    def forms(self) -> Iterator[dict[str, Any]]:
-        """Yield the JSON form of each figure that any case has; null where a class has none."""
-        for place, figure in enumerate(self.figures):
+    def trends(self) -> Iterator[Trend]:
+        """Yield the trend of each measure that any case has."""
+        for place, measure in enumerate(self.measures):
             cases = self._cases[place]
             if cases.any():
-                known = cases > 0
-                mean = np.divide(self._sum[place], cases, out=np.full(cases.shape, np.nan), where=known)
-                yield {
-                    "parameter": self.classes.key,
-                    "values": list(self.classes.labels),
-                    "measure": figure.name,
-                    "unit": figure.unit,
-                    "columns": list(figure.columns),
-                    "cases": cases.tolist(),
-                    "minimum": np.where(known, self._least[place], np.nan).tolist(),
-                    "mean": mean.tolist(),
-                    "maximum": np.where(known, self._most[place], np.nan).tolist(),
-                }
+                yield Trend(
+                    parameter=self.bins.key,
+                    values=self.bins.values,
+                    measure=measure.name,
+                    unit=measure.unit,
+                    columns=measure.columns,
+                    cases=cases.tolist(),
+                    minimum=numbers_or_none(self._minimum[place]),
+                    mean=numbers_or_none(self._sum[place] / np.where(cases > 0, cases, np.nan)),
+                    maximum=numbers_or_none(self._maximum[place]),
+                )
+
+
+def numbers_or_none(values: NDArray[np.float64]) -> list[Any]:
+    """Return an array as nested lists of floats, None for what is not finite."""
+    objects: NDArray[Any] = values.astype(object)
+    objects[~np.isfinite(values)] = None
+    numbers: list[Any] = objects.tolist()
+    return numbers

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from uictest.report.page.axis import Axis, Tick, span
-from uictest.report.page.sweep.labels import number_in, unit_in, with_unit
+from uictest.report.page.axis import Axis, Tick, axis_title, span
+from uictest.report.sweep.result import Circumstances, Flip, Frontier, FrontierScan
+from uictest.report.sweep.values import WrittenValue
 from uictest.report.sweep.wording import circumstances_words, flip_words
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
@@ -58,23 +58,21 @@ class FrontierPlot:
     bottom: int = _BOTTOM
 
 
-def frontier_rows(found: Mapping[str, Any]) -> list[tuple[str, str, str]]:
-    """Return the lines of a table: at which values, where the verdict flips, and what to note."""
+def frontier_lines(frontier: Frontier) -> list[tuple[str, str, str]]:
+    """Return the lines of a table: the values of the other parameters, the flips, and a note."""
     return [
-        (circumstances_words(each["circumstances"]), "; ".join(map(flip_words, each["flips"])), each["note"])
-        for each in found["stretches"]
+        (circumstances_words(scan.circumstances), "; ".join(map(flip_words, scan.flips)), scan.note)
+        for scan in frontier.scans
     ]
 
 
-def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
+def frontier_plot(frontier: Frontier) -> FrontierPlot | None:
     """Return the frontier drawn, or None where it depends on no other number."""
-    key = _numeric_key(found["stretches"])
-    if key is None:
+    key = _numeric_key(frontier.scans)
+    flips = [] if key is None else list(_flips(frontier.scans, key))
+    if key is None or not flips:
         return None
-    flips = list(_flips(found["stretches"], key))
-    if not flips:
-        return None
-    scanned = sorted({_place(each, key) for each in found["stretches"]})
+    scanned = sorted({_number_at(scan, key) for scan in frontier.scans})
     x = Axis(*span([np.array(scanned)], ()), *_SIDES[0])
     y = Axis(*span([np.array([flip.middle for flip in flips])], ()), *_SIDES[1])
     names = list(dict.fromkeys(flip.series for flip in flips))
@@ -83,8 +81,8 @@ def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
         for name in names[:_MOST_SERIES]
     ]
     return FrontierPlot(
-        _title(key, (each["circumstances"][key] for each in found["stretches"])),
-        _title(found["parameter"], (flip["low"] for each in found["stretches"] for flip in each["flips"])),
+        _title(key, (scan.circumstances[key] for scan in frontier.scans)),
+        _title(frontier.parameter, (flip.low for scan in frontier.scans for flip in scan.flips)),
         series,
         x.tick_marks(8),
         y.tick_marks(6),
@@ -92,19 +90,19 @@ def frontier_plot(found: Mapping[str, Any]) -> FrontierPlot | None:
     )
 
 
-def _flips(stretches: Sequence[Mapping[str, Any]], key: str) -> Iterator[_Flip]:
-    for each in stretches:
-        others = _others(each["circumstances"], key)
-        for flip in each["flips"]:
+def _flips(scans: Sequence[FrontierScan], key: str) -> Iterator[_Flip]:
+    for scan in scans:
+        others = _others(scan.circumstances, key)
+        for flip in scan.flips:
             middle = _middle(flip)
             if middle is not None:
-                yield _Flip(_place(each, key), middle, others, flip["met_at_low"], flip_words(flip))
+                yield _Flip(_number_at(scan, key), middle, others, flip.met_at_low, flip_words(flip))
 
 
-def _place(stretch: Mapping[str, Any], key: str) -> float:
-    place = number_in(stretch["circumstances"][key])
-    assert place is not None  # a numeric key has numbers only
-    return place
+def _number_at(scan: FrontierScan, key: str) -> float:
+    number = scan.circumstances[key].number
+    assert number is not None  # a numeric key has numbers only
+    return number
 
 
 def _series(name: str, flips: Sequence[_Flip], scanned: Sequence[float], x: Axis, y: Axis) -> Series:
@@ -131,24 +129,24 @@ def _strokes(flips: Sequence[_Flip], scanned: Sequence[float]) -> Iterator[list[
         yield stroke
 
 
-def _title(key: str, texts: Iterable[str]) -> str:
-    return with_unit(key, next(map(unit_in, texts), ""))
+def _title(key: str, values: Iterable[WrittenValue]) -> str:
+    return axis_title(key, next((value.unit for value in values), ""))
 
 
-def _numeric_key(stretches: Sequence[Mapping[str, Any]]) -> str | None:
-    keys = stretches[0]["circumstances"] if stretches else {}
-    for key in keys:
-        numbers = {number_in(each["circumstances"][key]) for each in stretches}
+def _numeric_key(scans: Sequence[FrontierScan]) -> str | None:
+    """Return the first parameter whose values are different numbers."""
+    for key in scans[0].circumstances if scans else ():
+        numbers = {scan.circumstances[key].number for scan in scans}
         if None not in numbers and len(numbers) > 1:
-            return str(key)
+            return key
     return None
 
 
-def _others(circumstances: Mapping[str, str], key: str) -> str:
-    rest = {name: text for name, text in circumstances.items() if name != key}
-    return circumstances_words(rest) if rest else "the verdict flips here"
+def _others(circumstances: Circumstances, key: str) -> str:
+    others = {name: value for name, value in circumstances.items() if name != key}
+    return circumstances_words(others) if others else "the verdict flips here"
 
 
-def _middle(flip: Mapping[str, str]) -> float | None:
-    low, high = number_in(flip["low"]), number_in(flip["high"])
+def _middle(flip: Flip) -> float | None:
+    low, high = flip.low.number, flip.high.number
     return None if low is None or high is None else 0.5 * (low + high)

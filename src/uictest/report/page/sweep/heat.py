@@ -1,21 +1,18 @@
-"""Two swept parameters against each other, as a table whose cells are toned by what they hold."""
+"""Two swept parameters against each other, as a table with cells coloured by their value."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from uictest.report.sweep.bundles import bundled, is_large
-from uictest.report.sweep.wording import figure_words, share_words
-
-MET = "met"
-"""Measure of the map of verdicts."""
+from uictest.report.sweep.folding import FoldedMap, folded, is_large, short_label
+from uictest.report.sweep.result import SweepMap
+from uictest.report.sweep.wording import measure_words, share_words
 
 
 @dataclass(frozen=True, slots=True)
 class HeatCell:
-    """One cell: what it says, what it adds below, how strong its tone is (0 .. 100), where it leads."""
+    """One cell: its text, details below, the strength of its colour (0 .. 100), the stop that it links to."""
 
     text: str
     detail: str
@@ -26,7 +23,7 @@ class HeatCell:
 
 @dataclass(frozen=True, slots=True)
 class HeatMap:
-    """A map as a table. `verdicts` tells shares met from a figure; `note` says what was put together."""
+    """A map as a table. `verdicts`: it shows shares of cases met; `note` says which values are together."""
 
     title: str
     verdicts: bool
@@ -38,36 +35,36 @@ class HeatMap:
     note: str
 
 
-def heat_map(found: Mapping[str, Any], places: Mapping[tuple[str, str], str]) -> HeatMap:
-    """Return a map of `sweep.json`; `places` has the key of the drawn case of a pair of values, if any."""
-    shown, verdicts = bundled(found), found["measure"] == MET
-    known = [mean for row in shown["means"] for mean in row if mean is not None]
+def heat_map(sweep_map: SweepMap, keys: Mapping[tuple[str, str], str]) -> HeatMap:
+    """Return a map as a table; `keys` has the key of the drawn case for a pair of values, if any."""
+    shown, measure, verdicts = folded(sweep_map), sweep_map.measure, sweep_map.shows_met
+    known = [mean for row in shown.means for mean in row if mean is not None]
     low, high = (min(known), max(known)) if known else (0.0, 0.0)
+    note = f"Neighbouring values are put together; map-{measure}.csv has each."
     return HeatMap(
-        "Cases met" if verdicts else f"Mean {figure_words(found['measure'])}",
+        "Cases met" if verdicts else f"Mean {measure_words(measure)}",
         verdicts,
-        shown["rows"]["parameter"],
-        shown["columns"]["parameter"],
-        shown["columns"]["values"],
-        list(_rows(shown, places, verdicts, (low, high))),
+        sweep_map.rows.parameter,
+        sweep_map.columns.parameter,
+        list(map(short_label, shown.columns)),
+        list(_rows(shown, keys, verdicts, (low, high))),
         (f"{low:.4g}", f"{high:.4g}"),
-        f"Neighbouring values are put together; map-{found['measure']}.csv has each."
-        if is_large(found)
-        else "",
+        note if is_large(sweep_map) else "",
     )
 
 
 def _rows(
-    shown: Mapping[str, Any],
-    places: Mapping[tuple[str, str], str],
+    shown: FoldedMap,
+    keys: Mapping[tuple[str, str], str],
     verdicts: bool,
     ends: tuple[float, float],
 ) -> Iterator[tuple[str, list[HeatCell]]]:
-    lines = zip(shown["rows"]["values"], shown["means"], shown["met"], shown["cases"], strict=True)
-    for label, means, met, cases in lines:
-        keys = [places.get((label, column), "") for column in shown["columns"]["values"]]
-        columns = zip(means, met, cases, keys, strict=True)
-        yield label, [_share(*each[1:]) if verdicts else _mean(*each, ends) for each in columns]
+    column_labels = list(map(short_label, shown.columns))
+    for values, means, met, cases in zip(shown.rows, shown.means, shown.met, shown.cases, strict=True):
+        label = short_label(values)
+        case_keys = [keys.get((label, column), "") for column in column_labels]
+        cells = zip(means, met, cases, case_keys, strict=True)
+        yield label, [_share(*cell[1:]) if verdicts else _mean(*cell, ends) for cell in cells]
 
 
 def _share(met: int, cases: int, key: str) -> HeatCell:

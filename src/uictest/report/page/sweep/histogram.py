@@ -1,13 +1,13 @@
-"""How a figure is distributed, as bars stacked by outcome."""
+"""The distribution of a measure, as bars stacked by outcome."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 from uictest.report.page.axis import Axis, Tick
+from uictest.report.sweep.result import MeasureHistogram
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 402, 26, 150
 _GAP = 1.0
@@ -28,7 +28,7 @@ class Bar:
 
 
 @dataclass(frozen=True, slots=True)
-class Histogram:
+class HistogramPlot:
     """A distribution, drawn. `ends` has its smallest value, mean and largest value as text."""
 
     title: str
@@ -45,29 +45,28 @@ class Histogram:
     bottom: int = _BOTTOM
 
 
-def histogram(found: Mapping[str, Any]) -> Histogram:
-    """Return a distribution of `sweep.json` as bars."""
-    edges, counts = found["edges"], found["counts"]
+def histogram_plot(histogram: MeasureHistogram) -> HistogramPlot:
+    """Return a distribution as bars."""
+    edges, counts = histogram.edges, histogram.counts
     tallest = max(map(sum, zip(*counts.values(), strict=True)))
     x, y = Axis(edges[0], edges[-1], _LEFT, _RIGHT), Axis(0.0, tallest, _BOTTOM, _TOP)
-    smallest, mean, largest = (f"{found[end]:.4g}" for end in ("minimum", "mean", "maximum"))
-    return Histogram(
-        found["measure"],
-        "" if found["unit"] == "1" else found["unit"],
-        found["cases"],
-        (smallest, mean, largest),
+    return HistogramPlot(
+        histogram.measure,
+        "" if histogram.unit == "1" else histogram.unit,
+        histogram.cases,
+        (f"{histogram.minimum:.4g}", f"{histogram.mean:.4g}", f"{histogram.maximum:.4g}"),
         [outcome for outcome in _STACKED if outcome in counts],
-        list(_bars(edges, counts, x, y)),
+        list(_bars(histogram, x, y)),
         x.tick_marks(6),
         [(y.at(value), label) for value, label in y.ticks(4) if value == round(value)],
     )
 
 
-def _bars(edges: Sequence[float], counts: Mapping[str, Sequence[int]], x: Axis, y: Axis) -> Iterator[Bar]:
-    for place, (low, high) in enumerate(pairwise(edges)):
+def _bars(histogram: MeasureHistogram, x: Axis, y: Axis) -> Iterator[Bar]:
+    for place, (low, high) in enumerate(pairwise(histogram.edges)):
         below = 0
         for outcome in _STACKED:
-            count = counts[outcome][place] if outcome in counts else 0
+            count = histogram.counts[outcome][place] if outcome in histogram.counts else 0
             if count:
                 top, bottom = y.at(below + count), y.at(below)
                 width = max(x.at(high) - x.at(low) - _GAP, 0.5)

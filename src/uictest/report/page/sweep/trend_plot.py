@@ -1,15 +1,14 @@
-"""A figure over a swept parameter: a line through its means, in a band from the smallest to the largest."""
+"""A measure over a swept parameter: a line through its means, in a band from the smallest to the largest."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from uictest.report.page.axis import Axis, Tick, span
-from uictest.report.page.sweep.labels import number_in, unit_in, with_unit
+from uictest.report.page.axis import Axis, Tick, axis_title, span
+from uictest.report.sweep.result import OutcomeCount, Trend
 from uictest.report.wording import counted
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 52, 402, 26, 166
@@ -45,7 +44,7 @@ class TrendPlot:
 
 @dataclass(frozen=True, slots=True)
 class _Value:
-    """What a figure came to at one value of the parameter; `missed` counts those without the figure, too."""
+    """A measure at one value of the parameter; `missed` counts cases without the measure, too."""
 
     at: float
     label: str
@@ -62,23 +61,23 @@ class _Value:
         return f"{self.label}: {self.mean:.4g}{reach}, {counted(self.cases, 'case')}{missed}"
 
 
-def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) -> TrendPlot | None:
-    """Return a trend of `sweep.json` drawn, None where its parameter has no two numbers of one unit.
+def trend_plot(trend: Trend, counts: Sequence[OutcomeCount]) -> TrendPlot | None:
+    """Return a trend drawn, None where its parameter has no two numbers of one unit.
 
     Args:
-        found: the trend.
-        counts: the rates of the parameter, which has a value each.
+        trend: the trend.
+        counts: the counts for each value of the parameter.
     """
-    units = {unit_in(label) for label in found["values"]}
-    values = sorted(_values(found, counts), key=lambda value: value.at)
+    units = {value.unit for value in trend.values}
+    values = sorted(_values(trend, counts), key=lambda value: value.at)
     if len(units) != 1 or len({value.at for value in values}) < 2:
         return None
     x = Axis(*span([np.array([value.at for value in values])], ()), _LEFT, _RIGHT)
     reached = np.array([(value.minimum, value.maximum) for value in values])
     y = Axis(*span([reached.ravel()], ()), _BOTTOM, _TOP)
     return TrendPlot(
-        with_unit(found["measure"], "" if found["unit"] == "1" else found["unit"]),
-        with_unit(found["parameter"], units.pop()),
+        axis_title(trend.measure, "" if trend.unit == "1" else trend.unit),
+        axis_title(trend.parameter, units.pop()),
         _line((x.at(value.at), y.at(value.mean)) for value in values),
         _band(values, x, y) if any(value.cases > 1 for value in values) else "",
         [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.missed > 0) for v in values],
@@ -87,13 +86,13 @@ def trend_plot(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) ->
     )
 
 
-def _values(found: Mapping[str, Any], counts: Sequence[Mapping[str, Any]]) -> Iterator[_Value]:
-    """Yield the values of the parameter that are numbers and have cases with the figure."""
-    lists = (found[name] for name in ("values", "cases", "minimum", "mean", "maximum"))
-    for count, label, cases, *reached in zip(counts, *lists, strict=True):
-        at = number_in(label)
-        if at is not None and None not in reached:
-            yield _Value(at, label, cases, count["cases"] - count["met"], *reached)
+def _values(trend: Trend, counts: Sequence[OutcomeCount]) -> Iterator[_Value]:
+    """Yield the values of the parameter that are numbers and have cases with the measure."""
+    columns = (trend.values, trend.cases, trend.minimum, trend.mean, trend.maximum)
+    for count, value, cases, minimum, mean, maximum in zip(counts, *columns, strict=True):
+        at = value.number
+        if at is not None and minimum is not None and mean is not None and maximum is not None:
+            yield _Value(at, value.label, cases, count.cases - count.met, minimum, mean, maximum)
 
 
 def _band(values: Sequence[_Value], x: Axis, y: Axis) -> str:

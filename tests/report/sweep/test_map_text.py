@@ -1,29 +1,29 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
 
-from uictest.sweep.map_text import fold, folded_label, map_lines
-from uictest.sweep.summaries.bins import ParameterBins
-from uictest.sweep.summaries.maps import MapSums
+from uictest.report import MapAxis, SweepMap, WrittenValue, map_lines
+from uictest.report.sweep.folding import fold
 
 _RANGE = re.compile(r"(\S+) \.\. (\S+) \((\d+) values\)")
 
 
-def _map(rows: int, columns: int, measure: str = "braking_distance_m") -> MapSums:
-    """A map of one case per cell whose figure is 1000 x row + column."""
+def _map(rows: int, columns: int, measure: str = "braking_distance_m") -> SweepMap:
+    """A map of one case per cell whose measure is 1000 x row + column."""
     axes = [
-        ParameterBins(key, tuple(f"{0.06 + 0.005 * k:.3f}" for k in range(count)), (0, 0))
+        MapAxis(key, tuple(WrittenValue(f"{0.06 + 0.005 * k:.3f}") for k in range(count)))
         for key, count in (("rail.friction", rows), ("brake.command", columns))
     ]
-    made: Any = MapSums(None, *axes, measure)  # type: ignore[arg-type]
-    made._sum += 1000.0 * np.arange(rows)[:, None] + np.arange(columns)
-    made._known += 1
-    return made
+    means = (1000.0 * np.arange(rows)[:, None] + np.arange(columns)).tolist()
+    ones = [[1] * columns] * rows
+    return SweepMap(measure, *axes, means, ones, ones, ones)
+
+
+def _labels(axis: MapAxis) -> tuple[str, ...]:
+    return tuple(value.label for value in axis.values)
 
 
 def _covered(label: str, labels: tuple[str, ...]) -> list[str]:
@@ -38,9 +38,9 @@ def _covered(label: str, labels: tuple[str, ...]) -> list[str]:
 
 @pytest.mark.parametrize("rows", [2, 24, 25, 31, 60, 100])
 def test_each_row_is_labelled_by_exactly_the_values_it_shows(rows: int) -> None:
-    found = _map(rows, 2)
-    labels = found.rows.labels
-    lines = [line for line in map_lines(found, None) if re.match(r" *0\.\d+ .* \d", line)]
+    sweep_map = _map(rows, 2)
+    labels = _labels(sweep_map.rows)
+    lines = [line for line in map_lines(sweep_map, None) if re.match(r" *0\.\d+ .* \d", line)]
     claimed = []
     for line in lines[-len(fold(rows, 24)) :]:
         label, first, _ = re.split(r"  +", line.strip())
@@ -56,9 +56,9 @@ def test_each_row_is_labelled_by_exactly_the_values_it_shows(rows: int) -> None:
     ("columns", "width"), [(2, None), (25, None), (31, None), (31, 80), (31, 40), (9, 30)]
 )
 def test_each_column_is_headed_by_exactly_the_values_it_shows(columns: int, width: int | None) -> None:
-    found = _map(2, columns)
-    labels = found.columns.labels
-    *_, first_row, _ = lines = list(map_lines(found, width))
+    sweep_map = _map(2, columns)
+    labels = _labels(sweep_map.columns)
+    *_, first_row, _ = lines = list(map_lines(sweep_map, width))
     heads = lines[lines.index(first_row) - 2 : -2]
     firsts, lasts = heads if heads[1].strip().startswith("..") else (heads[1], "")
     cells = first_row.split()[1:]
@@ -85,16 +85,3 @@ def test_a_map_with_room_for_every_value_is_not_folded() -> None:
     lines = list(map_lines(_map(3, 3), None))
     assert len(lines) == 1 + 1 + 3
     assert "folded" not in "".join(lines)
-
-
-def test_stretches_of_drawn_numbers_fold_into_longer_stretches() -> None:
-    assert folded_label(["0.06 .. 0.07", "0.07 .. 0.08"]) == "0.06 .. 0.08"
-    assert folded_label(["60 .. 70 %"]) == "60 .. 70 %"
-    assert folded_label(["dry", "wet"]) == "dry .. wet (2 values)"
-
-
-@given(st.integers(1, 300), st.integers(1, 30))
-def test_a_fold_holds_every_value_once_in_order(values: int, most: int) -> None:
-    places = fold(values, most)
-    assert [each for group in places for each in group] == list(range(values))
-    assert len(places) <= most

@@ -1,0 +1,23 @@
+"""Write the result of a sweep into its folder: `sweep.json`, the CSV tables, JUnit XML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from uictest import evaluation, recording
+from uictest.report.sweep.junit import sweep_junit_xml
+from uictest.report.sweep.reading import SWEEP_RESULTS
+from uictest.report.sweep.result import SweepResult, sweep_document
+from uictest.report.sweep.tables import csv_tables
+
+
+def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
+    """Write everything but the summary of cases, and return the text of `sweep.json`.
+
+    `file` is the sweep file as shown to users. Raises OSError.
+    """
+    document = evaluation.to_json(sweep_document(result))
+    texts = csv_tables(result) | {"junit.xml": sweep_junit_xml(result, file), SWEEP_RESULTS: document}
+    for name, text in texts.items():
+        recording.write_text_atomic(folder / name, text)
+    return document
