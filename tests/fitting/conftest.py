@@ -1,4 +1,4 @@
-"""Simulated stops as a measurement of them would come out: sensors with noise and errors of their own."""
+"""Simulated stops as a train would record them: with the noise and the errors of sensors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LOADCELL_GAIN = 0.005
 Make = Callable[..., tuple[Case, RecordedStop]]
 
 
-def _measured(recording: Recording, dice: np.random.Generator) -> dict[str, RawChannel]:
+def _with_sensor_noise(recording: Recording, dice: np.random.Generator) -> dict[str, RawChannel]:
     time = np.asarray(recording[TIME])
 
     def noise(kind: str) -> np.ndarray:
@@ -36,8 +36,8 @@ def _measured(recording: Recording, dice: np.random.Generator) -> dict[str, RawC
 
 
 @pytest.fixture
-def measured() -> Make:
-    """Simulate a stop from a speed in km/h on a friction, and measure it with the noise of a seed."""
+def recorded_stop() -> Make:
+    """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed."""
 
     def make(speed: float, friction: str, seed: int = 0, without: tuple[str, ...] = (), **facts: Any) -> Any:
         wsp = facts.get("wsp", "active")
@@ -46,7 +46,7 @@ def measured() -> Make:
         )
         recording = simulate(case, record_every=0.01).recording
         assert recording is not None
-        channels = _measured(recording, np.random.default_rng(seed))
+        channels = _with_sensor_noise(recording, np.random.default_rng(seed))
         kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
         return case, prepare(kept, recording.metadata, Preparation())
 

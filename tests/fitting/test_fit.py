@@ -9,7 +9,7 @@ import pytest
 from uictest.field_data import stated_case
 from uictest.fitting import FitError, fit_stop
 from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.friction_profile import stretch_names, stretch_of
+from uictest.fitting.estimate import stretch_names, stretch_of
 from uictest.fitting.wheel_loads import wheel_loads
 from uictest.physics.polach import contact_stiffness, creep_force
 
@@ -26,57 +26,57 @@ def _text(*levels: float, place: float = 100.0) -> str:
 
 
 @pytest.mark.parametrize(("speed", "friction"), CONSTANT)
-def test_constant_friction_within_3_percent(measured: Make, speed: float, friction: float) -> None:
-    case, stop = measured(speed, str(friction), seed=int(1000 * friction))
-    found = fit_stop(stop, case.scenario)
-    assert found.determined
-    assert found.friction[0].value == pytest.approx(friction, rel=0.03)
-    assert 0.0 < found.friction[0].half_width < 0.03 * friction
+def test_constant_friction_within_3_percent(recorded_stop: Make, speed: float, friction: float) -> None:
+    case, stop = recorded_stop(speed, str(friction), seed=int(1000 * friction))
+    fit = fit_stop(stop, case.scenario)
+    assert fit.determined
+    assert fit.friction[0].value == pytest.approx(friction, rel=0.03)
+    assert 0.0 < fit.friction[0].half_width < 0.03 * friction
 
 
 @pytest.mark.parametrize(("speed", "before", "after"), STEPS)
-def test_two_steps_within_5_percent(measured: Make, speed: float, before: float, after: float) -> None:
-    case, stop = measured(speed, _text(before, after), seed=7)
-    found = fit_stop(stop, case.scenario, [100.0])
-    assert [estimate.value for estimate in found.friction] == pytest.approx([before, after], rel=0.05)
+def test_two_steps_within_5_percent(recorded_stop: Make, speed: float, before: float, after: float) -> None:
+    case, stop = recorded_stop(speed, _text(before, after), seed=7)
+    fit = fit_stop(stop, case.scenario, [100.0])
+    assert [estimate.value for estimate in fit.friction] == pytest.approx([before, after], rel=0.05)
 
 
-def test_without_sliding_there_is_only_a_lower_bound(measured: Make) -> None:
-    case, stop = measured(60.0, "0.5")
+def test_without_sliding_there_is_only_a_lower_bound(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(60.0, "0.5")
     [estimate] = fit_stop(stop, case.scenario).friction
     assert estimate.standing == "at least"
     assert 0.02 < estimate.value < 0.5
     assert "cannot tell" in str(estimate)
 
 
-def test_a_stretch_that_no_wheelset_reached_is_told(measured: Make) -> None:
-    case, stop = measured(60.0, "0.07")
-    found = fit_stop(stop, case.scenario, [5000.0])
-    assert [estimate.standing for estimate in found.friction] == ["found", "not reached"]
-    assert found.determined
+def test_a_stretch_that_no_wheelset_reached_is_told(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(60.0, "0.07")
+    fit = fit_stop(stop, case.scenario, [5000.0])
+    assert [estimate.standing for estimate in fit.friction] == ["found", "not reached"]
+    assert fit.determined
 
 
-def test_pad_friction_beside_friction(measured: Make) -> None:
-    case, stop = measured(80.0, "0.08")
+def test_pad_friction_beside_friction(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(80.0, "0.08")
     pads = case.scenario.brake.system.disc.pad_friction
     system = case.scenario.brake.system
     weaker = system.disc.model_copy(update={"pad_friction": type(pads)(0.9 * pads, "", "1")})
     brake = case.scenario.brake.model_copy(update={"system": system.model_copy(update={"disc": weaker})})
-    found = fit_stop(stop, case.scenario.model_copy(update={"brake": brake}), with_pads=True)
-    assert found.pad_factor is not None
-    assert found.pad_factor.value == pytest.approx(1.0 / 0.9, rel=0.03)
-    assert found.friction[0].value == pytest.approx(0.08, rel=0.03)
+    fit = fit_stop(stop, case.scenario.model_copy(update={"brake": brake}), with_pads=True)
+    assert fit.pad_factor is not None
+    assert fit.pad_factor.value == pytest.approx(1.0 / 0.9, rel=0.03)
+    assert fit.friction[0].value == pytest.approx(0.08, rel=0.03)
 
 
-def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide(measured: Make) -> None:
-    case, stop = measured(80.0, "0.06", without=("clamping_force",))
+def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(80.0, "0.06", without=("clamping_force",))
     assert fit_stop(stop, case.scenario).friction[0].value == pytest.approx(0.06, rel=0.05)
     with pytest.raises(FitError, match="clamping forces"):
         fit_stop(stop, case.scenario, with_pads=True)
 
 
-def test_a_fit_needs_all_speeds(measured: Make) -> None:
-    case, stop = measured(60.0, "0.07", without=("wheel_speed_2",))
+def test_a_fit_needs_all_speeds(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(60.0, "0.07", without=("wheel_speed_2",))
     with pytest.raises(FitError, match="not recorded: wheel_speed_2"):
         fit_stop(stop, case.scenario)
 

@@ -74,7 +74,7 @@ def test_the_model_is_better_than_none_on_what_was_held_out():
         (lambda t, p: (t, np.minimum(t * 1e5, 3e5)), "swings"),
         (lambda t, p: (t[::40], p[::40]), "needs? .* or less"),
         (lambda t, p: (np.where(t > 2.0, t + 0.01, t), p), "uneven sampling"),
-        (lambda t, p: (t, np.where(t > 2.0, np.nan, p)), "no number"),
+        (lambda t, p: (t, np.where(t > 2.0, np.nan, p)), "not numbers"),
     ],
 )
 def test_a_record_that_cannot_support_it_is_refused_with_the_reason(spoil, reason):

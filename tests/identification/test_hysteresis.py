@@ -75,7 +75,7 @@ def test_the_line_without_hysteresis_lies_midway(pressures, force):
     ("spoil", "reason"),
     [
         (lambda t, p, f: (t[:1000], p[:1000], f[:1000]), "too short"),
-        (lambda t, p, f: (t, p, np.where(t > 3.0, np.nan, f)), "no number"),
+        (lambda t, p, f: (t, p, np.where(t > 3.0, np.nan, f)), "not numbers"),
         (lambda t, p, f: (t, p, 0.0 * f), "no clamping force"),
         (lambda t, p, f: (np.where(t > 3.0, t + 0.1, t), p, f), "uneven sampling"),
         (lambda t, p, f: (t[:8000], p[:8000], f[:8000]), "bc_releasing"),

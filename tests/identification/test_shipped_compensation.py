@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from uictest.cli.entry import execute
-from uictest.identification.compensation_base import load_compensation
+from uictest.identification.compensation_file import load_compensation
 from uictest.identification.transfer_function import TransferFunction
 from uictest.rig.bench.loading import recipe_path
 from uictest.scenario.parts.compensation import Compensation

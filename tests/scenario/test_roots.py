@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from uictest.field_data import load_map
-from uictest.identification.compensation_base import load_compensation
+from uictest.identification.compensation_file import load_compensation
 from uictest.rig.bench.loading import load_bench
 from uictest.scenario import Diagnostic, ScenarioErrors, load
 from uictest.sweep import load_sweep

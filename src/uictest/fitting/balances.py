@@ -1,4 +1,4 @@
-"""Balances of momentum over short windows: what the rail gave, the brakes took and the train lost.
+"""Balances of momentum over short windows, of rail, brakes and train.
 
 A wheelset of inertia J that slides under friction mu0, over a window of length T:
 
@@ -8,7 +8,7 @@ and the train of mass m:
 
     m [v(T) - v(0)] = - integral of sum F_i + R(v) + m g gradient
 
-with F by the creep law at the *measured* slip speed where a wheelset slides, and from its own balance where
+with F by the creep law at the *recorded* slip speed where a wheelset slides, and from its own balance where
 it does not. The closed loop of WSP and wheel never runs, so nothing here is chaotic, and integrals need no
 derivative of a noisy speed.
 """
@@ -16,17 +16,14 @@ derivative of a noisy speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.fitting.creep import wheelset_creep
 from uictest.fitting.samples import Samples
+from uictest.scenario import Scenario
 from uictest.units import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from uictest.scenario import Scenario
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -80,7 +77,7 @@ class Balances:
         )
 
     def brake_impulse(self, brake_factor: float) -> Array | None:
-        """Return the impulse of the rail that a wheelset's own balance asks for, N s, (4, k)."""
+        """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
         s, wheelset = self.samples, self.scenario.vehicle.wheelset
         if s.torque is None:
             return None
@@ -92,25 +89,25 @@ class Balances:
         return impulse
 
     def wheelset_residuals(self, friction: Array, brake_factor: float) -> Array:
-        """Return what the balances of sliding wheelsets miss."""
+        """Return the residuals of the balances of sliding wheelsets."""
         needed = self.brake_impulse(brake_factor)
         if needed is None:
             return np.empty(0)
         usable = self.windows.sliding & ~self.windows.standing
-        missed = (self.rail_impulse(friction) - needed) / self._load_impulse()
-        return np.asarray(missed[usable])
+        residual = (self.rail_impulse(friction) - needed) / self._load_impulse()
+        return np.asarray(residual[usable])
 
     def train_residuals(self, friction: Array, brake_factor: float) -> Array:
-        """Return what the balance of the train misses, in windows in which all shares are known."""
+        """Return the residuals of the train's balance, in windows in which all impulses are known."""
         by_rail, by_brake = self.rail_impulse(friction), self.brake_impulse(brake_factor)
         sliding = self.windows.sliding
         impulse = by_rail if by_brake is None else np.where(sliding, by_rail, by_brake)
         known = sliding.all(axis=0) if by_brake is None else (sliding | ~self.windows.standing).all(axis=0)
-        missed = (impulse.sum(axis=0) - self.lost_momentum()) / self._load_impulse().sum(axis=0)
-        return np.asarray(missed[known])
+        residual = (impulse.sum(axis=0) - self.lost_momentum()) / self._load_impulse().sum(axis=0)
+        return np.asarray(residual[known])
 
     def lost_momentum(self) -> Array:
-        """Return the impulse of the rails that the train's deceleration asks for, N s, (k,)."""
+        """Return the impulse of the rails by the deceleration of the train, N s, (k,)."""
         s, vehicle = self.samples, self.scenario.vehicle
         resistance = vehicle.running_resistance
         drag = resistance.constant + resistance.linear * s.speed + resistance.quadratic * s.speed**2

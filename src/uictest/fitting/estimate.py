@@ -1,16 +1,19 @@
-"""Friction, and the pads' where it is wanted, by least squares on the balances of a stop."""
+"""Friction of the rail, and optionally of the pads, by least squares on the balances of a stop."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.fitting.balances import Balances
-from uictest.fitting.friction_profile import stretch_names, stretch_of
+from uictest.field_data import RecordedStop
+from uictest.fitting.balances import Balances, windows_of
+from uictest.fitting.samples import FitError, samples_of
+from uictest.scenario import Scenario
 
 Array = NDArray[np.float64]
 Standing = Literal["found", "at least", "not reached"]
@@ -54,7 +57,7 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """What a fit found: friction per stretch, the factor on the pads' friction, and the residual.
+    """Result of a fit: friction per stretch, the factor on the pads' friction, and the residual.
 
     `residual` is the standard deviation of the balances' residuals, as an adhesion coefficient.
     """
@@ -66,18 +69,37 @@ class Fit:
 
     @property
     def determined(self) -> bool:
-        """Whether every friction that mattered was found."""
+        """Whether every friction that a wheelset met is determined."""
         return all(estimate.standing != "at least" for estimate in self.friction)
 
 
-def fit(balances: Balances, breaks: Sequence[float] = (), *, with_pads: bool = False) -> Fit:
-    """Return the friction of each stretch between `breaks` (m, rising) that the balances agree with best.
+def fit_stop(
+    stop: RecordedStop,
+    scenario: Scenario,
+    breaks: Sequence[float] = (),
+    *,
+    with_pads: bool = False,
+) -> Fit:
+    """Return the friction of the rail on which a recorded stop of a scenario's vehicle was made.
 
-    With `with_pads` a factor on the scenario's pad friction is found as well; ValueError where the recording
-    holds neither clamping forces nor torques.
+    Args:
+        stop: the recorded stop; train and wheel speeds, and clamping forces or torques where there are any.
+        scenario: vehicle, brake, gradient and the other parameters of the creep law.
+        breaks: places between stretches of constant friction, m from the brake command, rising.
+        with_pads: fit a factor on the scenario's pad friction as well; needs clamping forces.
+
+    Raises:
+        FitError: the record lacks what is needed.
+
     """
-    if with_pads and balances.samples.torque is None:
-        raise ValueError("pad friction cannot be found: no clamping forces of all wheelsets are recorded")
+    samples = samples_of(stop, scenario)
+    balances = Balances(samples, windows_of(samples), scenario)
+    if with_pads and samples.torque is None:
+        raise FitError("pad friction cannot be fitted: the clamping forces of all wheelsets are not recorded")
+    return _fit(balances, breaks, with_pads=with_pads)
+
+
+def _fit(balances: Balances, breaks: Sequence[float], *, with_pads: bool) -> Fit:
     stretch = stretch_of(balances.samples.place, breaks)
     counts = _windows_of_sliding(balances, stretch, len(breaks) + 1)
     free = [k for k, count in enumerate(counts) if count >= _FEWEST]
@@ -139,7 +161,7 @@ def _solve(
         )
     weights = (1.0, 1.0)
     solution: Any = None
-    # Twice: the first pass says how far each kind of balance can be trusted.
+    # Twice: the first pass estimates the noise of each kind of balance.
     for _ in range(2):
         solution = least_squares(
             lambda x, w=weights: np.concatenate([r / s for r, s in zip(parts(x), w, strict=True)]),
@@ -179,3 +201,17 @@ def _half_widths(solution: Any, residuals: tuple[Array, Array]) -> list[float]:
         inflation = (1.0 + repeated) / (1.0 - repeated)
     quantile = float(student.ppf(0.5 * (1.0 + _CONFIDENCE), freedom))
     return [float(quantile * np.sqrt(inflation * v)) for v in np.diag(covariance)]
+
+
+def stretch_of(place: Array, breaks: Sequence[float]) -> NDArray[np.intp]:
+    """Return the number of the stretch, from 0, in which each place (m) lies; `breaks` in rising order, m."""
+    return np.searchsorted(np.asarray(breaks, dtype=np.float64), place, side="right")
+
+
+def stretch_names(breaks: Sequence[float]) -> list[str]:
+    """Return the name of each stretch, as in "from 50 m to 120 m"."""
+    if not breaks:
+        return ["everywhere"]
+    ends = [f"{place:g} m" for place in breaks]
+    inner = [f"from {a} to {b}" for a, b in pairwise(ends)]
+    return [f"up to {ends[0]}", *inner, f"from {ends[-1]} on"]

@@ -34,23 +34,23 @@ class Agreement:
         )
 
 
-def overlay(measured: RecordedStop, simulated: SimulatedStop) -> Recording:
+def overlay(recorded: RecordedStop, simulated: SimulatedStop) -> Recording:
     """Return train and wheel speeds of both stops on the raster of the record, m/s."""
     assert simulated.recording is not None
-    time = np.asarray(measured.recording[TIME])
+    time = np.asarray(recorded.recording[TIME])
     channels = {TIME: time}
     for name in _COMPARED:
         other = simulated.recording
-        channels[f"{name}_recorded"] = np.asarray(measured.recording[name])
+        channels[f"{name}_recorded"] = np.asarray(recorded.recording[name])
         channels[f"{name}_simulated"] = np.interp(time, other[TIME], other[name], right=0.0)
     units = {name: "s" if name == TIME else "m/s" for name in channels}
     return Recording(channels, units)
 
 
-def agreement(measured: RecordedStop, simulated: SimulatedStop, both: Recording) -> Agreement:
+def agreement(recorded: RecordedStop, simulated: SimulatedStop, both: Recording) -> Agreement:
     """Return how far the two stops agree."""
     difference = both["speed_recorded"] - both["speed_simulated"]
-    time, distance = measured.standstill or (float("nan"), float("nan"))
+    time, distance = recorded.standstill or (float("nan"), float("nan"))
     return Agreement(
         time,
         float(simulated.measures.braking_time),

@@ -1,9 +1,8 @@
-"""What a fit takes from a measured stop: motion, torques and loads of every wheelset on one raster."""
+"""The samples of a recorded stop for a fit: motion, torques and loads of every wheelset on one raster."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +10,8 @@ from numpy.typing import NDArray
 from uictest import field_data
 from uictest.field_data import WHEELSETS
 from uictest.fitting.wheel_loads import wheel_loads
-from uictest.recording import TIME
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.scenario import BrakeSystem, Scenario
+from uictest.recording import TIME, Recording
+from uictest.scenario import BrakeSystem, Scenario
 
 Array = NDArray[np.float64]
 _SMOOTHING = 0.1
@@ -28,7 +24,7 @@ class FitError(ValueError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Samples:
-    """A measured stop while the train moves. Wheelset arrays have shape (4, n).
+    """A recorded stop while the train moves. Wheelset arrays have shape (4, n).
 
     Args:
         time: since the brake command, s.
@@ -55,10 +51,10 @@ class Samples:
 
 
 def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> Samples:
-    """Return what a fit needs. Raises FitError where the record lacks it, or holds defects in it."""
+    """Return the samples for a fit. Raises FitError if channels are missing or defective."""
     recording = stop.recording
     names = ("speed", *(f"wheel_speed_{n}" for n in WHEELSETS))
-    _refuse_defects(stop, names)
+    _require_sound_speeds(stop, names)
     definition = scenario.measures
     moving = np.asarray(recording["speed"]) > definition.moving_speed
     count = len(moving) if moving.all() else int(np.argmin(moving))
@@ -83,7 +79,7 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> Samples:
     )
 
 
-def _refuse_defects(stop: field_data.RecordedStop, names: tuple[str, ...]) -> None:
+def _require_sound_speeds(stop: field_data.RecordedStop, names: tuple[str, ...]) -> None:
     missing = [name for name in names if name not in stop.recording.channels]
     if missing:
         raise FitError(
@@ -92,8 +88,8 @@ def _refuse_defects(stop: field_data.RecordedStop, names: tuple[str, ...]) -> No
     spoilt = [str(defect) for defect in stop.defects if defect.spoils and defect.channel in names]
     holes = [name for name in (*names, "distance") if not np.isfinite(stop.recording[name]).all()]
     if spoilt or holes:
-        told = spoilt + [f"{name} has gaps" for name in holes]
-        raise FitError(f"a fit needs sound speeds: {'; '.join(told)}")
+        defects = spoilt + [f"{name} has gaps" for name in holes]
+        raise FitError(f"a fit needs speeds without defects: {'; '.join(defects)}")
     if stop.trigger.late:
         raise FitError("the record begins after the brake command, so places on the track are not known")
 

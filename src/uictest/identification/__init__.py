@@ -1,4 +1,4 @@
-"""Hysteresis and cylinder dynamics from records, whoever made them: this room knows no rig."""
+"""Identification of hysteresis and cylinder dynamics from records of any origin, without the rig."""
 
 import lazy_loader
 

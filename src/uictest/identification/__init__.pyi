@@ -1,7 +1,7 @@
 from .channels import Record as Record, read_record as read_record, samples_digest as samples_digest
-from .compensation_base import load_compensation as load_compensation
 from .compensation_file import (
     Provenance as Provenance,
+    load_compensation as load_compensation,
     with_cylinder as with_cylinder,
     with_hysteresis as with_hysteresis,
 )

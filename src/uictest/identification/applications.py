@@ -1,4 +1,4 @@
-"""Brake applications in a record: stretches that begin at rest and end before the brake is released."""
+"""Brake applications in a record: segments that begin at rest and end before the brake is released."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _SPACING = 0.01
 
 
 def applications(tank: Samples, cylinder: Samples, step: float) -> list[slice]:
-    """Stretches of a record that the cylinder dynamics are to describe, each started at rest.
+    """Return the segments of a record for the cylinder dynamics, each started at rest.
 
-    A release at the end of a stretch is left out: air then leaves through the brake line, past the WSP
-    valve's vent, and no stop contains it. A record that never rests is one stretch.
+    A release at the end of a segment is excluded: air then leaves through the brake line, past the WSP
+    valve's vent, and no stop contains it. A record that never rests is one segment.
     """
     released = np.maximum(tank, cylinder) < _AT_REST * max(tank.max(), cylinder.max())
     edges = np.flatnonzero(np.diff(released.astype(int)))
@@ -45,5 +45,5 @@ def _before_release(tank: Samples, start: int, end: int, step: float) -> int:
     """Sample at which the last fall before ``end`` begins."""
     every = max(round(_SPACING / step), 1)
     thinned = tank[start:end:every]
-    found = runs(thinned, _TURNING * float(np.ptp(thinned)))
-    return start + every * found[-1][0] if found and found[-1][2] < 0 else end
+    turns = runs(thinned, _TURNING * float(np.ptp(thinned)))
+    return start + every * turns[-1][0] if turns and turns[-1][2] < 0 else end

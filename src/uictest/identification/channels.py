@@ -14,6 +14,7 @@ from uictest import recording
 from uictest.identification.suitability import UnsuitableRecordError, require_finite
 from uictest.physics import FILL, HOLD, VENT
 from uictest.recording import ORIGIN, formats
+from uictest.units import KINDS
 
 Samples = NDArray[np.float64]
 TIME = "time"
@@ -24,7 +25,7 @@ _LONGEST_ORIGIN = 200
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What is read of a recording.
+    """Channels of a recording.
 
     Attributes:
         channels: role -> samples in SI units, and the time in s.
@@ -35,44 +36,44 @@ class Record:
     origin: str
 
 
-def read_record(path: Path, wanted: Mapping[str, str]) -> Record:
-    """Read the channels that ``wanted`` maps from role to name, in SI units, and the time.
+def read_record(path: Path, names: Mapping[str, str]) -> Record:
+    """Read the channels that ``names`` maps from role to name, in SI units, and the time.
 
     A role that begins with ``command`` is a valve command; ``force`` is a force; every other role but
-    ``time`` is a pressure. Time is the channel ``time`` unless ``wanted`` maps the role to another.
+    ``time`` is a pressure. Time is the channel ``time`` unless ``names`` maps the role to another.
 
     Raises:
-        UnsuitableRecordError: the file is no recording, a channel is not there, its unit is unknown or its
-            samples are no numbers, or none that a train shows; times do not rise.
+        UnsuitableRecordError: the file is no recording; a channel is missing, its unit unknown, its samples
+            not numbers or implausible; or times do not rise.
         OSError: the file cannot be opened.
     """
     try:
         contents = formats.read_contents(path)
-        return Record(_channels(contents.groups, {TIME: TIME, **wanted}), _origin(contents.metadata))
+        return Record(_channels(contents.groups, {TIME: TIME, **names}), _origin(contents.metadata))
     except (formats.UnreadableError, formats.MissingExtraError, UnsuitableRecordError) as error:
         raise UnsuitableRecordError(f"{path}: {error}") from error
 
 
-def _channels(groups: Sequence[recording.Group], named: Mapping[str, str]) -> dict[str, Samples]:
+def _channels(groups: Sequence[recording.Group], names: Mapping[str, str]) -> dict[str, Samples]:
     for group in groups:
-        if all(name in group.channels for name in named.values()):
+        if all(name in group.channels for name in names.values()):
             return {
                 role: _in_si(role, name, group.channels[name], group.units.get(name, ""))
-                for role, name in named.items()
+                for role, name in names.items()
             }
-    there = sorted({name for group in groups for name in group.channels})
-    missing = [name for name in named.values() if name not in there]
+    present = sorted({name for group in groups for name in group.channels})
+    missing = [name for name in names.values() if name not in present]
     absent = ", ".join(map(repr, missing)) or "group with all channels"
-    raise UnsuitableRecordError(f"no channel {absent}; there are {', '.join(there)}")
+    raise UnsuitableRecordError(f"no channel {absent}; the file has {', '.join(present)}")
 
 
-def _origin(facts: Mapping[str, str]) -> str:
-    return " ".join(facts.get(ORIGIN, "").split())[:_LONGEST_ORIGIN] or _UNKNOWN_ORIGIN
+def _origin(metadata: Mapping[str, str]) -> str:
+    return " ".join(metadata.get(ORIGIN, "").split())[:_LONGEST_ORIGIN] or _UNKNOWN_ORIGIN
 
 
 def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Samples:
     if samples.dtype.kind not in "biuf":
-        raise UnsuitableRecordError(f"channel {name!r} holds texts where numbers are needed")
+        raise UnsuitableRecordError(f"channel {name!r} contains texts; numbers are needed")
     numbers = np.asarray(samples, dtype=np.float64)
     if role.startswith("command"):
         _require_commands(name, numbers)
@@ -89,8 +90,6 @@ def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Sam
 
 
 def _sizes(name: str, unit: str, kind: str) -> dict[str, float]:
-    from uictest.units import KINDS
-
     known = {symbol: float(each.factor) for symbol, each in KINDS[kind].units.items()}
     if unit not in known:
         raise UnsuitableRecordError(
@@ -116,7 +115,7 @@ def _require_commands(name: str, commands: Samples) -> None:
     strange = commands[~np.isin(commands, (FILL, HOLD, VENT))]
     if len(strange):
         raise UnsuitableRecordError(
-            f"channel {name!r} holds {strange[0]:g}; a valve command is {FILL:g} fill, {HOLD:g} hold or"
+            f"channel {name!r} contains {strange[0]:g}; a valve command is {FILL:g} fill, {HOLD:g} hold or"
             f" {VENT:g} vent"
         )
 

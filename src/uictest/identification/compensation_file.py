@@ -1,27 +1,47 @@
-"""Compensation files with identified numbers and where they come from."""
+"""Compensation files: read as the base of an identification, written with the identified numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
-from uictest import scenario
-from uictest.identification.hysteresis import PHASES
-from uictest.scenario.yaml import Quantity
-
-if TYPE_CHECKING:
-    from uictest.identification.cylinder import CylinderResult
-    from uictest.identification.hysteresis import HysteresisResult
-    from uictest.identification.lines import FittedLine
+from uictest.identification.cylinder import CylinderResult
+from uictest.identification.hysteresis import HysteresisResult, all_four
+from uictest.identification.lines import FittedLine
+from uictest.scenario import Compensation, Files, Parts, Roots
+from uictest.scenario.yaml import Quantity, Scalar, whole_file
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
 
+# Keys of the facts in the order of `_provenance`.
+_HYSTERESIS_KEYS = (
+    "hysteresis record",
+    "hysteresis record sha256",
+    "hysteresis samples sha256",
+    "hysteresis record origin",
+    "hysteresis command",
+    "hysteresis version",
+    "hysteresis fit",
+    "hysteresis date",
+)
+_CYLINDER_KEYS = (
+    "cylinder record",
+    "cylinder record sha256",
+    "cylinder samples sha256",
+    "cylinder record origin",
+    "cylinder command",
+    "cylinder version",
+    "cylinder fit",
+    "cylinder date",
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Provenance:
-    """What an identification rests on, as text.
+    """Where the numbers of an identification come from, as text.
 
     Attributes:
         record: name of the recording's file.
@@ -30,7 +50,7 @@ class Provenance:
         origin: what was recorded, as the file states it.
         command: the command line.
         version: of this program.
-        date: when, as given; empty: not told, so that the same record gives the same file.
+        date: as stated by the user; empty: omitted, so that the same record gives the same file.
     """
 
     record: str
@@ -42,21 +62,37 @@ class Provenance:
     date: str = ""
 
 
+def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensation:
+    """Return the compensation of a library name or of a .yaml file.
+
+    References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
+    ScenarioErrors.
+    """
+    if reference.endswith((".yaml", ".yml")):
+        files = Files(Roots.of([Path(reference)], trusted))
+        part: Compensation = Parts(files).resolve(files.at(Path(reference)), Compensation, ()).part
+        return part
+    place = whole_file(Path("--base"))
+    named: Compensation = (
+        Parts(Files()).resolve(Scalar(reference, reference, place), Compensation, ("base",)).part
+    )
+    return named
+
+
 def with_hysteresis(
-    base: scenario.Compensation,
+    base: Compensation,
     name: str,
     result: HysteresisResult,
     provenance: Provenance,
     acting_time: float,
     transition: float,
 ) -> str:
-    """The text of ``base`` with the lines of ``result``; phases not found get the BC lines."""
+    """Return the text of ``base`` with the lines of ``result``; WSP phases without a line get the BC line."""
     source, option = "identified-hysteresis", "hysteresis-option"
     numbers = _numbers(base)
     numbers["linear"] = _line(result.linear, source)
-    lines = {phase: result.lines.get(phase, result.lines[phase.replace("wsp", "bc")]) for phase in PHASES}
     numbers["hysteresis"] = {
-        **{phase: _line(line, source) for phase, line in lines.items()},
+        **{phase: _line(line, source) for phase, line in all_four(result.lines).items()},
         "transition_time": (f"{transition * 1e3:.6g} ms", option),
         "wsp_acting_time": (f"{acting_time:.6g} s", option),
     }
@@ -71,13 +107,14 @@ def with_hysteresis(
             "text": "Options --transition-time and --acting-time of the identification",
         },
     }
-    return _text(base, name, numbers, sources, _facts("hysteresis", base, provenance, fit))
+    return _text(base, name, numbers, sources, _provenance(_HYSTERESIS_KEYS, base, provenance, fit))
 
 
-def with_cylinder(
-    base: scenario.Compensation, name: str, result: CylinderResult, provenance: Provenance
-) -> str:
-    """The text of ``base`` with the transfer function of ``result``; equal sampling times keep the source."""
+def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
+    """Return the text of ``base`` with the transfer function of ``result``.
+
+    An equal sampling time keeps its source.
+    """
     source = "identified-cylinder"
     model = result.transfer_function
     numbers = _numbers(base)
@@ -93,7 +130,7 @@ def with_cylinder(
         f" fit {result.fit:.2f} %"
     )
     sources = {source: _identified("Cylinder dynamics", provenance, fit)}
-    return _text(base, name, numbers, sources, _facts("cylinder", base, provenance, fit))
+    return _text(base, name, numbers, sources, _provenance(_CYLINDER_KEYS, base, provenance, fit))
 
 
 def _line(line: FittedLine, source: str) -> Numbers:
@@ -103,7 +140,7 @@ def _line(line: FittedLine, source: str) -> Numbers:
     }
 
 
-def _numbers(base: scenario.Compensation) -> Numbers:
+def _numbers(base: Compensation) -> Numbers:
     return {
         "sampling_time": _pair(base.sampling_time),
         "linear": _pairs(base.linear),
@@ -132,24 +169,24 @@ def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str
     return {"mark": "identified", "text": text}
 
 
-def _facts(topic: str, base: scenario.Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
-    """The facts of ``base``, those of the topic replaced."""
-    kept = {key: fact for key, fact in base.provenance.items() if not key.startswith(f"{topic} ")}
-    facts = {
-        "record": provenance.record,
-        "record sha256": provenance.digest,
-        "samples sha256": provenance.samples_digest,
-        "record origin": provenance.origin,
-        "command": provenance.command,
-        "version": provenance.version,
-        "fit": fit,
-        "date": provenance.date,
-    }
-    return kept | {f"{topic} {name}": fact for name, fact in facts.items() if fact}
+def _provenance(keys: Sequence[str], base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
+    """Return the provenance of ``base`` with the facts of one identification, by `keys`, replaced."""
+    facts = (
+        provenance.record,
+        provenance.digest,
+        provenance.samples_digest,
+        provenance.origin,
+        provenance.command,
+        provenance.version,
+        fit,
+        provenance.date,
+    )
+    unchanged = {key: fact for key, fact in base.provenance.items() if key not in keys}
+    return unchanged | {key: fact for key, fact in zip(keys, facts, strict=True) if fact}
 
 
 def _text(
-    base: scenario.Compensation,
+    base: Compensation,
     name: str,
     numbers: Numbers,
     sources: Mapping[str, Any],

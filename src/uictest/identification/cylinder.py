@@ -69,9 +69,9 @@ def identify_cylinder(
         time: s, evenly sampled, every 10 ms or more often.
         tank_pressure: gauge pressure of a tank without cylinder, Pa.
         cylinder_pressure: gauge pressure of the cylinder under the same valve commands, Pa.
-        criterion: what is made least: the squares of the error, or the largest error. The latter
+        criterion: what is minimised: the squares of the error, or the largest error. The latter
             suits pressures of little noise whose difference is not linear: it bounds the error of the force.
-        held_out_share: share of the record that is kept from the fit and tells the errors.
+        held_out_share: share of the record that is excluded from the fit and gives the errors.
 
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
@@ -82,20 +82,21 @@ def identify_cylinder(
     require_excitation("tank_pressure", tank_pressure, step)
     require_excitation("cylinder_pressure", cylinder_pressure, step)
     _require_dynamics(tank_pressure, cylinder_pressure)
-    kept = held_out(len(time), held_out_share)
+    is_held_out = held_out(len(time), held_out_share)
     parts = applications(tank_pressure, cylinder_pressure, step)
-    if not any(kept[part].any() and not kept[part].all() for part in parts):
+    if not any(is_held_out[part].any() and not is_held_out[part].all() for part in parts):
         raise UnsuitableRecordError("no brake application: the pressures must rise from rest and hold")
-    stretches = [_stretch(tank_pressure[part], cylinder_pressure[part], ~kept[part]) for part in parts]
-    poles, weights = refined(stretches, step, least_squares_weights)
+    segments = [_segment(tank_pressure[part], cylinder_pressure[part], ~is_held_out[part]) for part in parts]
+    poles, weights = refined(segments, step, least_squares_weights)
     if criterion == "largest-error":
-        poles, weights = refined(stretches, step, least_largest_weights, poles)
+        poles, weights = refined(segments, step, least_largest_weights, poles)
     model = assembled(poles, weights, step)
-    computed = [model.output(tank_pressure[part])[kept[part]] for part in parts]
-    measured = [
-        tuple(samples[part][kept[part]] for samples in (tank_pressure, cylinder_pressure)) for part in parts
+    computed = [model.output(tank_pressure[part])[is_held_out[part]] for part in parts]
+    recorded = [
+        tuple(samples[part][is_held_out[part]] for samples in (tank_pressure, cylinder_pressure))
+        for part in parts
     ]
-    tank, cylinder = (np.concatenate(column) for column in zip(*measured, strict=True))
+    tank, cylinder = (np.concatenate(column) for column in zip(*recorded, strict=True))
     return _assessed(model, tank, cylinder, np.concatenate(computed))
 
 
@@ -108,15 +109,15 @@ def _require_dynamics(tank: Samples, cylinder: Samples) -> None:
 
 
 def require_fit(result: CylinderResult) -> None:
-    """Refuse a result that hardly computes the record it was found in. Raises UnsuitableRecordError."""
+    """Raise UnsuitableRecordError if the result hardly reproduces the held-out part of its record."""
     if not result.fit >= _POOREST_FIT:
         raise UnsuitableRecordError(
-            f"the cylinder pressure does not follow from the tank pressure: the fit of the part held out is"
+            f"the cylinder pressure does not follow from the tank pressure: the fit of the held-out part is"
             f" {result.fit:.3g} %, at least {_POOREST_FIT:g} % are needed"
         )
 
 
-def _stretch(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> FitSegment:
+def _segment(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> FitSegment:
     return FitSegment(tank - tank[0], cylinder - tank[0], fitted)
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +22,17 @@ from uictest.identification.suitability import (
 )
 
 Samples = NDArray[np.float64]
-PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
+PHASES: Final = MappingProxyType(
+    {
+        "bc_squeezing": (False, True),
+        "bc_releasing": (False, False),
+        "wsp_squeezing": (True, True),
+        "wsp_releasing": (True, False),
+    }
+)
+"""Phase -> whether the WSP acts, and whether the pressure rises."""
 HIGH_FORCE = 0.9
-"""Where the width of the loop is told, share of the largest measured force."""
+"""Force at which the width of the loop is reported, share of the largest recorded force."""
 _SHORTEST = 2.0
 _LONGEST_STEP = 0.05
 _SMALLEST_FORCE = 100.0
@@ -33,16 +44,16 @@ _LEAST_SPAN = 0.1
 
 @dataclass(frozen=True, slots=True)
 class HysteresisResult:
-    """The lines of the phases that the record holds, and how well they compute its force.
+    """The lines of the phases in a record, and how well they compute its force.
 
     Attributes:
-        lines: by phase; a phase that the record does not support is not there.
+        lines: by phase; a phase that the record does not support is missing.
         linear: one line for force without hysteresis, midway between the BC lines.
         loop_widths: BC and WSP: width of the loop in Pa at ``high_force``.
-        high_force: force in N at which the widths are told.
+        high_force: force in N at which the widths are reported.
         largest_error: of the computed force where the record was held out, share of the largest force.
         rms_error: as ``largest_error``.
-        largest_force: largest measured force, N.
+        largest_force: largest recorded force, N.
     """
 
     lines: dict[str, FittedLine]
@@ -62,17 +73,17 @@ def identify_hysteresis(
     transition_time: float = 0.1,
     held_out_share: float = 0.25,
 ) -> HysteresisResult:
-    """Find the phases, fit their lines and hold the computed force against the measured one.
+    """Detect the phases, fit their lines and compare the computed force with the recorded one.
 
-    The lines of the WSP are those of the BC where the record has no WSP phase, so that they can be used.
+    Without a WSP phase in the record, the lines of the BC stand in for those of the WSP.
 
     Args:
         time: s, evenly sampled.
         pressure: gauge pressure of the brake cylinder, Pa.
-        force: measured clamping force, N.
+        force: recorded clamping force, N.
         wsp_acting: when the WSP acts; see :mod:`uictest.identification.phases`.
-        transition_time: time in which one pair of lines turns into the other, s.
-        held_out_share: share of the record that is kept from the fit and tells the errors.
+        transition_time: time of the transition from one pair of lines to the other, s.
+        held_out_share: share of the record that is excluded from the fit and gives the errors.
 
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
@@ -85,10 +96,10 @@ def identify_hysteresis(
         raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
     if np.ptp(force) < _LEAST_SPAN * largest:
         raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
-    kept = held_out(len(time), held_out_share)
-    lines = _lines(pressure, force, wsp_acting, ~kept, step)
-    computed = computed_force(pressure, wsp_acting, _all_four(lines), transition_time, step, float(force[0]))
-    error = ((computed - force) / largest)[kept]
+    is_held_out = held_out(len(time), held_out_share)
+    lines = _lines(pressure, force, wsp_acting, ~is_held_out, step)
+    computed = computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
+    error = ((computed - force) / largest)[is_held_out]
     return HysteresisResult(
         lines,
         _midway(lines["bc_squeezing"], lines["bc_releasing"]),
@@ -106,9 +117,8 @@ def _lines(
     squeezing, releasing = on_lines(pressure, force, step)
     every = max(round(_INDEPENDENT / step), 1)
     lines: dict[str, FittedLine] = {}
-    for phase in PHASES:
-        mask = fitted & (acting if phase.startswith("wsp") else ~acting)
-        mask &= squeezing if phase.endswith("squeezing") else releasing
+    for phase, (wsp_acts, rises) in PHASES.items():
+        mask = fitted & (acting if wsp_acts else ~acting) & (squeezing if rises else releasing)
         points = np.flatnonzero(mask)[::every]
         if len(points) and np.ptp(pressure[points]) >= _LEAST_SPAN * np.ptp(pressure):
             try:
@@ -123,8 +133,15 @@ def _lines(
     return lines
 
 
-def _all_four(lines: dict[str, FittedLine]) -> dict[str, FittedLine]:
-    return {phase: lines.get(phase, lines[phase.replace("wsp", "bc")]) for phase in PHASES}
+def all_four(lines: Mapping[str, FittedLine]) -> dict[str, FittedLine]:
+    """Return a line for every phase: a phase of the WSP without one has the line of the BC."""
+    squeezing, releasing = lines["bc_squeezing"], lines["bc_releasing"]
+    return {
+        "bc_squeezing": squeezing,
+        "bc_releasing": releasing,
+        "wsp_squeezing": lines.get("wsp_squeezing", squeezing),
+        "wsp_releasing": lines.get("wsp_releasing", releasing),
+    }
 
 
 def _midway(squeezing: FittedLine, releasing: FittedLine) -> FittedLine:
@@ -134,8 +151,9 @@ def _midway(squeezing: FittedLine, releasing: FittedLine) -> FittedLine:
 
 
 def _widths(lines: dict[str, FittedLine], force: float) -> dict[str, float]:
+    pairs = {"bc": ("bc_squeezing", "bc_releasing"), "wsp": ("wsp_squeezing", "wsp_releasing")}
     return {
-        kind: lines[f"{kind}_squeezing"].pressure(force) - lines[f"{kind}_releasing"].pressure(force)
-        for kind in ("bc", "wsp")
-        if f"{kind}_squeezing" in lines and f"{kind}_releasing" in lines
+        kind: lines[squeezing].pressure(force) - lines[releasing].pressure(force)
+        for kind, (squeezing, releasing) in pairs.items()
+        if squeezing in lines and releasing in lines
     }

@@ -1,4 +1,4 @@
-"""A straight line through measured points, robustly."""
+"""A robust straight line through recorded points."""
 
 from __future__ import annotations
 
@@ -51,16 +51,16 @@ def robust_line(pressure: Samples, force: Samples) -> FittedLine:
     centre, width, height = pressure.mean(), pressure.std(), max(force.std(), _SMALLEST_SCALE)
     x, y = (pressure - centre) / width, (force - force.mean()) / height
     line = np.polyfit(x, y, 1)
-    # What the first fit takes for noise holds the points that it followed; each further one knows better.
+    # The first estimate of the noise includes the outliers that its line followed; each round improves it.
     for _ in range(_ROUNDS):
         scale = max(_NORMAL_MAD * float(np.median(np.abs(y - np.polyval(line, x)))), _SMALLEST_SCALE)
-        found = least_squares(lambda each: each[0] * x + each[1] - y, line, loss="soft_l1", f_scale=scale)
-        line = found.x
-    covariance = np.linalg.inv(found.jac.T @ found.jac) * 2.0 * found.cost / (len(x) - 2)
+        solution = least_squares(lambda each: each[0] * x + each[1] - y, line, loss="soft_l1", f_scale=scale)
+        line = solution.x
+    covariance = np.linalg.inv(solution.jac.T @ solution.jac) * 2.0 * solution.cost / (len(x) - 2)
     spread = 1.96 * np.sqrt(np.diag(covariance))
-    slope = found.x[0] * height / width
+    slope = solution.x[0] * height / width
     at_zero = -centre / width
-    intercept = force.mean() + height * (found.x[1] + found.x[0] * at_zero)
+    intercept = force.mean() + height * (solution.x[1] + solution.x[0] * at_zero)
     intercept_spread = np.hypot(spread[1], spread[0] * at_zero)
     return FittedLine(
         float(slope),

@@ -21,28 +21,28 @@ _STIEGLITZ_ROUNDS = 5
 _LAWSON_ROUNDS = 40
 _DEFAULT_STARTS = ((0.1, 0.3, 3.0), (0.02, 0.3, 5.0), (0.15, 1.0, 2.5), (0.25, 1.4, 12.0))
 _COARSE_POINTS, _POINTS = 4000, 40_000
-"""Points in which errors are told, in the first search and in the refinement; all others are filtered too."""
+"""Points at which errors are computed, in the first search and in the refinement."""
 _COARSE_STEP = 0.005
 """Sampling time in s of the first search; the dynamics of tanks take tenths of seconds."""
 
 
-def least_squares_weights(columns: Samples, wanted: Samples) -> tuple[float, Samples]:
-    """Root-mean-square error and the weights that make it least."""
-    weights = np.asarray(np.linalg.lstsq(columns, wanted, rcond=1e-10)[0], dtype=np.float64)
-    return float(np.sqrt(np.mean((wanted - columns @ weights) ** 2))), weights
+def least_squares_weights(columns: Samples, target: Samples) -> tuple[float, Samples]:
+    """Return the least root-mean-square error and its weights."""
+    weights = np.asarray(np.linalg.lstsq(columns, target, rcond=1e-10)[0], dtype=np.float64)
+    return float(np.sqrt(np.mean((target - columns @ weights) ** 2))), weights
 
 
-def least_largest_weights(columns: Samples, wanted: Samples) -> tuple[float, Samples]:
-    """Largest error and the weights that make it least: Lawson's reweighted least squares.
+def least_largest_weights(columns: Samples, target: Samples) -> tuple[float, Samples]:
+    """Return the least largest error and its weights, by Lawson's reweighted least squares.
 
     C. L. Lawson, Contributions to the theory of linear least maximum approximations, thesis, UCLA, 1961.
     """
-    emphasis = np.full(len(wanted), 1.0 / len(wanted))
+    emphasis = np.full(len(target), 1.0 / len(target))
     best = np.inf, np.zeros(columns.shape[1])
     for _ in range(_LAWSON_ROUNDS):
         heavy = columns * emphasis[:, None]
-        weights = np.linalg.lstsq(heavy.T @ columns, heavy.T @ wanted, rcond=1e-13)[0]
-        error = np.abs(wanted - columns @ weights)
+        weights = np.linalg.lstsq(heavy.T @ columns, heavy.T @ target, rcond=1e-13)[0]
+        error = np.abs(target - columns @ weights)
         largest = float(error.max())
         if largest < best[0]:
             best = largest, weights
@@ -56,19 +56,19 @@ def least_largest_weights(columns: Samples, wanted: Samples) -> tuple[float, Sam
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FitSegment:
-    """Input and output that begin at rest at zero, and where the output is fitted."""
+    """Input and output of one segment, at rest at zero at its start, and where the output is fitted."""
 
-    given: Samples
-    wanted: Samples
+    input: Samples
+    output: Samples
     fitted: NDArray[np.bool_]
 
     def thinned(self, every: int) -> FitSegment:
         """Every so many samples."""
-        return FitSegment(self.given[::every], self.wanted[::every], self.fitted[::every])
+        return FitSegment(self.input[::every], self.output[::every], self.fitted[::every])
 
 
 def refined(
-    stretches: Sequence[FitSegment], step: float, weigh: Weigh, first: Poles | None = None
+    segments: Sequence[FitSegment], step: float, weigh: Weigh, first: Poles | None = None
 ) -> tuple[Poles, Samples]:
     """Poles and weights with the least error of the simulated output where it is fitted.
 
@@ -77,31 +77,31 @@ def refined(
     refined on the record's own.
     """
     coarse = max(round(_COARSE_STEP / step), 1)
-    judge = _judge([each.thinned(coarse) for each in stretches], coarse * step, weigh, _COARSE_POINTS)
-    span = max(float(np.ptp(each.given)) for each in stretches)
+    judge = _judge([each.thinned(coarse) for each in segments], coarse * step, weigh, _COARSE_POINTS)
+    span = max(float(np.ptp(each.input)) for each in segments)
     starts = [
-        *_starts(max(stretches, key=lambda each: len(each.given)), step),
+        *_starts(max(segments, key=lambda each: len(each.input)), step),
         *([] if first is None else [first]),
     ]
     ends = [_descended(judge, start, 150, span) for start in starts]
     best = min(ends, key=lambda poles: judge(poles)[0])
-    exactly = _judge(stretches, step, weigh, _POINTS)
+    exactly = _judge(segments, step, weigh, _POINTS)
     poles = bounded(_descended(exactly, best, 120, span), step)
     return poles, exactly(poles)[1]
 
 
-def _judge(stretches: Sequence[FitSegment], step: float, weigh: Weigh, points: int) -> Judge:
+def _judge(segments: Sequence[FitSegment], step: float, weigh: Weigh, points: int) -> Judge:
     """Error and weights as a function of the poles, at a sampling time."""
-    total = sum(np.count_nonzero(each.fitted) for each in stretches)
+    total = sum(np.count_nonzero(each.fitted) for each in segments)
     every = max(total // points, 1)
-    chosen = [np.flatnonzero(each.fitted)[::every] for each in stretches]
+    chosen = [np.flatnonzero(each.fitted)[::every] for each in segments]
     target = np.concatenate(
-        [(each.wanted - each.given)[at] for each, at in zip(stretches, chosen, strict=True)]
+        [(each.output - each.input)[at] for each, at in zip(segments, chosen, strict=True)]
     )
 
     def judge(poles: Poles) -> tuple[float, Samples]:
         within = bounded(poles, step)
-        columns = [basis(each.given, within, step)[at] for each, at in zip(stretches, chosen, strict=True)]
+        columns = [basis(each.input, within, step)[at] for each, at in zip(segments, chosen, strict=True)]
         return weigh(np.concatenate(columns), target)
 
     return judge
@@ -135,7 +135,7 @@ def bounded(poles: Poles, step: float) -> Poles:
 
 def _starts(longest: FitSegment, step: float) -> Iterator[Poles]:
     yield from (_from_time_constants(constants) for constants in _DEFAULT_STARTS)
-    linear = _linear_start(longest.given, longest.wanted, step)
+    linear = _linear_start(longest.input, longest.output, step)
     if linear is not None:
         yield linear
 
@@ -145,7 +145,7 @@ def _from_time_constants(constants: tuple[float, ...]) -> Poles:
     return np.log([fast, middle + slow, middle * slow])
 
 
-def _linear_start(given: Samples, wanted: Samples, step: float) -> Poles | None:
+def _linear_start(tank: Samples, cylinder: Samples, step: float) -> Poles | None:
     """Poles by Steiglitz and McBride's iteration from an ARX fit, on a coarser grid.
 
     K. Steiglitz and L. E. McBride, A technique for the identification of linear systems, IEEE Trans. Autom.
@@ -155,13 +155,13 @@ def _linear_start(given: Samples, wanted: Samples, step: float) -> Poles | None:
     from scipy.signal import lfilter
 
     coarse = max(round(0.02 / step), 1)
-    u, y = (samples[::coarse] - samples[0] for samples in (given, wanted))
+    u, y = (samples[::coarse] - samples[0] for samples in (tank, cylinder))
     denominator = np.array([1.0, 0.0, 0.0, 0.0])
     for _ in range(_STIEGLITZ_ROUNDS):
         uf, yf = lfilter([1.0], denominator, u), lfilter([1.0], denominator, y)
         columns = np.stack([-yf[2:-1], -yf[1:-2], -yf[:-3], uf[3:], uf[2:-1], uf[1:-2], uf[:-3]], axis=1)
-        found = np.linalg.lstsq(columns, yf[3:], rcond=None)[0]
-        denominator = np.concatenate([[1.0], found[:3]])
+        solution = np.linalg.lstsq(columns, yf[3:], rcond=None)[0]
+        denominator = np.concatenate([[1.0], solution[:3]])
         roots = np.roots(denominator)
         if np.any(np.abs(roots) >= 1.0):
             return None

@@ -2,7 +2,7 @@
 
 A caliper is a play operator: after the pressure turns, the force stays until the other line is reached. A
 sample therefore lies on a line only when its force has left the value at which the pressure turned; every
-other sample is inside the loop and says nothing about the lines.
+other sample is inside the loop and does not belong to a line.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Samples = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 TURNING = 0.02
-"""Pressure that has to be undone before the pressure counts as turned, share of its range."""
+"""Change back after which the pressure counts as turned, share of its range."""
 SETTLING = 0.05
 """Time in s for which the force must have left the inside: pads that have just touched the disc catch up."""
 DEPARTURE = 0.03
@@ -40,7 +40,7 @@ def runs(pressure: Samples, smallest: float) -> list[tuple[int, int, int]]:
 
     A run ends at its extreme; the pressure has turned once it has come back by ``smallest``.
     """
-    found: list[tuple[int, int, int]] = []
+    segments: list[tuple[int, int, int]] = []
     first = extreme = low = high = 0
     direction = 0
     for n, value in enumerate(pressure):
@@ -55,12 +55,12 @@ def runs(pressure: Samples, smallest: float) -> list[tuple[int, int, int]]:
             turned, extreme = 1, low
         if turned:
             if direction != 0:
-                found.append((first, extreme, direction))
+                segments.append((first, extreme, direction))
             first, direction = extreme, turned
             low = high = n
     if direction != 0:
-        found.append((first, high if direction > 0 else low, direction))
-    return found
+        segments.append((first, high if direction > 0 else low, direction))
+    return segments
 
 
 def on_lines(pressure: Samples, force: Samples, step: float) -> tuple[Mask, Mask]:

@@ -1,4 +1,4 @@
-"""Whether a record can support an identification."""
+"""Checks of whether a record supports an identification."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ EVENNESS = 0.01
 
 
 class UnsuitableRecordError(ValueError):
-    """A record from which nothing can be identified; the message says why."""
+    """A record that does not support an identification; the message says why."""
 
 
 def require_finite(channels: dict[str, Samples]) -> None:
-    """Refuse channels with samples that are missing or infinite. Raises UnsuitableRecordError."""
+    """Raise UnsuitableRecordError if samples of a channel are missing or infinite."""
     for name, samples in channels.items():
         wrong = np.count_nonzero(~np.isfinite(samples))
         if wrong:
             first = int(np.argmin(np.isfinite(samples)))
             raise UnsuitableRecordError(
-                f"channel {name!r} has {wrong} samples that are no number, the first at sample {first}"
+                f"channel {name!r} has {wrong} samples that are not numbers, the first at sample {first}"
             )
 
 
 def require_duration(time: Samples, shortest: float) -> None:
-    """Refuse a record shorter than ``shortest`` s. Raises UnsuitableRecordError."""
+    """Raise UnsuitableRecordError if a record is shorter than ``shortest`` s."""
     duration = float(time[-1] - time[0]) if len(time) else 0.0
     if duration < shortest:
         raise UnsuitableRecordError(f"too short: {duration:.3g} s, at least {shortest:g} s are needed")
@@ -53,9 +53,9 @@ def sampling_time(time: Samples, longest: float) -> float:
 
 
 def require_excitation(name: str, pressure: Samples, step: float) -> None:
-    """Refuse a pressure that hardly moves. Raises UnsuitableRecordError.
+    """Raise UnsuitableRecordError if a pressure hardly varies.
 
-    It must turn a few times by a tenth of its range, for one rise or fall cannot tell three poles apart.
+    It must turn a few times by a tenth of its range: one rise or fall does not identify three poles.
     """
     span = float(np.ptp(pressure))
     if span < _SMALLEST_SPAN:
@@ -76,7 +76,7 @@ _SPACING = 0.01
 
 
 def held_out(count: int, share: float) -> NDArray[np.bool_]:
-    """Which samples are kept from the fit: stretches spread over the whole record."""
-    stretches = 20
-    number = np.arange(count) * stretches // count
+    """Return which samples are excluded from the fit: segments spread over the whole record."""
+    segments = 20
+    number = np.arange(count) * segments // count
     return np.asarray(np.floor((number + 1) * share) > np.floor(number * share))

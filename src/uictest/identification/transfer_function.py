@@ -1,4 +1,4 @@
-"""A stable third-order transfer function with unity gain at rest, parametrised so that it cannot be other.
+"""A third-order transfer function, stable and of unity gain at rest by its parametrisation.
 
     H(s) = 1 + c1 (1/(1 + T s) - 1) + (c2 + c3 alpha s)/(1 + alpha s + beta s^2) - c2,   T, alpha, beta > 0
 
@@ -68,7 +68,7 @@ class TransferFunction:
 def sections(poles: Poles, step: float) -> list[tuple[Samples, Samples]]:
     """Numerator and denominator of the three held sections: lag, low pass and band pass."""
     time_constant, alpha, beta = np.exp(poles)
-    kept = np.exp(-step / time_constant)
+    decay = np.exp(-step / time_constant)
     scale = np.sqrt(beta)
     # State: the low pass and scale x its rate; the input, held, is the third.
     rates = np.array(
@@ -81,7 +81,7 @@ def sections(poles: Poles, step: float) -> list[tuple[Samples, Samples]]:
     later = transition @ driven - trace * driven
     low = np.array([0.0, driven[0], later[0]])
     band = np.array([0.0, driven[1], later[1]]) * (alpha / scale)
-    lag = np.array([0.0, 1.0 - kept]), np.array([1.0, -kept])
+    lag = np.array([0.0, 1.0 - decay]), np.array([1.0, -decay])
     return [lag, (low, denominator), (band, denominator)]
 
 

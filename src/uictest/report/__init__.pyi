@@ -94,6 +94,7 @@ from .terminal.fitted_columns import (
     wrapped_name as wrapped_name,
 )
 from .terminal.verdict_table import explanation_text as explanation_text, verdict_table as verdict_table
+from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     PLOT_QUANTITIES as PLOT_QUANTITIES,
     Panel as Panel,

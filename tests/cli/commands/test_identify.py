@@ -50,7 +50,7 @@ def record(workplace):
 
 
 def read(path) -> Compensation:
-    from uictest.identification.compensation_base import load_compensation
+    from uictest.identification.compensation_file import load_compensation
 
     return load_compensation(str(path))
 
@@ -182,7 +182,7 @@ def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workpl
         (
             "measured_pressure_2",
             lambda p: p * np.nan,
-            "'measured_pressure_2' has 22001 samples that are no number",
+            "'measured_pressure_2' has 22001 samples that are not numbers",
         ),
         ("measured_pressure_2", lambda p: -p, "never above zero"),
         ("measured_pressure_2", lambda p: 4.0 - p, "does not follow from the tank pressure"),

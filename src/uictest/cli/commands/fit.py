@@ -146,7 +146,7 @@ def _publish(
         both = fitting.overlay(stop, simulated)
         agreed = fitting.agreement(stop, simulated, both)
         formats.writer_of("csv")(both, folder.path / "overlay.csv")
-        recording.write_text_atomic(folder.path / "overlay.svg", fitting.overlay_svg(both))
+        recording.write_text_atomic(folder.path / "overlay.svg", report.overlay_svg(both))
         document = fitting.fit_document(found, agreed, stop.choices)
         recording.write_text_atomic(folder.path / "fit.json", json.dumps(document, indent=2) + "\n")
         data(str(agreed))

@@ -46,14 +46,16 @@ class FourPhaseHysteresis(Section):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield the pairs whose squeezing line is not below the releasing line."""
-        for phase in ("bc", "wsp"):
-            squeezing: ForceLine = getattr(self, f"{phase}_squeezing")
-            releasing: ForceLine = getattr(self, f"{phase}_releasing")
+        pairs = (
+            ("bc_squeezing", self.bc_squeezing, "bc_releasing", self.bc_releasing),
+            ("wsp_squeezing", self.wsp_squeezing, "wsp_releasing", self.wsp_releasing),
+        )
+        for squeezing_key, squeezing, releasing_key, releasing in pairs:
             if _crosses(squeezing, releasing):
                 yield Inconsistency(
-                    (f"{phase}_squeezing",),
+                    (squeezing_key,),
                     "the squeezing line must lie below the releasing line wherever there is force",
-                    f"compare its slope and intercept with {phase}_releasing",
+                    f"compare its slope and intercept with {releasing_key}",
                 )
 
 

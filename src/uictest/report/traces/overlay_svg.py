@@ -1,10 +1,11 @@
-"""The overlay as a drawing: train and wheel speeds, recorded and simulated, one panel each."""
+"""A recorded stop and its simulation as an SVG: train and wheel speeds, one panel each."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from uictest.recording import TIME, Recording
+from uictest.units import KILOMETRE_PER_HOUR
 
 _WIDTH, _PANEL, _MARGIN = 900, 130, 45
 _MOST_POINTS = 1500
@@ -26,7 +27,7 @@ def overlay_svg(both: Recording) -> str:
 def _panel(both: Recording, name: str, number: int) -> str:
     top = _MARGIN + number * (_PANEL + _MARGIN)
     end = float(both[TIME][-1])
-    highest = 3.6 * max(float(np.nanmax(both[f"{name}_{kind}"])) for kind in _COLOURS)
+    highest = max(float(np.nanmax(both[f"{name}_{kind}"])) for kind in _COLOURS) / KILOMETRE_PER_HOUR
     lines = "".join(_line(both, f"{name}_{kind}", colour, top, highest) for kind, colour in _COLOURS.items())
     frame = (
         f'<rect x="{_MARGIN}" y="{top}" width="{_WIDTH - 2 * _MARGIN}" height="{_PANEL}" fill="none"'
@@ -42,6 +43,7 @@ def _panel(both: Recording, name: str, number: int) -> str:
 def _line(both: Recording, channel: str, colour: str, top: float, highest: float) -> str:
     stride = max(len(both) // _MOST_POINTS, 1)
     x = _MARGIN + (_WIDTH - 2 * _MARGIN) * both[TIME][::stride] / both[TIME][-1]
-    y = top + _PANEL * (1.0 - 3.6 * both[channel][::stride] / max(highest, 1e-9))
+    speed = both[channel][::stride] / KILOMETRE_PER_HOUR
+    y = top + _PANEL * (1.0 - speed / max(highest, 1e-9))
     points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True) if np.isfinite(b))
     return f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.2"/>'
