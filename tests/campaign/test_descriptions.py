@@ -6,7 +6,7 @@ import pytest
 
 from uictest.campaign import subjects_of
 from uictest.report import CaseDescription, subjects_form
-from uictest.report.case_description import read_subjects
+from uictest.report.document import read_subjects
 from uictest.scenario import load
 
 _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\ninitial_speed: 80 km/h\n"

@@ -4,7 +4,7 @@ from typing import Any
 
 from uictest.field_data import recorded_description, stated_case
 from uictest.report import subjects_form
-from uictest.report.case_description import read_subjects
+from uictest.report.document import read_subjects
 from uictest.scenario import Case
 
 

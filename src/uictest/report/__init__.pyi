@@ -4,16 +4,16 @@ from .baseline import (
     case_word as case_word,
     not_compared_sentences as not_compared_sentences,
 )
-from .case_description import CaseDescription as CaseDescription, subjects_form as subjects_form
+from .case_description import CaseDescription as CaseDescription
 from .content import RunContent as RunContent
 from .csv_text import Cell as Cell, csv_text as csv_text
 from .difference import (
     Difference as Difference,
-    differences_form as differences_form,
     value_text as value_text,
     wheelset_quantity as wheelset_quantity,
     worst_of_wheelsets as worst_of_wheelsets,
 )
+from .document import differences_form as differences_form, subjects_form as subjects_form
 from .escaping import csv_cell as csv_cell, printable as printable, xml_text as xml_text
 from .format_registry import (
     IN_EVERY_RUN as IN_EVERY_RUN,

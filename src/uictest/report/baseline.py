@@ -4,45 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Any, ClassVar, Final
-
-from pydantic import (
-    BeforeValidator,
-    ConfigDict,
-    PlainSerializer,
-    PlainValidator,
-    SerializerFunctionWrapHandler,
-    TypeAdapter,
-    WrapSerializer,
-)
 
 from uictest import evaluation
 from uictest.report.difference import (
     Difference,
     difference_sentence,
-    differences_form,
-    differences_of,
     worst_of_wheelsets,
 )
 from uictest.report.escaping import printable
 from uictest.report.wording import DIFFERS, counted, explanation, listed, result_word, tally
-
-DifferencesByCase = Mapping[str, Sequence[Difference]]
-
-
-def _by_case(content: object) -> DifferencesByCase:
-    by_case: dict[str, list[Difference]] = {}
-    for difference in differences_of(content):
-        by_case.setdefault(difference.case, []).append(difference)
-    return by_case
-
-
-def _as_list(by_case: DifferencesByCase) -> list[dict[str, Any]]:
-    return differences_form([difference for each in by_case.values() for difference in each])
-
-
-WrittenDifferences = Annotated[DifferencesByCase, PlainValidator(_by_case), PlainSerializer(_as_list)]
-"""In JSON the differences are one list: each names its case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +32,11 @@ class BaselineComparison:
 
     """
 
-    __pydantic_config__: ClassVar = ConfigDict(extra="forbid", defer_build=True)
-
     folder: str
     sha256: str
     compared: int = 0
     within: int = 0
-    differences: WrittenDifferences = field(default_factory=dict)
+    differences: Mapping[str, Sequence[Difference]] = field(default_factory=dict)
     missing: Mapping[str, str] = field(default_factory=dict)
     not_run: Sequence[str] = ()
     not_selected: Sequence[str] = ()
@@ -83,37 +51,6 @@ class BaselineComparison:
     def all_differences(self) -> list[Difference]:
         """The quantities out of tolerance, case after case."""
         return [difference for each in self.differences.values() for difference in each]
-
-
-def _with_agrees(baseline: BaselineComparison, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-    form = write(baseline)
-    return {"folder": form["folder"], "sha256": form["sha256"], "agrees": baseline.agrees, **form}
-
-
-def _without_agrees(content: object) -> object:
-    if isinstance(content, Mapping):
-        return {key: value for key, value in content.items() if key != "agrees"}
-    return content
-
-
-_BASELINE: Final = TypeAdapter(
-    Annotated[BaselineComparison, WrapSerializer(_with_agrees), BeforeValidator(_without_agrees)]
-)
-
-
-def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
-    """Return the JSON form of a comparison, with `agrees` for readers that need no more."""
-    form: dict[str, Any] = evaluation.to_json_form(_BASELINE, baseline)
-    return form
-
-
-def read_baseline(document: Mapping[str, Any]) -> BaselineComparison | None:
-    """Return how the run of a document compared with its baseline; None without one.
-
-    Raises ValueError where the document holds something else.
-    """
-    content = document.get("baseline")
-    return evaluation.from_json_form(_BASELINE, content, place="baseline") if content else None
 
 
 def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) -> str:

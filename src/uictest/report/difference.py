@@ -6,24 +6,14 @@ import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Final
 
-from pydantic import BeforeValidator, ConfigDict, PlainSerializer, TypeAdapter
-
-from uictest import evaluation
-from uictest.evaluation import OptionalNumber
-from uictest.measures import WHEELSET_COLUMNS
+from uictest import measures
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity
 
-Value = float | str
+Value = int | float | str
 """A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
-
-WrittenValue = Annotated[
-    int | float | str, BeforeValidator(evaluation.nan_for_none), PlainSerializer(evaluation.finite_or_none)
-]
-"""A value, NaN as null in JSON."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,27 +26,13 @@ class Difference:
 
     case: str
     quantity: str
-    first: WrittenValue
-    second: WrittenValue
+    first: Value
+    second: Value
     within: bool
     unit: str = ""
-    deviation: OptionalNumber = None
-    allowed: OptionalNumber = None
+    deviation: float | None = None
+    allowed: float | None = None
     remark: str = ""
-
-
-_DIFFERENCES: Final = TypeAdapter(list[Difference], config=ConfigDict(extra="forbid", defer_build=True))
-
-
-def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
-    """Return the JSON form of differences, NaN as None."""
-    form: list[dict[str, Any]] = evaluation.to_json_form(_DIFFERENCES, list(differences))
-    return form
-
-
-def differences_of(content: object) -> list[Difference]:
-    """Return the differences whose JSON form is `content`. Raises ValueError for anything else."""
-    return evaluation.from_json_form(_DIFFERENCES, content)
 
 
 def value_text(value: Value) -> str:
@@ -83,10 +59,10 @@ def wheelset_quantity(measure: str, wheelset: int) -> str:
 
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
     """Return the differences; of a measure that the wheelsets of a stop have, the worst stands for all."""
-    measures = {wheelset_quantity(name, n): name for name in WHEELSET_COLUMNS for n in WHEELSETS}
+    columns = {wheelset_quantity(name, n): name for name in measures.WHEELSET_COLUMNS for n in WHEELSETS}
     by_measure: dict[tuple[str, str], list[Difference]] = {}
     for difference in differences:
-        measure = measures.get(difference.quantity, difference.quantity)
+        measure = columns.get(difference.quantity, difference.quantity)
         by_measure.setdefault((difference.case, measure), []).append(difference)
     return list(_worst_of_each(by_measure.values()))
 

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from uictest import evaluation, recording
-from uictest.report.baseline import read_baseline
-from uictest.report.case_description import read_subjects
 from uictest.report.content import RunContent
+from uictest.report.document import read_baseline, read_subjects
 from uictest.report.manifest import read_manifest
 from uictest.report.run_report import RECORDINGS, RESULTS
 from uictest.report.traces.trace import Trace, trace_of

@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from uictest import evaluation, recording
-from uictest.report.baseline import baseline_form
-from uictest.report.case_description import subjects_form
 from uictest.report.content import RunContent
+from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats
 from uictest.report.manifest import RunManifest, digest, manifest_form
 
