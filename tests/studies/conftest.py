@@ -9,16 +9,16 @@ import pytest
 
 from uictest.studies import (
     STUDIES,
-    FoundValue,
     StopRunner,
     Study,
     StudyFindings,
     StudyQuantity,
     StudyResult,
+    StudyValue,
     run_study,
 )
 
-Conduct = Callable[[str], StudyResult]
+RunStudy = Callable[[str], StudyResult]
 
 
 @pytest.fixture(scope="session")
@@ -27,8 +27,8 @@ def stop_runner() -> StopRunner:
 
 
 @pytest.fixture(scope="session")
-def result(stop_runner: StopRunner) -> Conduct:
-    """Run a study of the catalogue, or give what it came to."""
+def result(stop_runner: StopRunner) -> RunStudy:
+    """Run a study of the catalogue, or return its earlier result."""
     return cache(lambda name: run_study(STUDIES[name], stop_runner))
 
 
@@ -38,17 +38,17 @@ def made_up() -> StudyResult:
     quantities = (
         StudyQuantity("time", "braking time", "s", "17.6 s", 16.5, 19.0, reason="ours"),
         StudyQuantity(
-            "share", "[bold]share", "%", "below 2 %", upper=2.0, below=True, digits=2, reason="source"
+            "share", "[bold]share", "%", "below 2 %", upper=2.0, below=True, digits=2, reason="paper"
         ),
         StudyQuantity("count", "actuations", digits=0),
     )
-    figures = {
-        "time": FoundValue(18.12, 17.9, 18.34),
-        "share": FoundValue(2.0),
-        "count": FoundValue(float("nan"), float("nan"), float("nan")),
+    values = {
+        "time": StudyValue(18.12, 17.9, 18.34),
+        "share": StudyValue(2.0),
+        "count": StudyValue(float("nan"), float("nan"), float("nan")),
     }
     findings = StudyFindings(
-        figures, {"data": {"time_s": [0.0, 0.5], "what": ["a, b", None]}}, notes=("Made up.",)
+        values, {"data": {"time_s": [0.0, 0.5], "what": ["a, b", None]}}, notes=("Made up.",)
     )
     study = Study("made-up", "A made-up study", "17.6 s", quantities, lambda stop_runner: findings)
     return StudyResult(study, findings)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from uictest.studies import STUDIES, StudyResult
-from uictest.studies.comparison import band_text, found_text
+from uictest.studies.comparison import band_text, ours_text
 
 _SLOW = frozenset({"robustness"})
 
@@ -22,5 +22,5 @@ BOUNDED = [
 @pytest.mark.parametrize(("study", "key"), BOUNDED)
 def test_the_figure_lies_in_its_band(study: str, key: str, result: Callable[[str], StudyResult]) -> None:
     comparison = next(each for each in result(study).comparisons if each.quantity.key == key)
-    found, band = found_text(comparison), band_text(comparison.quantity)
-    assert comparison.verdict == "holds", f"{comparison.quantity.title}: {found}, band {band}"
+    found, band = ours_text(comparison), band_text(comparison.quantity)
+    assert comparison.status == "holds", f"{comparison.quantity.title}: {found}, band {band}"

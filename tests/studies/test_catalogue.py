@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
-from uictest.studies import STUDIES, StudyQuantity
+from uictest.studies import STUDIES, StudyQuantity, experiments
+from uictest.studies.catalogue import find_studies
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
@@ -24,7 +26,7 @@ BANDS = {
     ("appendix-b", "initial_adhesion"): (None, 0.08),
     ("appendix-b", "minimum_slide"): (35.0, None),
 }
-"""Of the tool's specification; where the source gives a figure, about that."""
+"""Of the tool's specification; where the paper gives a figure, about that."""
 
 
 def _quantities(name: str) -> dict[str, StudyQuantity]:
@@ -49,3 +51,19 @@ def test_keys_are_unique_and_every_band_says_where_it_comes_from(study: str) -> 
 def test_names_serve_as_folders_and_titles_name_no_figure_of_the_source(study: str) -> None:
     assert re.fullmatch(r"[a-z][a-z0-9-]*", study)
     assert not re.search(r"\b(fig|figure|table)\b", STUDIES[study].title, re.IGNORECASE)
+
+
+def test_studies_are_listed_in_the_order_of_the_paper_then_ours() -> None:
+    positions = [study.position for study in STUDIES.values()]
+    assert positions == sorted(set(positions))
+    assert next(iter(STUDIES)) == "bench-loops"
+    assert list(STUDIES)[-1] == "field-against-rig"
+
+
+def test_a_new_study_is_one_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = "from uictest.studies.study import Study\nSTUDY = Study('new', 'New', '', (), None, position=15)\n"
+    (tmp_path / "new_study.py").write_text(text)
+    monkeypatch.setattr(experiments, "__path__", [*experiments.__path__, str(tmp_path)])
+    names = list(find_studies())
+    assert names[:3] == ["bench-loops", "new", "four-phase-lines"]
+    assert len(names) == len(STUDIES) + 1

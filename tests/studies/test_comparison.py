@@ -6,16 +6,16 @@ from dataclasses import replace
 import pytest
 
 from uictest.studies import StudyQuantity, StudyResult, document, lines, study_table
-from uictest.studies.comparison import band_text, comparison_table, found_text, source_text
+from uictest.studies.comparison import band_text, comparison_table, ours_text, paper_text
 
 
-def test_lines_say_source_and_here_and_band(made_up: StudyResult) -> None:
+def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> None:
     assert lines(made_up) == [
         "made-up: A made-up study",
-        "  Figure and table data of the source are not public; its text says: 17.6 s.",
-        "  holds   braking time: source 17.6 s; here 18.1 (17.9 .. 18.3) s; band 16.5 .. 19 s (ours)",
-        "  misses  [bold]share: source below 2 %; here 2.00 %; band < 2 % (source)",
-        "  shown   actuations: source not public; here - (- .. -)",
+        "  The data of the paper's figures and tables are not public; its text says: 17.6 s.",
+        "  holds   braking time: paper 17.6 s; ours 18.1 (17.9 .. 18.3) s; band 16.5 .. 19 s (ours)",
+        "  misses  [bold]share: paper below 2 %; ours 2.00 %; band < 2 % (paper)",
+        "  shown   actuations: paper not public; ours - (- .. -)",
         "  Made up.",
     ]
 
@@ -32,8 +32,8 @@ def test_bands_in_words(quantity: StudyQuantity, text: str) -> None:
     assert band_text(quantity) == text
 
 
-def test_a_study_of_ours_claims_nothing_of_the_source(made_up: StudyResult) -> None:
-    assert "of ours" in source_text(replace(made_up.study, source=""))
+def test_a_study_of_ours_claims_nothing_of_the_paper(made_up: StudyResult) -> None:
+    assert "Our own study" in paper_text(replace(made_up.study, paper=""))
 
 
 def test_the_document_holds_no_number_that_json_lacks(made_up: StudyResult) -> None:
@@ -52,7 +52,7 @@ def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
         console.print(study_table(made_up))
     shown = capture.get()
     assert "[bold]share" in shown
-    assert found_text(made_up.comparisons[0]) in shown
+    assert ours_text(made_up.comparisons[0]) in shown
 
 
 def test_every_comparison_is_a_row(made_up: StudyResult) -> None:

@@ -35,7 +35,7 @@ def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
 
 
 def test_work_is_returned_in_order() -> None:
-    assert StopRunner(jobs=3).each(lambda number: number**2, range(50)) == [n**2 for n in range(50)]
+    assert StopRunner(jobs=3).map(lambda number: number**2, range(50)) == [n**2 for n in range(50)]
 
 
 def test_another_seed_changes_nothing_but_the_seed() -> None:

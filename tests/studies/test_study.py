@@ -4,20 +4,20 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import FoundValue, StopRunner, StudyFindings, StudyResult, run_study
+from uictest.studies import StopRunner, StudyFindings, StudyResult, StudyValue, run_study
 
 
 def test_one_figure_outside_its_band_decides(made_up: StudyResult) -> None:
-    assert [comparison.verdict for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
-    assert made_up.verdict == "misses"
+    assert [comparison.status for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
+    assert made_up.status == "misses"
 
 
 def test_a_study_without_a_band_is_only_shown(made_up: StudyResult) -> None:
     unbounded = replace(made_up.study, quantities=made_up.study.quantities[2:])
-    assert StudyResult(unbounded, made_up.findings).verdict == "shown"
+    assert StudyResult(unbounded, made_up.findings).status == "shown"
 
 
 def test_a_study_must_find_all_its_quantities(made_up: StudyResult) -> None:
-    study = replace(made_up.study, run=lambda stop_runner: StudyFindings({"time": FoundValue(18.0)}))
+    study = replace(made_up.study, run=lambda stop_runner: StudyFindings({"time": StudyValue(18.0)}))
     with pytest.raises(KeyError, match="share, count"):
         run_study(study, StopRunner())

@@ -29,7 +29,7 @@ def test_the_comparison_lies_beside_the_studies(made_up: StudyResult, tmp_path: 
 
 
 def _drawn(result: StudyResult, drawing: Callable[[Any], None]) -> StudyResult:
-    return replace(result, findings=StudyFindings(result.findings.figures, drawings={"figure": drawing}))
+    return replace(result, findings=StudyFindings(result.findings.values, drawings={"figure": drawing}))
 
 
 def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up: StudyResult, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The source's experiments, and ours about its rig: each runs, and says what the source has beside ours."""
+"""The experiments of the paper, and ours about its rig; each compares its values with the paper's."""
 
 import lazy_loader
 

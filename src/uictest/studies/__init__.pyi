@@ -1,7 +1,7 @@
 from .catalogue import STUDIES as STUDIES
 from .comparison import lines as lines
 from .document import document as document
-from .quantity import FoundValue as FoundValue, StudyQuantity as StudyQuantity
+from .quantity import StudyQuantity as StudyQuantity, StudyValue as StudyValue
 from .stop_runner import StopRunner as StopRunner
 from .study import (
     Study as Study,

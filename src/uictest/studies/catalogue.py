@@ -1,38 +1,23 @@
-"""The studies, in the order in which they are listed and run."""
+"""Find the studies: every module of the folder `experiments` has one as `STUDY`."""
 
 from __future__ import annotations
 
-from uictest.studies import (
-    appendix_b,
-    bench_loops,
-    command_level,
-    cylinder_dynamics,
-    field_against_rig,
-    force_accuracy,
-    four_phase_lines,
-    friction_level,
-    rig_equivalence,
-    robustness,
-    slide_test,
-    valve_actuations,
-)
+import pkgutil
+from importlib import import_module
+
+from uictest.studies import experiments
 from uictest.studies.study import Study
 
-STUDIES: dict[str, Study] = {
-    module.STUDY.name: module.STUDY
-    for module in (
-        bench_loops,
-        four_phase_lines,
-        cylinder_dynamics,
-        force_accuracy,
-        command_level,
-        friction_level,
-        slide_test,
-        valve_actuations,
-        appendix_b,
-        robustness,
-        rig_equivalence,
-        field_against_rig,
+
+def find_studies() -> dict[str, Study]:
+    """Return every study by its name, in the order in which they are listed and run."""
+    modules = (
+        import_module(f"{experiments.__name__}.{module.name}")
+        for module in pkgutil.iter_modules(experiments.__path__)
     )
-}
+    studies: list[Study] = sorted((module.STUDY for module in modules), key=lambda study: study.position)
+    return {study.name: study for study in studies}
+
+
+STUDIES: dict[str, Study] = find_studies()
 """Every study by its name."""

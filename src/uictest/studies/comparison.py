@@ -1,4 +1,4 @@
-"""Source beside here, put into words: the same in the table, the lines and the files."""
+"""The comparison with the paper in words: the same in the table, the lines and the files."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ if TYPE_CHECKING:
     from uictest.studies.study import Study, StudyResult, Table
 
 
-def found_text(comparison: PaperComparison) -> str:
-    """Return the figure as found with its range and unit, e.g. `18.1 (17.9 .. 18.3) s`."""
-    quantity, found = comparison.quantity, comparison.found
-    text = _number(found.value, quantity)
-    if found.low is not None and found.high is not None:
-        text += f" ({_number(found.low, quantity)} .. {_number(found.high, quantity)})"
+def ours_text(comparison: PaperComparison) -> str:
+    """Return our value with its range and unit, e.g. `18.1 (17.9 .. 18.3) s`."""
+    quantity, ours = comparison.quantity, comparison.ours
+    text = _number(ours.value, quantity)
+    if ours.low is not None and ours.high is not None:
+        text += f" ({_number(ours.low, quantity)} .. {_number(ours.high, quantity)})"
     return _with_unit(text, quantity)
 
 
@@ -30,28 +30,28 @@ def band_text(quantity: StudyQuantity) -> str:
     return "-"
 
 
-def source_text(study: Study) -> str:
-    """Return the sentence that says what the source has on the matter of a study."""
-    if not study.source:
-        return "A study of ours: the source has no figure to set beside it."
-    return f"Figure and table data of the source are not public; its text says: {study.source}."
+def paper_text(study: Study) -> str:
+    """Return the sentence on what the paper says."""
+    if not study.paper:
+        return "Our own study: the paper has no values to compare with."
+    return f"The data of the paper's figures and tables are not public; its text says: {study.paper}."
 
 
 def lines(result: StudyResult) -> list[str]:
     """Return a study as lines of text: its name and title, a line for every quantity, the notes."""
     study = result.study
-    shown = [f"{study.name}: {study.title}", f"  {source_text(study)}"]
+    shown = [f"{study.name}: {study.title}", f"  {paper_text(study)}"]
     for comparison in result.comparisons:
         quantity = comparison.quantity
-        parts = [f"{quantity.title}: source {quantity.source}", f"here {found_text(comparison)}"]
+        parts = [f"{quantity.title}: paper {quantity.paper}", f"ours {ours_text(comparison)}"]
         if band_text(quantity) != "-":
             parts.append(f"band {band_text(quantity)} ({quantity.reason})")
-        shown.append(f"  {comparison.verdict:6}  " + "; ".join(parts))
+        shown.append(f"  {comparison.status:6}  " + "; ".join(parts))
     return shown + [f"  {note}" for note in result.findings.notes]
 
 
 def comparison_table(result: Sequence[StudyResult]) -> Table:
-    """Return every comparison of every study as columns."""
+    """Return every comparison of every study as columns of `comparison.csv`."""
     rows = [(each.study, comparison) for each in result for comparison in each.comparisons]
     quantities = [comparison.quantity for _, comparison in rows]
     return {
@@ -59,14 +59,14 @@ def comparison_table(result: Sequence[StudyResult]) -> Table:
         "quantity": [quantity.key for quantity in quantities],
         "title": [quantity.title for quantity in quantities],
         "unit": [quantity.unit for quantity in quantities],
-        "source": [quantity.source for quantity in quantities],
-        "here": [comparison.found.value for _, comparison in rows],
-        "here_low": [comparison.found.low for _, comparison in rows],
-        "here_high": [comparison.found.high for _, comparison in rows],
+        "source": [quantity.paper for quantity in quantities],
+        "here": [comparison.ours.value for _, comparison in rows],
+        "here_low": [comparison.ours.low for _, comparison in rows],
+        "here_high": [comparison.ours.high for _, comparison in rows],
         "band_lower": [quantity.lower for quantity in quantities],
         "band_upper": [quantity.upper for quantity in quantities],
         "band_from": [quantity.reason for quantity in quantities],
-        "verdict": [comparison.verdict for _, comparison in rows],
+        "verdict": [comparison.status for _, comparison in rows],
     }
 
 

@@ -1,4 +1,4 @@
-"""What studies came to, as one versioned JSON document."""
+"""The results of studies as one versioned JSON document."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SCHEMA = "uictest/studies/1"
 
 
 def document(result: Sequence[StudyResult]) -> str:
-    """Return the document as JSON; a figure that was not found is null."""
+    """Return the document as JSON; a value that is not finite is null."""
     return json.dumps({"schema": SCHEMA, "studies": [_study(each) for each in result]}, indent=2)
 
 
@@ -23,28 +23,28 @@ def _study(result: StudyResult) -> dict[str, Any]:
     return {
         "name": result.study.name,
         "title": result.study.title,
-        "source": result.study.source,
-        "verdict": result.verdict,
+        "source": result.study.paper,
+        "verdict": result.status,
         "quantities": [_quantity(comparison) for comparison in result.comparisons],
         "notes": list(result.findings.notes),
     }
 
 
 def _quantity(comparison: PaperComparison) -> dict[str, Any]:
-    quantity, found = comparison.quantity, comparison.found
+    quantity, ours = comparison.quantity, comparison.ours
     return {
         "key": quantity.key,
         "title": quantity.title,
         "unit": quantity.unit,
-        "source": quantity.source,
-        "value": _finite(found.value),
-        "low": _finite(found.low),
-        "high": _finite(found.high),
+        "source": quantity.paper,
+        "value": _finite(ours.value),
+        "low": _finite(ours.low),
+        "high": _finite(ours.high),
         "lower": quantity.lower,
         "upper": quantity.upper,
         "upper_excluded": quantity.below,
         "band_from": quantity.reason,
-        "verdict": comparison.verdict,
+        "verdict": comparison.status,
     }
 
 

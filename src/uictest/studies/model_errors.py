@@ -44,7 +44,7 @@ def model_errors(stop_runner: StopRunner, points: Sequence[Point]) -> list[Model
         for case, stop in zip(cases, stops, strict=True)
         for wheelset in WITHOUT_CALIPER
     ]
-    errors = iter(stop_runner.each(lambda given: _errors(*given), work))
+    errors = iter(stop_runner.map(lambda arguments: _errors(*arguments), work))
     at = {
         (point.title, seed, wheelset): next(errors)
         for point in points

@@ -18,7 +18,7 @@ TITLES = {
     "wsp_squeezing": "WSP squeezing",
     "wsp_releasing": "WSP releasing",
 }
-"""The phases of the source's hysteresis model, in its order."""
+"""The phases of the paper's hysteresis model, in its order."""
 
 
 def lines_of(recording: Recording) -> identification.HysteresisResult:

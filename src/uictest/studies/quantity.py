@@ -1,4 +1,4 @@
-"""A figure that a study finds, what the source says of it, and the band it must lie in."""
+"""A quantity of a study: its value, what the paper says of it, and the band it must lie in."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from statistics import median
 from typing import Literal
 
 BandStatus = Literal["holds", "misses", "shown"]
-"""`shown`: no band was set, the figure is only shown."""
+"""`shown`: there is no band, the value is only shown."""
 
 NOT_PUBLIC = "not public"
-"""What stands in for the source's figure where its text gives none."""
+"""Stands for the paper's value where its text gives none."""
 NOT_ASKED = "not asked"
-"""What stands there where the question is ours alone."""
+"""Stands for the paper's value where the question is ours alone."""
 
 
 @dataclass(frozen=True, slots=True)
 class StudyQuantity:
-    """What is compared, in the unit in which it is shown.
+    """A quantity that is compared with the paper, in the unit in which it is shown.
 
     Args:
         key: its name in files.
         title: its name for people.
-        unit: unit of all its figures; empty for a pure number.
-        source: what the text of Lee and Kang (2015) says of it, in words.
+        unit: unit of all its values; empty for a pure number.
+        paper: what the text of Lee and Kang (2015) says of it, in words.
         lower: least value that holds, itself included.
         upper: greatest value that holds; itself excluded where `below` is set.
         below: whether the value must stay below the upper bound.
@@ -35,15 +35,15 @@ class StudyQuantity:
     key: str
     title: str
     unit: str = ""
-    source: str = NOT_PUBLIC
+    paper: str = NOT_PUBLIC
     lower: float | None = None
     upper: float | None = None
     below: bool = False
     digits: int = 1
     reason: str = ""
 
-    def verdict(self, value: float) -> BandStatus:
-        """Return whether a value lies in the band. NaN never does."""
+    def status(self, value: float) -> BandStatus:
+        """Return whether a value lies in the band; NaN never does."""
         if self.lower is None and self.upper is None:
             return "shown"
         above_lower = self.lower is None or value >= self.lower
@@ -52,34 +52,34 @@ class StudyQuantity:
 
 
 @dataclass(frozen=True, slots=True)
-class FoundValue:
-    """A figure as found: one value, or the median of repeats with the least and the greatest of them."""
+class StudyValue:
+    """A value of a study: one value, or the median of repeats with the least and the greatest of them."""
 
     value: float
     low: float | None = None
     high: float | None = None
 
 
-def spread(values: Sequence[float]) -> FoundValue:
+def spread(values: Sequence[float]) -> StudyValue:
     """Return the median of repeats with their range; a NaN among them makes all three NaN."""
     if any(value != value for value in values):
-        return FoundValue(float("nan"), float("nan"), float("nan"))
-    return FoundValue(float(median(values)), float(min(values)), float(max(values)))
+        return StudyValue(float("nan"), float("nan"), float("nan"))
+    return StudyValue(float(median(values)), float(min(values)), float(max(values)))
 
 
 def repeats_note(repeats: int) -> str:
-    """Return the sentence that says what a spread over seeds is."""
+    """Return the note on a spread over seeds."""
     return f"Median and range of {repeats} stops that differ in the noise of the sensors."
 
 
 @dataclass(frozen=True, slots=True)
 class PaperComparison:
-    """Source beside here."""
+    """The paper's value of a quantity (in words) and ours."""
 
     quantity: StudyQuantity
-    found: FoundValue
+    ours: StudyValue
 
     @property
-    def verdict(self) -> BandStatus:
-        """Whether the value, of repeats the median, lies in the band."""
-        return self.quantity.verdict(self.found.value)
+    def status(self) -> BandStatus:
+        """Whether our value, of repeats the median, lies in the band."""
+        return self.quantity.status(self.ours.value)

@@ -31,7 +31,7 @@ class Loop:
 def loops(stop_runner: StopRunner, cases: Sequence[scenario.Case]) -> list[Loop]:
     """Return the loop of module 1 in the stop of every case, the brake released after the standstill."""
     stops = stop_runner.recordings(cases, CYCLE)
-    return stop_runner.each(lambda given: _loop(*given), list(zip(cases, stops, strict=True)))
+    return stop_runner.map(lambda pair: _loop(*pair), list(zip(cases, stops, strict=True)))
 
 
 def _loop(case: scenario.Case, stop: Recording) -> Loop:
@@ -39,21 +39,21 @@ def _loop(case: scenario.Case, stop: Recording) -> Loop:
     return Loop(" ".join(case.parameters.values()), recording, lines_of(recording))
 
 
-def slope_spread(found: Sequence[Loop]) -> float:
+def slope_spread(stop_loops: Sequence[Loop]) -> float:
     """Return the largest range of a phase's slope among the stops that hold it, a share of its mean."""
     spreads = []
     for phase in TITLES:
-        slopes = [loop.lines.lines[phase].slope for loop in found if phase in loop.lines.lines]
+        slopes = [loop.lines.lines[phase].slope for loop in stop_loops if phase in loop.lines.lines]
         if len(slopes) > 1:
             spreads.append((max(slopes) - min(slopes)) * len(slopes) / sum(slopes))
     return max(spreads, default=_NAN)
 
 
-def slopes_table(found: Sequence[Loop], varied: str) -> Table:
+def slopes_table(stop_loops: Sequence[Loop], varied: str) -> Table:
     """Return slope and intercept of every phase of every stop; `varied` names what was varied."""
     rows = [
         (loop.level, phase, loop.lines.lines.get(phase), loop.lines.largest_force)
-        for loop in found
+        for loop in stop_loops
         for phase in TITLES
     ]
     return {

@@ -1,4 +1,4 @@
-"""The stops and bench tests that studies ask for, on the threads of this machine; a stop is run once."""
+"""Run the stops and bench tests of studies on the threads of this machine; a stop is run once."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, slots=True)
 class Stops:
-    """The stops of one case under one seed after the other."""
+    """The stops of one case, one per seed."""
 
     case: Case
     stops: Sequence[rig.SimulatedStop]
 
 
 class StopRunner:
-    """Runs what studies ask for.
+    """Runs the stops of studies, and remembers them.
 
     Args:
         jobs: threads to simulate on.
@@ -44,17 +44,17 @@ class StopRunner:
 
     def repeated(self, cases: Sequence[Case], seeds: Sequence[int]) -> list[Stops]:
         """Return the stops, without recording, of every case under every seed of the sensors' noise."""
-        wanted = [seeded(case, seed) for case in cases for seed in seeds]
-        new = {_key(case): case for case in wanted if _key(case) not in self._stops}
-        self._stops.update(zip(new, self.each(_stop, list(new.values())), strict=True))
+        seeded_cases = [seeded(case, seed) for case in cases for seed in seeds]
+        new_cases = {_key(case): case for case in seeded_cases if _key(case) not in self._stops}
+        self._stops.update(zip(new_cases, self.map(_stop, list(new_cases.values())), strict=True))
         return [Stops(case, [self._stops[_key(seeded(case, seed))] for seed in seeds]) for case in cases]
 
     def recordings(self, cases: Sequence[Case], every: float) -> list[Recording]:
         """Return a recording of the stop of every case, a sample every so many seconds."""
-        return self.each(lambda case: _recording(case, every), cases)
+        return self.map(lambda case: _recording(case, every), cases)
 
-    def each(self, work: Callable[[Argument], Result], arguments: Sequence[Argument]) -> list[Result]:
-        """Return what `work` makes of each, in order. The compiled rig needs no interpreter's lock."""
+    def map(self, work: Callable[[Argument], Result], arguments: Sequence[Argument]) -> list[Result]:
+        """Return the result of `work` for each argument, in order; the compiled rig releases the GIL."""
         return list(campaign.map_on_threads(work, arguments, jobs=self._jobs))
 
 

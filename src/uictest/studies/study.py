@@ -1,4 +1,4 @@
-"""A study: one experiment of the source, or of our own about it, and what it finds."""
+"""A study: one experiment of the paper (Lee and Kang, 2015), or one of ours about its rig, and its result."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.studies.quantity import BandStatus, FoundValue, PaperComparison, StudyQuantity
+from uictest.studies.quantity import BandStatus, PaperComparison, StudyQuantity, StudyValue
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,16 +25,16 @@ Drawing = Callable[["Figure"], None]
 
 @dataclass(frozen=True, slots=True)
 class StudyFindings:
-    """What a study comes to.
+    """The findings of one study.
 
     Args:
-        figures: what was found for every quantity of the study, by key.
+        values: the value of every quantity of the study, by key.
         tables: data, by the name of the file.
-        drawings: figures to be drawn, by the name of the file.
-        notes: sentences about what was found.
+        drawings: what draws each figure, by the name of the file.
+        notes: sentences about the findings.
     """
 
-    figures: Mapping[str, FoundValue]
+    values: Mapping[str, StudyValue]
     tables: Mapping[str, Table] = field(default_factory=dict)
     drawings: Mapping[str, Drawing] = field(default_factory=dict)
     notes: Sequence[str] = ()
@@ -45,47 +45,49 @@ class Study:
     """An experiment.
 
     Args:
-        name: what it is called on the command line.
+        name: its name on the command line.
         title: one line for people.
-        source: what the text of the source says, whose figure and table data are not public; empty where
-            the study is ours alone.
+        paper: what the text of the paper says, whose figure and table data are not public; empty where the
+            study is ours alone.
         quantities: what is compared.
         run: runs it.
+        position: place in the list of studies: those of the paper in its order, then ours.
     """
 
     name: str
     title: str
-    source: str
+    paper: str
     quantities: Sequence[StudyQuantity]
     run: Callable[[StopRunner], StudyFindings]
+    position: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class StudyResult:
-    """A study and what it came to."""
+    """A study and its findings."""
 
     study: Study
     findings: StudyFindings
 
     @property
     def comparisons(self) -> list[PaperComparison]:
-        """Source beside here, one for every quantity of the study, in its order."""
-        figures = self.findings.figures
-        return [PaperComparison(quantity, figures[quantity.key]) for quantity in self.study.quantities]
+        """The comparison with the paper for every quantity of the study, in its order."""
+        values = self.findings.values
+        return [PaperComparison(quantity, values[quantity.key]) for quantity in self.study.quantities]
 
     @property
-    def verdict(self) -> BandStatus:
+    def status(self) -> BandStatus:
         """`misses` if any quantity does, `shown` if none has a band, else `holds`."""
-        verdicts = {comparison.verdict for comparison in self.comparisons}
-        return "misses" if "misses" in verdicts else "holds" if "holds" in verdicts else "shown"
+        statuses = {comparison.status for comparison in self.comparisons}
+        return "misses" if "misses" in statuses else "holds" if "holds" in statuses else "shown"
 
 
 def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
-    """Run a study. Raises KeyError if it finds no figure for one of its quantities."""
+    """Run a study. Raises KeyError if it returns no value for one of its quantities."""
     findings = study.run(stop_runner)
-    missing = [quantity.key for quantity in study.quantities if quantity.key not in findings.figures]
+    missing = [quantity.key for quantity in study.quantities if quantity.key not in findings.values]
     if missing:
-        raise KeyError(f"{study.name} finds no figure for {', '.join(missing)}")
+        raise KeyError(f"{study.name} returns no value for {', '.join(missing)}")
     return StudyResult(study, findings)
 
 

@@ -1,10 +1,10 @@
-"""Source beside here as a table on a terminal."""
+"""The comparison with the paper as a table on a terminal."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from uictest.studies.comparison import band_text, found_text, source_text
+from uictest.studies.comparison import band_text, ours_text, paper_text
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -15,7 +15,7 @@ _STYLES = {"holds": "green", "misses": "bold red", "shown": "dim"}
 
 
 def study_table(result: StudyResult) -> Group:
-    """Return title, what the source says, a row for every quantity, and the notes."""
+    """Return title, what the paper says, a row for every quantity, and the notes."""
     from rich.console import Group
     from rich.padding import Padding
     from rich.table import Table
@@ -24,15 +24,15 @@ def study_table(result: StudyResult) -> Group:
     study = result.study
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("quantity", overflow="fold", ratio=5)
-    table.add_column("source", overflow="fold", ratio=3)
-    table.add_column("here", overflow="fold", ratio=4)
+    table.add_column("paper", overflow="fold", ratio=3)
+    table.add_column("ours", overflow="fold", ratio=4)
     table.add_column("band", overflow="fold", ratio=3)
-    table.add_column("verdict", no_wrap=True)
+    table.add_column("status", no_wrap=True)
     for comparison in result.comparisons:
         quantity = comparison.quantity
-        cells = (quantity.title, quantity.source, found_text(comparison), band_text(quantity))
-        table.add_row(*map(Text, cells), Text(comparison.verdict, style=_STYLES[comparison.verdict]))
+        cells = (quantity.title, quantity.paper, ours_text(comparison), band_text(quantity))
+        table.add_row(*map(Text, cells), Text(comparison.status, style=_STYLES[comparison.status]))
     heading = Text(f"{study.name}  ", style="bold").append(study.title, style="not bold")
-    source = Text(source_text(study), style="dim")
+    paper = Text(paper_text(study), style="dim")
     notes = [Text(note, style="dim") for note in result.findings.notes]
-    return Group(heading, source, Padding(table, (1, 0, 1, 2)), *notes, Text())
+    return Group(heading, paper, Padding(table, (1, 0, 1, 2)), *notes, Text())

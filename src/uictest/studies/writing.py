@@ -28,7 +28,7 @@ def write_tables(folder: Path, result: StudyResult) -> list[Path]:
 
 
 def write_comparison(folder: Path, result: Sequence[StudyResult]) -> None:
-    """Write source beside here of all studies into `comparison.csv` and `studies.json`. Raises OSError."""
+    """Write the comparison with the paper into `comparison.csv` and `studies.json`. Raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     write_text_atomic(folder / "comparison.csv", table_text(comparison_table(result)))
     write_text_atomic(folder / "studies.json", document(result) + "\n")

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from uictest import rig, studies
-from uictest.studies import FoundValue, StopRunner, Study, StudyFindings, StudyQuantity
+from uictest.studies import StopRunner, Study, StudyFindings, StudyQuantity, StudyValue
 
 Call = Callable[..., Any]
 
@@ -22,7 +22,7 @@ def study(name: str, value: float) -> Study:
         figure.subplots().plot([0.0, value])
 
     findings = StudyFindings(
-        {"value": FoundValue(value)},
+        {"value": StudyValue(value)},
         {"data": {"value_m": [value]}},
         {"figure": draw},
     )
@@ -50,9 +50,9 @@ def test_exit_0_only_where_every_band_holds(call: Call) -> None:
     assert call("reproduce").code == 1
 
 
-def test_source_stands_beside_here(call: Call) -> None:
+def test_the_papers_value_stands_next_to_ours(call: Call) -> None:
     assert (
-        "holds   value found: source 1 m; here 2.0 m; band >= 1 m (ours)\n" in call("reproduce", "sound").out
+        "holds   value found: paper 1 m; ours 2.0 m; band >= 1 m (ours)\n" in call("reproduce", "sound").out
     )
 
 

@@ -1,4 +1,4 @@
-"""`uictest reproduce`: the source's studies, source beside here."""
+"""`uictest reproduce`: the studies of the paper, the paper's values next to ours."""
 
 from __future__ import annotations
 
@@ -43,32 +43,32 @@ def reproduce(
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
-    """Run the studies of the source and print its values next to ours.
+    """Run the studies of the paper and print its values next to ours.
 
     Exit 0 when every band holds, else 1.
     """
-    studies = _chosen(names or ())
+    studies = _selected(names or ())
     if listed:
         _list(studies, shown)
         return ExitCode.MET
 
     from uictest.studies import document
 
-    done = _conduct(studies, jobs, output, quiet=quiet)
+    results = _run(studies, jobs, output, quiet=quiet)
     if shown is PlainFormat.JSON:
-        data(document(done))
+        data(document(results))
     else:
-        _show(done, colour, quiet=quiet)
-    missed = sum(each.verdict == "misses" for each in done)
+        _show(results, colour, quiet=quiet)
+    missed = sum(each.status == "misses" for each in results)
     if not quiet:
-        verdict = f"{missed} of them with a figure outside its band" if missed else "every band holds"
+        verdict = f"{missed} of them with a value outside its band" if missed else "every band holds"
         message(
-            f"uictest: {counted(len(done), 'study').replace('studys', 'studies')}, {verdict}; in {output}"
+            f"uictest: {counted(len(results), 'study').replace('studys', 'studies')}, {verdict}; in {output}"
         )
     return ExitCode.MISSED if missed else ExitCode.MET
 
 
-def _chosen(names: Sequence[str]) -> list[Study]:
+def _selected(names: Sequence[str]) -> list[Study]:
     """Return the studies of these names in the order of the catalogue; all where there is no name."""
     from uictest.studies import STUDIES
 
@@ -88,37 +88,37 @@ def _list(studies: Sequence[Study], shown: PlainFormat) -> None:
     data("\n".join(f"{study.name.ljust(width)}  {study.title}" for study in studies))
 
 
-def _conduct(studies: Sequence[Study], jobs: int, output: Path, *, quiet: bool) -> list[StudyResult]:
-    """Run the studies one after the other, and write what each leaves as soon as it has ended."""
+def _run(studies: Sequence[Study], jobs: int, output: Path, *, quiet: bool) -> list[StudyResult]:
+    """Run the studies one after the other, and write the tables of each as soon as it has ended."""
     from uictest.studies import StopRunner, run_study, write_comparison, write_tables
 
     announce_compilation(warm=rig.is_warm(), quiet=quiet)
     stop_runner = StopRunner(jobs)
-    done: list[StudyResult] = []
+    results: list[StudyResult] = []
     for study in studies:
         if not quiet:
             message(f"uictest: {study.name}...")
-        done.append(run_study(study, stop_runner))
-        write_tables(output, done[-1])
-    write_comparison(output, done)
-    _draw(done, output)
-    return done
+        results.append(run_study(study, stop_runner))
+        write_tables(output, results[-1])
+    write_comparison(output, results)
+    _draw(results, output)
+    return results
 
 
-def _draw(done: Sequence[StudyResult], output: Path) -> None:
+def _draw(results: Sequence[StudyResult], output: Path) -> None:
     from uictest.studies import write_figures
 
     try:
-        for each in done:
-            write_figures(output, each)
+        for result in results:
+            write_figures(output, result)
     except ImportError as error:
         message(
             f"uictest: no figures, since {error.name or 'matplotlib'} is not installed: {_FIGURES} draws them"
         )
 
 
-def _show(done: Sequence[StudyResult], colour: Colour, *, quiet: bool) -> None:
-    shown = [each for each in done if not quiet or each.verdict == "misses"]
+def _show(results: Sequence[StudyResult], colour: Colour, *, quiet: bool) -> None:
+    shown = [each for each in results if not quiet or each.status == "misses"]
     if not interactive(sys.stdout):
         from uictest.studies import lines
 
@@ -130,7 +130,7 @@ def _show(done: Sequence[StudyResult], colour: Colour, *, quiet: bool) -> None:
 
     from uictest.studies import study_table
 
-    wanted = coloured(colour, sys.stdout)
-    console = Console(color_system="auto" if wanted else None, force_terminal=wanted, highlight=False)
+    in_colour = coloured(colour, sys.stdout)
+    console = Console(color_system="auto" if in_colour else None, force_terminal=in_colour, highlight=False)
     for each in shown:
         console.print(study_table(each))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from uictest.recording import Recording
 
 
-def draw(tests: Mapping[str, Recording], found: identification.HysteresisResult, figure: Figure) -> None:
+def draw(tests: Mapping[str, Recording], hysteresis: identification.HysteresisResult, figure: Figure) -> None:
     """Draw the bench tests; the lines found under triangular pressure are laid over its loop."""
     figure.set_size_inches(WIDTH, 4.3)
     axes = figure.subplots(
@@ -34,12 +34,14 @@ def draw(tests: Mapping[str, Recording], found: identification.HysteresisResult,
     axes[0][0].set_ylabel("pressure, bar")
     axes[1][0].set_ylabel("clamping force, kN")
     if "triangular" in tests:
-        _mark_width(axes[1][list(tests).index("triangular")], found)
+        _mark_width(axes[1][list(tests).index("triangular")], hysteresis)
 
 
-def _mark_width(axes: Axes, found: identification.HysteresisResult) -> None:
-    force = found.high_force
-    left, right = (found.lines[phase].pressure(force) / BAR for phase in ("bc_releasing", "bc_squeezing"))
+def _mark_width(axes: Axes, hysteresis: identification.HysteresisResult) -> None:
+    force = hysteresis.high_force
+    left, right = (
+        hysteresis.lines[phase].pressure(force) / BAR for phase in ("bc_releasing", "bc_squeezing")
+    )
     up = force / KILONEWTON
     axes.annotate("", (left, up), (right, up), arrowprops={"arrowstyle": "<->", "color": INK, "lw": 0.8})
     axes.annotate(
@@ -53,7 +55,7 @@ def _mark_width(axes: Axes, found: identification.HysteresisResult) -> None:
         fontweight="bold",
     )
     axes.annotate(
-        "source: about 0.5 bar",
+        "paper: about 0.5 bar",
         (left, up),
         (-5.0, 10.0),
         textcoords="offset points",

@@ -31,5 +31,5 @@ def draw(recording: Recording, top: float, limit: float, figure: Figure) -> None
     below.plot(time, after, color=BLUE, label=f"after: at most {np.abs(after).max():.1f} %")
     below.set(xlabel="time, s", ylabel="% of maximum pressure")
     title_and_legend(above, "Same valve commands on both modules", 3)
-    title_and_legend(below, f"Difference from cylinder 1 (source: below {limit:g} %)", 2)
+    title_and_legend(below, f"Difference from cylinder 1 (paper: below {limit:g} %)", 2)
     from_zero(above)

@@ -28,7 +28,7 @@ def draw(recording: Recording, limit: float, figure: Figure) -> None:
     below.plot(time, (none - measured) / largest / PERCENT, color=ORANGE, linewidth=0.9)
     below.plot(time, (full - measured) / largest / PERCENT, color=BLUE)
     below.set(
-        title=f"Computed less measured (source: within \N{PLUS-MINUS SIGN}{limit:g} %)",
+        title=f"Computed less measured (paper: within \N{PLUS-MINUS SIGN}{limit:g} %)",
         xlabel="time, s",
         ylabel="% of largest force",
     )

@@ -20,27 +20,29 @@ if TYPE_CHECKING:
 _EVERY = 10
 
 
-def draw(recording: Recording, found: identification.HysteresisResult, figure: Figure) -> None:
+def draw(recording: Recording, hysteresis: identification.HysteresisResult, figure: Figure) -> None:
     """Draw the BC phases on the left and the WSP phases on the right."""
     figure.set_size_inches(WIDTH, 3.5)
     left, right = figure.subplots(1, 2, sharex=True, sharey=True)
-    _draw_pair(left, recording, found, "bc")
-    _draw_pair(right, recording, found, "wsp")
+    _draw_pair(left, recording, hysteresis, "bc")
+    _draw_pair(right, recording, hysteresis, "wsp")
     left.set(title="Ordinary braking (BC)", xlabel="cylinder pressure, bar", ylabel="clamping force, kN")
     right.set(title="While the WSP acts", xlabel="cylinder pressure, bar")
     from_zero(left)
 
 
-def _draw_pair(axes: Axes, recording: Recording, found: identification.HysteresisResult, pair: str) -> None:
+def _draw_pair(
+    axes: Axes, recording: Recording, hysteresis: identification.HysteresisResult, pair: str
+) -> None:
     pressure, force = recording["measured_pressure_1"] / BAR, recording["clamping_force_1"] / KILONEWTON
     axes.plot(pressure[::_EVERY], force[::_EVERY], color=MUTED, alpha=0.35, linewidth=0.7)
     for phase, mask in on_phases(recording).items():
         if phase.startswith(pair):
             points = np.flatnonzero(mask)[::_EVERY]
             axes.plot(pressure[points], force[points], ".", color=PHASES[phase], markersize=2.5)
-    for phase, line in found.lines.items():
+    for phase, line in hysteresis.lines.items():
         if phase.startswith(pair):
-            ends = np.array([line.pressure(1e-9), line.pressure(found.largest_force)])
+            ends = np.array([line.pressure(1e-9), line.pressure(hysteresis.largest_force)])
             slope = line.slope * BAR / KILONEWTON
             intercept = line.intercept / KILONEWTON
             label = f"{TITLES[phase]}: {slope:.2f} kN/bar, {intercept:.2f} kN".replace("-", "\N{MINUS SIGN}")

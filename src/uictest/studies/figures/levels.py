@@ -21,11 +21,11 @@ _WIDTHS = {"bc": 2.6, "ws": 1.0}
 """The lines of the WSP lie over those of the BC, which stay visible beneath."""
 
 
-def draw(found: Sequence[Loop], title: str, figure: Figure) -> None:
+def draw(stop_loops: Sequence[Loop], title: str, figure: Figure) -> None:
     """Draw one panel per stop; `title` takes the level in place of its braces."""
     figure.set_size_inches(WIDTH, 3.1)
-    panels = figure.subplots(1, len(found), sharex=True, sharey=True)
-    for axes, loop in zip(panels, found, strict=True):
+    panels = figure.subplots(1, len(stop_loops), sharex=True, sharey=True)
+    for axes, loop in zip(panels, stop_loops, strict=True):
         pressure = loop.recording["measured_pressure_1"][::_EVERY] / BAR
         force = loop.recording["clamping_force_1"][::_EVERY] / KILONEWTON
         axes.plot(pressure, force, color=MUTED, alpha=0.5, linewidth=0.7)

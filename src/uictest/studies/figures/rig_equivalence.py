@@ -53,13 +53,13 @@ class _Difference(Protocol):
     def values(self) -> Sequence[float]: ...
 
 
-def draw_train(found: Sequence[_Difference], measures: Sequence[_Measure], figure: Figure) -> None:
+def draw_train(differences: Sequence[_Difference], measures: Sequence[_Measure], figure: Figure) -> None:
     """Draw a panel for each measure; repeats and wheelsets of all points together."""
     figure.set_size_inches(WIDTH, 3.9)
     rows = -(-len(measures) // _COLUMNS)
     panels = figure.subplots(rows, _COLUMNS, sharey=True, squeeze=False)
     for axes, measure in zip(panels.flat, measures, strict=False):
-        _draw_measure(axes, [each for each in found if each.measure == measure.key], measure)
+        _draw_measure(axes, [each for each in differences if each.measure == measure.key], measure)
     for axes in list(panels.flat)[len(measures) :]:
         axes.set_axis_off()
     panels[-1][-1].text(0.0, 1.0, _EXPLANATION, transform=panels[-1][-1].transAxes, va="top", color=MUTED)
@@ -68,10 +68,10 @@ def draw_train(found: Sequence[_Difference], measures: Sequence[_Measure], figur
     first.invert_yaxis()
 
 
-def _draw_measure(axes: Axes, found: Sequence[_Difference], measure: _Measure) -> None:
+def _draw_measure(axes: Axes, differences: Sequence[_Difference], measure: _Measure) -> None:
     axes.axvline(0.0, color=MUTED, linewidth=0.8)
     for row, (rig, colour) in enumerate(SETTINGS.items()):
-        of_rig = [each for each in found if each.rig == rig]
+        of_rig = [each for each in differences if each.rig == rig]
         values = [value for each in of_rig for value in each.values]
         if not values:
             continue
@@ -85,12 +85,12 @@ def _draw_measure(axes: Axes, found: Sequence[_Difference], measure: _Measure) -
     axes.tick_params(axis="y", length=0)
 
 
-def draw_wheelsets(found: Sequence[_Difference], measures: Sequence[_Measure], figure: Figure) -> None:
+def draw_wheelsets(differences: Sequence[_Difference], measures: Sequence[_Measure], figure: Figure) -> None:
     """Draw a panel for each measure of wheelsets: a group of settings for each wheelset."""
     figure.set_size_inches(WIDTH, 4.6)
     panels = figure.subplots(2, 2, squeeze=False)
     for axes, measure in zip(panels.flat, measures, strict=True):
-        of = [each for each in found if each.measure == measure.key]
+        of = [each for each in differences if each.measure == measure.key]
         axes.axhline(0.0, color=MUTED, linewidth=0.8)
         for k, (rig, colour) in enumerate(SETTINGS.items()):
             _draw_rig(axes, [each for each in of if each.rig == rig], (k - 2) * _ROW, colour)
@@ -108,9 +108,9 @@ def draw_wheelsets(found: Sequence[_Difference], measures: Sequence[_Measure], f
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
 
 
-def _draw_rig(axes: Axes, found: Sequence[_Difference], shift: float, colour: str) -> None:
-    for wheelset in sorted({each.wheelset for each in found}):
-        values = [value for each in found if each.wheelset == wheelset for value in each.values]
+def _draw_rig(axes: Axes, differences: Sequence[_Difference], shift: float, colour: str) -> None:
+    for wheelset in sorted({each.wheelset for each in differences}):
+        values = [value for each in differences if each.wheelset == wheelset for value in each.values]
         across = wheelset + shift
         axes.plot([across, across], [min(values), max(values)], color=colour, alpha=0.4, linewidth=1.0)
         axes.plot([across, across], np.quantile(values, _MOST), color=colour, alpha=0.35, linewidth=3.5)

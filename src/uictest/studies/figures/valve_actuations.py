@@ -45,6 +45,6 @@ def draw(traces: Sequence[ActuationPanel], figure: Figure) -> None:
 
 
 def openings(trace: ActuationPanel) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Return the samples at which the vent of the module is told to open."""
+    """Return the samples at which the module is commanded to open its vent."""
     venting = trace.recording[f"valve_command_{trace.module}"] == _VENT
     return np.flatnonzero(venting[1:] & ~venting[:-1]) + 1

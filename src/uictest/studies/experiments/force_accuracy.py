@@ -23,7 +23,7 @@ _EVERY = 20
 _UNIT = "% of largest force"
 
 LIMIT = 8.0
-"""The source's bound on the error of the computed force, % of the largest force."""
+"""The paper's bound on the error of the computed force, % of the largest force."""
 
 QUANTITIES = (
     StudyQuantity(
@@ -32,7 +32,7 @@ QUANTITIES = (
         _UNIT,
         "within +-8 % of the measured force",
         upper=LIMIT,
-        reason="source",
+        reason="paper",
     ),
     StudyQuantity(
         "full",
@@ -40,7 +40,7 @@ QUANTITIES = (
         _UNIT,
         "within +-8 % of the measured force",
         upper=LIMIT,
-        reason="source",
+        reason="paper",
     ),
     StudyQuantity("hysteresis", "largest error, from tank 2 by the hysteresis alone", _UNIT),
     StudyQuantity("cylinder", "largest error, from tank 2 by the cylinder dynamics alone", _UNIT),
@@ -57,9 +57,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
     stops = stop_runner.recordings(cases, CYCLE)
-    replays = stop_runner.each(
-        lambda given: replayed(given[0], given[1], 1), list(zip(cases, stops, strict=True))
-    )
+    replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
     return StudyFindings(
         {
             key: spread([largest_error(recording, channel) / PERCENT for recording in replays])
@@ -94,4 +92,5 @@ STUDY = Study(
     "the force computed with both models lies within +-8 % of the measured one",
     QUANTITIES,
     run,
+    position=40,
 )

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from uictest.studies.field_against_rig import (
+from uictest.studies.experiments.field_against_rig import (
     BREAKS,
     PAD_FACTORS,
     QUANTITIES,

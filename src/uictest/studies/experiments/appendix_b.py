@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from uictest import evaluation, scenario
 from uictest.studies.figures.appendix_b import draw
-from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
+from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
@@ -29,7 +29,7 @@ QUANTITIES = (
         "m",
         "440-490 m",
         *DISTANCES,
-        reason="source",
+        reason="paper",
     ),
     StudyQuantity(
         "off_the_middle",
@@ -47,7 +47,7 @@ QUANTITIES = (
         upper=0.08,
         below=True,
         digits=4,
-        reason="source",
+        reason="paper",
     ),
     StudyQuantity(
         "minimum_slide",
@@ -55,7 +55,7 @@ QUANTITIES = (
         "%",
         "above 35 %",
         lower=SLIDE,
-        reason="source",
+        reason="paper",
     ),
 )
 
@@ -68,8 +68,8 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     dry_stop, slip_stop = stop_runner.recordings([dry, slip], CYCLE)
     return StudyFindings(
         {
-            "braking_distance": FoundValue(distance),
-            "off_the_middle": FoundValue(abs(distance - sum(DISTANCES) / 2.0)),
+            "braking_distance": StudyValue(distance),
+            "off_the_middle": StudyValue(abs(distance - sum(DISTANCES) / 2.0)),
             "initial_adhesion": spread(_values(stop_runner, slip, "initial-adhesion", SEEDS)),
             "minimum_slide": spread(_values(stop_runner, slip, "minimum-slide", SEEDS)),
         },
@@ -90,11 +90,11 @@ def _values(
 ) -> list[float]:
     """Return what a criterion found under every seed, in its own unit; NaN where it does not apply."""
     (repeats,) = stop_runner.repeated([case], seeds)
-    found = []
+    values = []
     for seed, stop in zip(seeds, repeats.stops, strict=True):
         verdicts = evaluation.judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
-        found.append(_value(verdicts, criterion))
-    return found
+        values.append(_value(verdicts, criterion))
+    return values
 
 
 def _value(verdicts: list[evaluation.Verdict], criterion: str) -> float:
@@ -120,4 +120,5 @@ STUDY = Study(
     "below 0.08 g in the first phase, slide above 35 % on at least half of the wheelsets, 440-490 m",
     QUANTITIES,
     run,
+    position=90,
 )

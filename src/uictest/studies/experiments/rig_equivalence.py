@@ -1,4 +1,4 @@
-"""One caliper and three tanks against four calipers: how far every figure of a stop moves."""
+"""One caliper and three tanks against four calipers: how much every measure of a stop differs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
 from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
-from uictest.studies.quantity import NOT_ASKED, FoundValue, StudyQuantity, spread
+from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
 from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT, in_unit, normal_volume
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four against itself: what chance alone does."""
 TRAIN = 0
-"""Stands in for the number of the wheelset where a figure is one of the train."""
+"""Number of the wheelset for a measure of the train."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """A figure that is compared: its name, title and unit, and whether each wheelset has its own."""
+    """A measure that is compared: its name, title and unit, and whether each wheelset has its own."""
 
     key: str
     title: str
@@ -77,8 +77,8 @@ def _quantities() -> Iterator[StudyQuantity]:
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Compare the rigs at every point, then the models along the commands of the rig with four calipers."""
     points = neighbourhood(stop_runner)
-    found = [difference for point in points for difference in differences(point)]
-    found += [
+    rig_differences = [difference for point in points for difference in differences(point)]
+    rig_differences += [
         RigDifference(
             error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values
         )
@@ -86,16 +86,22 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     ]
     return StudyFindings(
         {
-            f"{measure.key}_{rig}": overall(found, measure.key, rig)
+            f"{measure.key}_{rig}": overall(rig_differences, measure.key, rig)
             for measure in COMPARED_MEASURES
             for rig in RIGS
         }
-        | {f"{error.key}_{name}": overall(found, error.key, name) for error in ERRORS for name in SETTINGS},
-        tables={"differences": _table(found)},
+        | {
+            f"{error.key}_{name}": overall(rig_differences, error.key, name)
+            for error in ERRORS
+            for name in SETTINGS
+        },
+        tables={"differences": _table(rig_differences)},
         drawings={
-            "rig-equivalence": partial(draw_train, found, (*COMPARED_MEASURES, *ERRORS)),
+            "rig-equivalence": partial(draw_train, rig_differences, (*COMPARED_MEASURES, *ERRORS)),
             "rig-equivalence-wheelsets": partial(
-                draw_wheelsets, found, [each for each in (*COMPARED_MEASURES, *ERRORS) if each.of_wheelsets]
+                draw_wheelsets,
+                rig_differences,
+                [each for each in (*COMPARED_MEASURES, *ERRORS) if each.of_wheelsets],
             ),
         },
         notes=_notes(len(points)),
@@ -128,10 +134,15 @@ def differences(point: Point) -> Iterator[RigDifference]:
                 )
 
 
-def overall(found: Sequence[RigDifference], measure: str, rig: str) -> FoundValue:
+def overall(rig_differences: Sequence[RigDifference], measure: str, rig: str) -> StudyValue:
     """Return median and range over points, repeats and wheelsets."""
     return spread(
-        [value for each in found if (each.measure, each.rig) == (measure, rig) for value in each.values]
+        [
+            value
+            for each in rig_differences
+            if (each.measure, each.rig) == (measure, rig)
+            for value in each.values
+        ]
     )
 
 
@@ -147,19 +158,19 @@ def _value(stop: SimulatedStop, key: str, wheelset: int) -> float:
     return in_unit(normal_volume(value), "NL") if key == "air_consumed" else value
 
 
-def _table(found: Sequence[RigDifference]) -> Table:
-    readings = [spread(each.values) for each in found]
+def _table(rig_differences: Sequence[RigDifference]) -> Table:
+    spreads = [spread(each.values) for each in rig_differences]
     return {
-        "rig": [each.rig for each in found],
-        "friction": [each.friction for each in found],
-        "command": [each.command for each in found],
-        "measure": [each.measure for each in found],
-        "wheelset": ["train" if each.wheelset == TRAIN else each.wheelset for each in found],
-        "reference": [each.reference for each in found],
-        "difference_median": [reading.value for reading in readings],
-        "difference_low": [reading.low for reading in readings],
-        "difference_high": [reading.high for reading in readings],
-        "repeats": [len(each.values) for each in found],
+        "rig": [each.rig for each in rig_differences],
+        "friction": [each.friction for each in rig_differences],
+        "command": [each.command for each in rig_differences],
+        "measure": [each.measure for each in rig_differences],
+        "wheelset": ["train" if each.wheelset == TRAIN else each.wheelset for each in rig_differences],
+        "reference": [each.reference for each in rig_differences],
+        "difference_median": [each.value for each in spreads],
+        "difference_low": [each.low for each in spreads],
+        "difference_high": [each.high for each in spreads],
+        "repeats": [len(each.values) for each in rig_differences],
     }
 
 
@@ -169,4 +180,5 @@ STUDY = Study(
     "",
     tuple(_quantities()),
     run,
+    position=110,
 )

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.studies.cylinder_dynamics import largest_errors
-from uictest.studies.force_accuracy import largest_error
+from uictest.studies.experiments.cylinder_dynamics import largest_errors
+from uictest.studies.experiments.force_accuracy import largest_error
 
 
 def test_errors_are_shares_whatever_their_sign() -> None:

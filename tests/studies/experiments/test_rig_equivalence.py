@@ -9,9 +9,9 @@ import pytest
 
 from uictest.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
+from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences, overall
+from uictest.studies.experiments.robustness import actuations
 from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point
-from uictest.studies.rig_equivalence import RIGS, TRAIN, differences, overall
-from uictest.studies.robustness import actuations
 
 
 def stop(distance: float, *vents: int) -> SimulatedStop:

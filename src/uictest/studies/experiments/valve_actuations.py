@@ -1,4 +1,4 @@
-"""How often the WSP valves act in one slide test, by what gives the clamping force of the module."""
+"""Valve actuations of the WSP in one slide test, by the origin of the module's clamping force."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(10)
-_OURS = "ours, about the source's"
+_OURS = "ours, about the paper's"
 
 QUANTITIES = (
     StudyQuantity("caliper", "module 1, real caliper", "", "11", 10.0, 12.0, reason=_OURS),
@@ -65,4 +65,5 @@ STUDY = Study(
     "11 (module 1, real caliper), 21 (module 2 without both models), 11 (module 2 with both)",
     QUANTITIES,
     run,
+    position=80,
 )

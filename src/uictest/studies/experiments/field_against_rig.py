@@ -12,7 +12,7 @@ import numpy as np
 
 from uictest import rig
 from uictest.scenario import Case, FrictionProfile
-from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.replay import CYCLE
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import KILOMETRE_PER_HOUR
@@ -45,11 +45,11 @@ DRY = 0.30
 BREAKS = (110.0, 140.0, 170.0)
 """Places, m, where friction may change; a stop takes about 200 m."""
 PAD_FACTORS = (1.0, 1.1, 1.2)
-"""On the friction of the rig's pads: the source does not say how strong the real train's brake was."""
+"""On the friction of the rig's pads: the paper does not say how strong the real train's brake was."""
 
 _CAVEAT = (
     "Four figures do not determine a profile: friction, its place and the strength of the brake stand in for"
-    " each other. The filter behind the source's decelerations is not public."
+    " each other. The filter behind the paper's decelerations is not public."
 )
 
 QUANTITIES = (
@@ -57,10 +57,10 @@ QUANTITIES = (
     StudyQuantity("braking_distance", "braking distance of the closest stop", "m", "197 m"),
     StudyQuantity("minimum_deceleration", "its least deceleration", "m/s2", "0.98 m/s2", digits=2),
     StudyQuantity("maximum_deceleration", "its greatest deceleration", "m/s2", "1.52 m/s2", digits=2),
-    StudyQuantity("pad_factor", "its pad friction over the rig's", source="ours", digits=2),
-    StudyQuantity("profiles", "profiles tried", source="ours", digits=0),
-    StudyQuantity("consistent", "profiles that agree in all four figures", source="ours", digits=0),
-    StudyQuantity("agree_in_run", "profiles that agree in time and distance", source="ours", digits=0),
+    StudyQuantity("pad_factor", "its pad friction over the rig's", paper="ours", digits=2),
+    StudyQuantity("profiles", "profiles tried", paper="ours", digits=0),
+    StudyQuantity("consistent", "profiles that agree in all four figures", paper="ours", digits=0),
+    StudyQuantity("agree_in_run", "profiles that agree in time and distance", paper="ours", digits=0),
 )
 
 
@@ -94,7 +94,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Stop on every profile, and keep those that agree with the real train."""
     base = stop_runner.cases("slide-80")[0]
     tried = list(profiles())
-    stops = stop_runner.each(_stop, [_on(base, profile) for profile in tried])
+    stops = stop_runner.map(_stop, [_on(base, profile) for profile in tried])
     misfits = [misfit(stop) for stop in stops]
     closest = int(np.argmin([max(each.values()) for each in misfits]))
     recording = stop_runner.recordings([_on(base, tried[closest])], CYCLE)[0]
@@ -102,11 +102,11 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     in_run = [
         k for k, each in enumerate(misfits) if max(each["braking_time"], each["braking_distance"]) <= 1.0
     ]
-    figures = {name: FoundValue(float(stops[closest].measures[name])) for name in REAL_TRAIN}
-    figures["pad_factor"] = FoundValue(tried[closest].pad_factor)
+    figures = {name: StudyValue(float(stops[closest].measures[name])) for name in REAL_TRAIN}
+    figures["pad_factor"] = StudyValue(tried[closest].pad_factor)
     counts = {"profiles": len(tried), "consistent": len(consistent), "agree_in_run": len(in_run)}
     return StudyFindings(
-        figures | {name: FoundValue(float(count)) for name, count in counts.items()},
+        figures | {name: StudyValue(float(count)) for name, count in counts.items()},
         tables={"profiles": _table(tried, stops, misfits, in_run), "closest-stop": _stop_table(recording)},
         drawings={"field-against-rig": partial(_draw, recording)},
         notes=(
@@ -122,15 +122,15 @@ def _what_time_and_distance_tell() -> str:
     """Say after which delay an even deceleration gives T = v / a + delay and D = v (T + delay) / 2."""
     delay = 2.0 * REAL_TRAIN["braking_distance"] / _INITIAL_SPEED - REAL_TRAIN["braking_time"]
     return (
-        f"After a delay of {delay:.2f} s an even deceleration would take the source's time and distance: less"
+        f"After a delay of {delay:.2f} s an even deceleration would take the paper's time and distance: less"
         " than a brake takes to build up, so the real train braked harder first than last."
     )
 
 
 def misfit(stop: rig.SimulatedStop) -> dict[str, float]:
     """Return how far each figure of a stop is from the real train's, in tolerances."""
-    found = {name: float(stop.measures[name]) for name in REAL_TRAIN}
-    off = {name: abs(found[name] - REAL_TRAIN[name]) / TOLERANCES[name] for name in REAL_TRAIN}
+    measures = {name: float(stop.measures[name]) for name in REAL_TRAIN}
+    off = {name: abs(measures[name] - REAL_TRAIN[name]) / TOLERANCES[name] for name in REAL_TRAIN}
     return {name: value if np.isfinite(value) else float("inf") for name, value in off.items()}
 
 
@@ -220,4 +220,5 @@ STUDY = Study(
     "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; its rail is not described",
     QUANTITIES,
     run,
+    position=120,
 )

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from uictest.studies.robustness import _in_order, _ratio
+from uictest.studies.experiments.robustness import _in_order, _ratio
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from uictest.studies.figures.levels import draw
-from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.slopes import loops, slope_spread, slopes_table
 from uictest.studies.study import Study, StudyFindings
 from uictest.units import PERCENT
@@ -34,16 +34,16 @@ QUANTITIES = (
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Find the slopes at every friction coefficient, and how far the train runs."""
     cases = stop_runner.cases("wet-80-friction")
-    found = loops(stop_runner, cases)
+    stop_loops = loops(stop_runner, cases)
     stops = stop_runner.repeated(cases, [0])
-    distances = [FoundValue(float(one.stops[0].measures.braking_distance)) for one in stops]
+    distances = [StudyValue(float(one.stops[0].measures.braking_distance)) for one in stops]
     return StudyFindings(
         {
-            "slope_spread": FoundValue(slope_spread(found) / PERCENT),
+            "slope_spread": StudyValue(slope_spread(stop_loops) / PERCENT),
             **dict(zip((f"distance_at_{level}" for level in _LEVELS), distances, strict=True)),
         },
-        tables={"lines": slopes_table(found, "friction")},
-        drawings={"friction-level": partial(draw, found, "friction {}")},
+        tables={"lines": slopes_table(stop_loops, "friction")},
+        drawings={"friction-level": partial(draw, stop_loops, "friction {}")},
     )
 
 
@@ -53,4 +53,5 @@ STUDY = Study(
     "stops at full command with initial friction coefficients 0.09, 0.10, 0.11 and 0.12",
     QUANTITIES,
     run,
+    position=60,
 )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from uictest import rig
 from uictest.studies.figures.robustness import draw
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, WITHOUT_CALIPER, Point, neighbourhood
-from uictest.studies.quantity import FoundValue, StudyQuantity, spread
+from uictest.studies.quantity import StudyQuantity, StudyValue, spread
 from uictest.studies.study import Study, StudyFindings, Table
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     medians = [{name: median(values) for name, values in of.items()} for of in counts.values()]
     return StudyFindings(
         {
-            "in_order": FoundValue(float(sum(map(_in_order, medians)))),
+            "in_order": StudyValue(float(sum(map(_in_order, medians)))),
             "full_over_caliper": spread([_ratio(of["full"], of[FOUR_CALIPER]) for of in medians]),
             "none_over_caliper": spread([_ratio(of["none"], of[FOUR_CALIPER]) for of in medians]),
         },
@@ -120,4 +120,5 @@ STUDY = Study(
     "one stop: 11 actuations with the caliper, 21 without models, 11 with both",
     QUANTITIES,
     run,
+    position=100,
 )

@@ -10,7 +10,7 @@ import numpy as np
 from uictest import identification
 from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.phases import TITLES, lines_of, on_phases
-from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
@@ -37,40 +37,42 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     case = stop_runner.cases("slide-80")[0]
     stop = stop_runner.recordings([case], CYCLE)[0]
     recording = replayed(case, stop, 1, release=True)
-    found = lines_of(recording)
+    hysteresis = lines_of(recording)
     return StudyFindings(
-        dict(_figures(found)),
-        tables={"lines": _lines_table(found), "samples": _samples_table(recording)},
-        drawings={"four-phase-lines": partial(draw, recording, found)},
-        notes=(_order(found),),
+        dict(_values(hysteresis)),
+        tables={"lines": _lines_table(hysteresis), "samples": _samples_table(recording)},
+        drawings={"four-phase-lines": partial(draw, recording, hysteresis)},
+        notes=(_order(hysteresis),),
     )
 
 
-def _figures(found: identification.HysteresisResult) -> list[tuple[str, FoundValue]]:
-    figures = []
+def _values(hysteresis: identification.HysteresisResult) -> list[tuple[str, StudyValue]]:
+    values = []
     for phase in TITLES:
-        line = found.lines.get(phase)
+        line = hysteresis.lines.get(phase)
         slope = line.slope / KILONEWTON_PER_BAR if line else _NAN
         intercept = line.intercept / KILONEWTON if line else _NAN
-        figures += [(f"{phase}_slope", FoundValue(slope)), (f"{phase}_intercept", FoundValue(intercept))]
-    return figures
+        values += [(f"{phase}_slope", StudyValue(slope)), (f"{phase}_intercept", StudyValue(intercept))]
+    return values
 
 
-def _order(found: identification.HysteresisResult) -> str:
-    """Say which releasing line lies above the other: the source says both."""
-    if "wsp_releasing" not in found.lines:
+def _order(hysteresis: identification.HysteresisResult) -> str:
+    """Return the note on which releasing line lies above the other: the paper says both."""
+    if "wsp_releasing" not in hysteresis.lines:
         return "The stop holds no WSP releasing, so that the order of the releasing lines stays open."
-    force = found.high_force
-    above = found.lines["wsp_releasing"].pressure(force) < found.lines["bc_releasing"].pressure(force)
+    force = hysteresis.high_force
+    above = hysteresis.lines["wsp_releasing"].pressure(force) < hysteresis.lines["bc_releasing"].pressure(
+        force
+    )
     upper, lower = ("WSP", "BC") if above else ("BC", "WSP")
     return (
-        "The text of the source orders the releasing lines of BC and WSP both ways; "
+        "The text of the paper orders the releasing lines of BC and WSP both ways; "
         f"here, at high force, that of the {upper} lies above that of the {lower}."
     )
 
 
-def _lines_table(found: identification.HysteresisResult) -> Table:
-    lines = [found.lines.get(phase) for phase in TITLES]
+def _lines_table(hysteresis: identification.HysteresisResult) -> Table:
+    lines = [hysteresis.lines.get(phase) for phase in TITLES]
     return {
         "phase": list(TITLES),
         "slope_kn_per_bar": [line.slope / KILONEWTON_PER_BAR if line else _NAN for line in lines],
@@ -104,4 +106,5 @@ STUDY = Study(
     "clamping force is linear in pressure, with a slope and an intercept of its own in each of four phases",
     QUANTITIES,
     run,
+    position=20,
 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from uictest import rig
 from uictest.studies.figures.slide_test import draw
-from uictest.studies.quantity import FoundValue, StudyQuantity, repeats_note, spread
+from uictest.studies.quantity import StudyQuantity, StudyValue, repeats_note, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILOMETRE_PER_HOUR
@@ -32,7 +32,7 @@ QUANTITIES = (
         "17.6 s, real train",
         16.5,
         19.0,
-        reason="ours, about the source's",
+        reason="ours, about the paper's",
     ),
     StudyQuantity(
         "braking_distance",
@@ -41,7 +41,7 @@ QUANTITIES = (
         "197 m, real train",
         185.0,
         215.0,
-        reason="ours, about the source's",
+        reason="ours, about the paper's",
     ),
     StudyQuantity("minimum_deceleration", "least deceleration", "m/s2", "0.98 m/s2, real train", digits=2),
     StudyQuantity("maximum_deceleration", "greatest deceleration", "m/s2", "1.52 m/s2, real train", digits=2),
@@ -74,7 +74,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
             )
         }
         | {
-            "likeness": FoundValue(unlikeness(recording) / KILOMETRE_PER_HOUR),
+            "likeness": StudyValue(unlikeness(recording) / KILOMETRE_PER_HOUR),
             "maximum_slide": spread(
                 [100.0 * float(stop.wheelset_measures.maximum_slide.max()) for stop in stops]
             ),
@@ -84,7 +84,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
         notes=(
             f"{repeats_note(len(SEEDS))} The figure shows the first.",
             (
-                "The filter behind the source's decelerations is not public; here they are low-pass filtered "
+                "The filter behind the paper's decelerations is not public; here they are low-pass filtered "
                 "as the measures of the scenario define."
             ),
         ),
@@ -120,4 +120,5 @@ STUDY = Study(
     "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; on the rig the four wheelset speeds look alike",
     QUANTITIES,
     run,
+    position=70,
 )

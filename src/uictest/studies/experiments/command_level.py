@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from uictest.studies.figures.levels import draw
-from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.slopes import loops, slope_spread, slopes_table
 from uictest.studies.study import Study, StudyFindings
 from uictest.units import KILONEWTON, PERCENT
@@ -31,15 +31,15 @@ QUANTITIES = (
 
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Find the slopes at every command level."""
-    found = loops(stop_runner, stop_runner.cases("wet-80-command"))
-    forces = [FoundValue(loop.lines.largest_force / KILONEWTON) for loop in found]
+    stop_loops = loops(stop_runner, stop_runner.cases("wet-80-command"))
+    forces = [StudyValue(loop.lines.largest_force / KILONEWTON) for loop in stop_loops]
     return StudyFindings(
         {
-            "slope_spread": FoundValue(slope_spread(found) / PERCENT),
+            "slope_spread": StudyValue(slope_spread(stop_loops) / PERCENT),
             **dict(zip(("force_at_80", "force_at_90", "force_at_100"), forces, strict=True)),
         },
-        tables={"lines": slopes_table(found, "command")},
-        drawings={"command-level": partial(draw, found, "command {}")},
+        tables={"lines": slopes_table(stop_loops, "command")},
+        drawings={"command-level": partial(draw, stop_loops, "command {}")},
     )
 
 
@@ -49,4 +49,5 @@ STUDY = Study(
     "the command level does not change the slopes of force against pressure",
     QUANTITIES,
     run,
+    position=50,
 )

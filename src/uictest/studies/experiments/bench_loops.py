@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import lines_of
-from uictest.studies.quantity import FoundValue, StudyQuantity
+from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from uictest.studies.stop_runner import StopRunner
 
 TESTS = ("stepwise", "triangular", "random")
-"""Bench recipes of the library: the kinds of pressure are the source's, levels, rates and times are ours."""
+"""Bench recipes of the library: the kinds of pressure are the paper's, levels, rates and times are ours."""
 _EVERY = 20
 """Steps between two samples in the table."""
 
@@ -30,7 +30,7 @@ QUANTITIES = (
         lower=0.45,
         upper=0.55,
         digits=3,
-        reason="source, within 0.05 bar",
+        reason="paper, within 0.05 bar",
     ),
     StudyQuantity("loop_width_stepwise", "the same, stepwise pressure", "bar", digits=3),
     StudyQuantity("loop_width_random", "the same, random pressure", "bar", digits=3),
@@ -41,18 +41,18 @@ QUANTITIES = (
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Apply the three pressures to the caliper and find its loop in each."""
     recipes = [bench.load_bench(bench.recipe_path(name)) for name in TESTS]
-    tests = dict(zip(TESTS, stop_runner.each(bench.run_test, recipes), strict=True))
-    found = {name: lines_of(recording) for name, recording in tests.items()}
-    widths = {name: lines.loop_widths["bc"] / BAR for name, lines in found.items()}
+    tests = dict(zip(TESTS, stop_runner.map(bench.run_test, recipes), strict=True))
+    lines_by_test = {name: lines_of(recording) for name, recording in tests.items()}
+    widths = {name: lines.loop_widths["bc"] / BAR for name, lines in lines_by_test.items()}
     return StudyFindings(
         {
-            "loop_width": FoundValue(widths["triangular"]),
-            "loop_width_stepwise": FoundValue(widths["stepwise"]),
-            "loop_width_random": FoundValue(widths["random"]),
-            "largest_force": FoundValue(found["triangular"].largest_force / KILONEWTON),
+            "loop_width": StudyValue(widths["triangular"]),
+            "loop_width_stepwise": StudyValue(widths["stepwise"]),
+            "loop_width_random": StudyValue(widths["random"]),
+            "largest_force": StudyValue(lines_by_test["triangular"].largest_force / KILONEWTON),
         },
         tables={name: _table(recording) for name, recording in tests.items()},
-        drawings={"bench-loops": partial(draw, tests, found["triangular"])},
+        drawings={"bench-loops": partial(draw, tests, lines_by_test["triangular"])},
         notes=("The width is that between the two lines of the loop at nine tenths of the largest force.",),
     )
 
@@ -73,4 +73,5 @@ STUDY = Study(
     "WSP bypassed, no vehicle: force against pressure shows hysteresis, about 0.5 bar wide at high force",
     QUANTITIES,
     run,
+    position=10,
 )

@@ -1,0 +1,1 @@
+"""The studies: each module is one and has it as `STUDY`."""
