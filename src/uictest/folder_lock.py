@@ -1,8 +1,8 @@
-"""The right of one process to work in a folder; it ends with the process, however that ends.
+"""Locks of folders: one process works in a folder at a time.
 
-The system gives and takes it (`flock`), so neither a number of a process that is used again nor a clock
-matters. It holds between machines where the network share knows such locks. Where it does not, and on
-Windows, nobody is refused and nothing is taken for abandoned.
+The operating system holds the lock (`flock`) and releases it when the process ends, so that neither reused
+process ids nor clocks matter. It works between machines if the network share supports such locks. Without
+such support, and on Windows, every lock is granted and no folder counts as abandoned.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ _FILE = ".lock"
 
 
 class FolderInUseError(Exception):
-    """Another process works in the folder; the message names it."""
+    """Another process holds the lock of the folder; the message names it."""
 
 
 class FolderLock:
-    """The right to work in a folder, from here to the end of the block.
+    """The lock of a folder, held from its construction to the end of the block.
 
     Args:
         folder: an existing folder.
-        shared: whether others that share it may work there at the same time.
+        shared: whether other shared locks may be held at the same time.
 
     Raises:
-        FolderInUseError: another process has it.
+        FolderInUseError: another process holds the lock.
         OSError: the folder cannot be written.
     """
 
@@ -48,27 +48,27 @@ class FolderLock:
         self.release()
 
     def hide(self) -> None:
-        """Remove the file of the lock, which stays held."""
+        """Remove the file of the lock; the lock stays held."""
         with contextlib.suppress(OSError):
             self._path.unlink()
 
     def release(self) -> None:
-        """Give the right back."""
+        """Release the lock."""
         if not self._shared:
             self.hide()
         os.close(self._descriptor)
 
 
 def remove_abandoned(folder: Path) -> None:
-    """Remove a folder whose lock is that of a process that has ended; leave any other as it is."""
+    """Remove a folder whose lock belongs to an ended process; do nothing otherwise."""
     with contextlib.suppress(OSError), (folder / _FILE).open("r+b") as file:
-        # Whoever has the lock has written its name; before, the folder is only just being made.
+        # A holder writes its name; without one the folder is being created.
         if file.read(1) and _lock(file.fileno(), shared=False):
             shutil.rmtree(folder, ignore_errors=True)
 
 
 def _locked(path: Path, shared: bool) -> int:
-    """Return a descriptor of the file of a lock that is held."""
+    """Return the descriptor of the file of an acquired lock."""
     while True:
         descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         try:

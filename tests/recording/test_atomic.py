@@ -1,5 +1,7 @@
 import errno
 import os
+import stat
+import sys
 from pathlib import Path
 
 import pytest
@@ -82,3 +84,11 @@ def test_the_file_has_the_mode_any_new_file_has(tmp_path: Path) -> None:
     (tmp_path / "ordinary").touch()
     write_text_atomic(tmp_path / "atomic", "")
     assert (tmp_path / "atomic").stat().st_mode == (tmp_path / "ordinary").stat().st_mode
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
+def test_nobody_else_can_read_or_write_a_private_file(tmp_path: Path) -> None:
+    path = tmp_path / "kept"
+    with atomic_path(path, private=True) as temporary:
+        assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600

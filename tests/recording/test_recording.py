@@ -33,7 +33,7 @@ def test_an_unknown_channel_is_answered_with_those_there_are() -> None:
         ({"time": np.array([0.0, 1.0, np.inf])}, {}, "'time' is not finite at sample 2"),
         ({"time": np.array([0.0, 1.0, 1.0])}, {}, "'time' does not increase at sample 2: 1.0 s, then 1.0 s"),
         ({"time": TIME, "speed": TIME}, {}, "no unit for speed"),
-        ({"time": TIME}, {"speed": "m/s"}, "units for channels that are not there: speed"),
+        ({"time": TIME}, {"speed": "m/s"}, "units for missing channels: speed"),
         ({"time": TIME}, {"time": "ms"}, "'time' must be in \"s\", found 'ms'"),
     ],
 )

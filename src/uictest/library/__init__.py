@@ -1,4 +1,4 @@
-"""The parts that ship with the tool, as data files with a source beside every number."""
+"""The library: parts that ship with the program, as data files with the source of every number."""
 
 from functools import cache
 from pathlib import Path
@@ -21,7 +21,7 @@ FOLDERS: Final = (
 """The folders of the library with parts of a scenario, one per kind of part."""
 
 OTHER_FOLDERS: Final = ("benches", "channel_maps")
-"""The folders with what no scenario refers to: bench recipes and maps of the channels of recordings."""
+"""The folders of files that no scenario refers to: bench recipes and channel maps."""
 
 
 @cache
@@ -39,7 +39,7 @@ def content(folder: str, name: str) -> bytes:
 
 @cache
 def references() -> dict[str, str]:
-    """The publications that numbers of the library are taken from: short form -> full citation.
+    """The publications that the library cites: short form -> full citation.
 
     The source of every stated or published number begins with a short form, a colon and the place.
     """

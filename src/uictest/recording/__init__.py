@@ -1,4 +1,4 @@
-"""Channels with units over time, and files that appear whole or not at all."""
+"""Recordings: channels with units over time, their file formats, and atomic writing of files."""
 
 import lazy_loader
 

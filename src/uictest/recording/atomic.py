@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all: written beside their place, then renamed into it."""
+"""Atomic writing: a file appears whole or not at all, written beside its place and renamed into it."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from pathlib import Path
 
 
 @contextlib.contextmanager
-def atomic_path(path: Path) -> Iterator[Path]:
-    """Lend a temporary path in the folder of `path`; rename it to `path` when the block ends well.
+def atomic_path(path: Path, *, private: bool = False) -> Iterator[Path]:
+    """Yield a temporary path in the folder of `path`, and rename it to `path` if the block succeeds.
 
-    The temporary path holds an empty file and keeps the suffix of `path`, which some writers go by. If the
-    block raises, the temporary file is removed, whatever stood at `path` stays, and the exception goes on.
+    The temporary path is an empty file with the suffix of `path`, which some writers depend on; a `private`
+    one only this user can read and write. If the block raises, the temporary file is removed, a file at
+    `path` stays as it was, and the exception propagates.
 
     Raises:
         OSError: the folder is missing, full or not writable; it names `path`, not the temporary one.
@@ -22,7 +23,7 @@ def atomic_path(path: Path) -> Iterator[Path]:
     """
     temporary = _neighbour(path)
     with _errors_about(path, instead_of=temporary):
-        temporary.touch(exist_ok=False)
+        temporary.touch(mode=0o600 if private else 0o666, exist_ok=False)
         try:
             yield temporary
             _flush_to_disk(temporary)
@@ -45,7 +46,7 @@ def write_text_atomic(path: Path, content: str) -> None:
 
 @contextlib.contextmanager
 def _errors_about(path: Path, instead_of: Path) -> Iterator[None]:
-    """Let the errors about a file, or about one without a name, name another one."""
+    """Replace the temporary file by `path` in errors about it, and in errors that name no file."""
     try:
         yield
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What a measurement file holds, before anybody says what it means."""
+"""The contents of a file before a channel map interprets them."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class Group:
 
     Args:
         name: name of the group in the file; empty where the format has no groups.
-        channels: name in the file -> samples, all equally long. Nothing is assumed of their order or value.
-        units: name -> unit as the file writes it; channels without a unit are left out.
-        time: the time axis in seconds, where the format has one of its own; else one of the channels is it.
+        channels: name in the file -> samples, all equally long, in any order and of any value.
+        units: name -> unit as the file writes it; channels without a unit are missing.
+        time: the time axis in seconds, if the format has its own; else it is one of the channels.
         first_texts: name of a channel that holds texts among numbers -> place of the first text in the file.
 
     """
@@ -37,9 +37,9 @@ class Group:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contents:
-    """The groups of a file and the facts it tells about itself, as text.
+    """The groups of a file and its metadata, as text.
 
-    `skipped` maps what is no channel (texts, images, structures) to why it was left out.
+    `skipped` maps items that are not channels (texts, images, structures) to the reason why they are skipped.
     """
 
     groups: tuple[Group, ...]

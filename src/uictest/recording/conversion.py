@@ -1,4 +1,4 @@
-"""Contents of a file as a recording, where they are one."""
+"""Conversion of the contents of a file to a recording."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from uictest.recording.formats import UnreadableError
 from uictest.recording.recording import TIME, Recording
 
 
-def recording_of(contents: Contents, facts: Mapping[str, str]) -> Recording:
-    """Return a file of one group with a time axis in seconds as a recording, with further facts about it.
+def recording_of(contents: Contents, metadata: Mapping[str, str]) -> Recording:
+    """Return the contents of a file of one group with a time axis in seconds as a recording.
 
-    Raises UnreadableError where it has several rasters, no time, texts, or channels without a unit.
+    `metadata` is added to that of the file. Raises UnreadableError for several rasters, no time, texts, or
+    channels without a unit.
     """
     if len(contents.groups) != 1:
         raise UnreadableError(f"{len(contents.groups)} rasters; a recording has one")
@@ -24,12 +25,12 @@ def recording_of(contents: Contents, facts: Mapping[str, str]) -> Recording:
     for name, samples in channels.items():
         if samples.dtype.kind == "U":
             place = f", the first in {group.first_texts[name]}" if name in group.first_texts else ""
-            raise UnreadableError(f"channel {name!r} holds texts{place}; a recording holds numbers")
+            raise UnreadableError(f"channel {name!r} contains texts{place}; a recording contains numbers")
     try:
         return Recording(
             {TIME: _time(group), **channels},
             {TIME: "s", **{name: group.units.get(name, "") for name in channels}},
-            dict(chain(contents.metadata.items(), facts.items())),
+            dict(chain(contents.metadata.items(), metadata.items())),
         )
     except ValueError as error:
         raise UnreadableError(f"not a recording: {error}") from error

@@ -29,8 +29,8 @@ def write_parquet(recording: Recording, path: Path) -> None:
 def read_parquet(path: Path) -> Recording:
     """Read a recording.
 
-    The unit of a channel is its field's `unit`; a file that went through a tool which drops field metadata is
-    read with the units in the schema metadata. Missing samples of a channel become NaN.
+    The unit of a channel is its field's `unit`; for a file from a tool that drops field
+    metadata, it is the one in the schema metadata. Missing samples of a channel become NaN.
 
     Raises:
         ValueError: the file is no Parquet file, or its channels are no recording.
@@ -54,21 +54,21 @@ def _table(recording: Recording) -> pa.Table:
         pa.field(name, pa.from_numpy_dtype(samples.dtype), metadata={_UNIT: recording.units[name]})
         for name, samples in recording.channels.items()
     ]
-    facts = {
+    schema_metadata = {
         _SCHEMA: SCHEMA,
         _UNITS: json.dumps(recording.units, ensure_ascii=False),
         _METADATA: json.dumps(recording.metadata, ensure_ascii=False),
     }
-    return pa.table(list(recording.channels.values()), schema=pa.schema(fields, metadata=facts))
+    return pa.table(list(recording.channels.values()), schema=pa.schema(fields, metadata=schema_metadata))
 
 
 def _recording(table: pa.Table) -> Recording:
-    facts = table.schema.metadata or {}
-    known = _texts(facts.get(_UNITS, b"{}"))
+    schema_metadata = table.schema.metadata or {}
+    units = _texts(schema_metadata.get(_UNITS, b"{}"))
     return Recording(
         channels={name: table.column(name).to_numpy() for name in table.column_names},
-        units={field.name: _unit(field.metadata or {}, known.get(field.name, "")) for field in table.schema},
-        metadata=_texts(facts.get(_METADATA, b"{}")),
+        units={field.name: _unit(field.metadata or {}, units.get(field.name, "")) for field in table.schema},
+        metadata=_texts(schema_metadata.get(_METADATA, b"{}")),
     )
 
 

@@ -1,4 +1,4 @@
-"""What recordings of trains can hold: beyond it a unit is wrong, or a sample is no measurement."""
+"""Plausible values of recordings of trains: beyond them a unit is wrong or a sample is faulty."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Implausible:
-    """Why samples cannot be what they are said to be, and the unit that they may be in; empty: none fits."""
+    """Why samples are implausible in their unit, and the unit that is likely; empty: none fits."""
 
     reason: str
     likely_unit: str
@@ -25,7 +25,7 @@ class Implausible:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A number in SI, and how a reader writes it."""
+    """A number in SI, and its text for messages."""
 
     value: float
     text: str
@@ -52,7 +52,7 @@ FEW: Final = 0.1
 
 
 def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
-    """Return which finite samples, in SI, are larger than can be."""
+    """Return which finite samples, in SI, are implausibly large."""
     limit = LARGEST.get(si)
     if limit is None:
         return np.zeros(len(samples), dtype=np.bool_)
@@ -62,12 +62,12 @@ def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
 def implausible_unit(
     samples: Array, si: str, unit: str, sizes: Mapping[str, float], faulty: float = FEW
 ) -> Implausible | None:
-    """Return why samples cannot be in a unit; None where they can.
+    """Return why samples are implausible in a unit; None if they are plausible.
 
     Args:
         samples: as SI, converted from `unit`.
         si: the SI unit.
-        unit: what the samples are said to be in; a key of `sizes`.
+        unit: the stated unit of the samples; a key of `sizes`.
         sizes: unit -> its size in SI.
         faulty: share of samples that may be beyond the largest for other reasons.
 
@@ -84,9 +84,9 @@ def implausible_unit(
 
 
 def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> Implausible | None:
-    """Return why times, in s, cannot be those of a recording; None where they can, or do not rise.
+    """Return why times, in s, are implausible; None if they are plausible or do not rise.
 
-    `unit` is what they are said to be in, a key of `sizes` (unit -> s).
+    `unit` is their stated unit, a key of `sizes` (unit -> s).
     """
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
     if not rising or _plausible(time, 1.0):

@@ -1,4 +1,4 @@
-"""A recording: what was measured in one stop, channel by channel."""
+"""A recording: the channels of one stop over time."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ TIME = "time"
 """Name of the first channel, in seconds."""
 
 BRAKE_COMMAND_TIME = "brake_command_time"
-"""Key of the fact that says when the brake command was given, in the recording's time: as in `0 s`."""
+"""Metadata key of the time of the brake command, in the recording's time, e.g. `0 s`."""
 
 ORIGIN = "origin"
-"""Key of the fact that says what was recorded: a train, a test rig or a simulation."""
+"""Metadata key of what was recorded: a train, a test rig or a simulation."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,7 +24,7 @@ class Recording:
 
     Args:
         channels: name -> samples, one-dimensional, real and of equal length; `time` comes first, in seconds,
-            finite and strictly increasing. A sample that was not measured is NaN.
+            finite and strictly increasing. A missing sample is NaN.
         units: name -> unit for every channel, "s" for time, "1" for a pure number.
         metadata: facts about the stop, as text.
 
@@ -47,7 +47,7 @@ class Recording:
         return len(self.channels[TIME])
 
     def __getitem__(self, channel: str) -> NDArray[Any]:
-        """Return the samples of a channel. Raises KeyError naming the channels there are."""
+        """Return the samples of a channel. Raises KeyError that names the existing channels."""
         try:
             return self.channels[channel]
         except KeyError:
@@ -87,6 +87,6 @@ def _check_units(channels: dict[str, NDArray[Any]], units: dict[str, str]) -> No
     if missing := [name for name in channels if not units.get(name)]:
         raise ValueError(f'no unit for {", ".join(missing)}; write "1" for a pure number')
     if strangers := [name for name in units if name not in channels]:
-        raise ValueError(f"units for channels that are not there: {', '.join(strangers)}")
+        raise ValueError(f"units for missing channels: {', '.join(strangers)}")
     if units[TIME] != "s":
         raise ValueError(f'{TIME!r} must be in "s", found {units[TIME]!r}')

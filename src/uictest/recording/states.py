@@ -1,4 +1,4 @@
-"""Channels that hold states instead of signals: between two samples they keep the earlier one."""
+"""Channels of states instead of signals: a state holds until the next sample."""
 
 from __future__ import annotations
 
@@ -18,6 +18,6 @@ _WHEELSET_SUFFIX: Final = re.compile(r"_[1-4]$")
 
 
 def state_kind(channel: str) -> str | None:
-    """Return the kind of state a canonical channel holds, None for a signal."""
+    """Return the kind of state of a canonical channel; None for a signal."""
     kind = _WHEELSET_SUFFIX.sub("", channel)
     return kind if kind in STATES else None

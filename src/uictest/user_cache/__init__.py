@@ -1,8 +1,8 @@
-"""What is made once and kept for later runs: compiled code, compiled templates, packed scripts.
+"""The user's cache: compiled code, compiled templates and packed scripts, kept for later runs.
 
-What is kept is executed, or becomes part of a page. So it is read from and written to folders that nobody
-but this user can write, and only files that are intact and were made of the very inputs at hand are used.
-This room is the only way to these folders.
+Cached content is executed or becomes part of a page. It is therefore read from and written to folders that
+only this user can write, and a file is used only if it is intact and was made from the same inputs. All
+access to these folders goes through this room.
 """
 
 import lazy_loader

@@ -7,11 +7,11 @@ import hashlib
 import logging
 import os
 import stat
-import tempfile
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+from uictest.recording import atomic_path
 from uictest.user_cache.ownership import is_trusted, why_unsafe
 from uictest.user_cache.places import make_private, roots
 
@@ -21,10 +21,10 @@ _READ_ONLY = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLO
 
 
 def read(kind: str, inputs: bytes) -> bytes | None:
-    """Return the content kept under these names; None where there is none that is intact.
+    """Return the cached content of these inputs; None if there is none that is intact.
 
     Args:
-        kind: what it is, part of the file's name.
+        kind: kind of content, part of the file's name.
         inputs: everything that the content was made of: sources, versions, options, the processor.
     """
     for folder in _safe_folders(make=False):
@@ -37,7 +37,7 @@ def read(kind: str, inputs: bytes) -> bytes | None:
 
 
 def write(kind: str, inputs: bytes, content: bytes) -> None:
-    """Keep content for :func:`read`, in the first folder that takes it; where none does, warn once."""
+    """Cache content for :func:`read` in the first writable folder; warn once if there is none."""
     for folder in _safe_folders(make=True):
         try:
             _replace(folder / _name(kind, inputs), _digest(inputs, content) + content)
@@ -45,17 +45,19 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
             _warn(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
         else:
             return
-    _warn("nothing is cached, each run compiles anew; set UICTEST_CACHE to a folder that you alone can write")
+    _warn(
+        "nothing is cached, so each run compiles again; set UICTEST_CACHE to a folder that only you can write"
+    )
 
 
 def _safe_folders(*, make: bool) -> Iterator[Path]:
-    """Yield the folders of the cache that exist, or that are made now, and that this user alone can write."""
+    """Yield the folders of the cache that only this user can write; `make` creates missing ones."""
     for root in roots():
         try:
             if make:
                 make_private(root)
             reason = why_unsafe(root)
-        except OSError:  # a home that is missing or read-only: the next root does
+        except OSError:  # a home that is missing or read-only: try the next root
             continue
         if reason:
             _warn(f"the cache {str(root)!r} is not used: {reason}")
@@ -72,7 +74,7 @@ def _digest(inputs: bytes, content: bytes) -> bytes:
 
 
 def _bytes_of(path: Path) -> bytes:
-    """Return the bytes of an ordinary file that this user alone can write. Raises OSError."""
+    """Return the bytes of a regular file that only this user can write. Raises OSError."""
     with os.fdopen(os.open(path, _READ_ONLY | getattr(os, "O_BINARY", 0)), "rb") as file:
         status = os.fstat(file.fileno())
         if not (stat.S_ISREG(status.st_mode) and is_trusted(status)):
@@ -81,18 +83,11 @@ def _bytes_of(path: Path) -> bytes:
 
 
 def _replace(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all. A crash may leave any bytes: the digest tells."""
-    descriptor, temporary = tempfile.mkstemp(prefix=".partial-", dir=path.parent)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with atomic_path(path, private=True) as temporary:
+        temporary.write_bytes(content)
 
 
 @cache
 def _warn(text: str) -> None:
-    """Write a warning to stderr; each text once."""
+    """Write a warning to stderr, once per text."""
     logging.getLogger(__name__).warning("uictest: %s", text)

@@ -1,4 +1,4 @@
-"""Which folders nobody but this user can write, or swap for another."""
+"""Checks that only this user can write or replace a folder."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 
 _BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _SYSTEM = 0
-"""User id of the system's administrator, who can do anything anyway."""
+"""User id of the system's administrator."""
 
 
 def why_unsafe(folder: Path) -> str:
-    """Return why others could put files into an existing folder, and what to do; nothing where they cannot.
+    """Return why others could put files into an existing folder, and what to do; empty if they cannot.
 
-    The folder must be this user's. So must be every folder above it, or the system's, since who can write one
-    can rename what lies in it; one that is sticky, as /tmp is, protects what lies in it. Where a link leads
-    counts as well. Raises OSError.
+    The folder must belong to this user, and every folder above it to this user or the system: whoever can
+    write a folder can rename its contents, unless it is sticky, like /tmp. The target of a link is checked
+    as well. Raises OSError.
     """
     if not hasattr(os, "getuid"):  # Windows: both places belong to the user's profile
         return ""
@@ -29,7 +29,7 @@ def why_unsafe(folder: Path) -> str:
 
 
 def is_trusted(status: os.stat_result) -> bool:
-    """Return whether a file is this user's and written by nobody else."""
+    """Return whether a file belongs to this user and nobody else can write it."""
     if not hasattr(os, "getuid"):
         return True
     return status.st_uid == os.getuid() and not status.st_mode & _BY_OTHERS

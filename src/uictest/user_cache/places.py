@@ -1,4 +1,4 @@
-"""Where the cache may lie: in the user's cache, else in a temporary folder of the user."""
+"""Folders of the cache: in the user's cache, else in a temporary folder of the user."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ def roots() -> Iterator[Path]:
     with contextlib.suppress(RuntimeError):  # a user without a home
         yield _user_cache().absolute()
     user = os.getuid() if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
-    with contextlib.suppress(FileNotFoundError):  # no temporary folder takes a file
+    with contextlib.suppress(FileNotFoundError):  # no temporary folder is writable
         yield Path(tempfile.gettempdir(), f"uictest-{user}").absolute()
 
 
 def make_private(folder: Path) -> None:
-    """Make a folder and those above it that are missing, for this user alone. Raises OSError."""
+    """Create a folder and its missing parents for this user alone. Raises OSError."""
     for place in reversed([place for place in (folder, *folder.parents) if not place.exists()]):
         place.mkdir(mode=0o700, exist_ok=True)
 

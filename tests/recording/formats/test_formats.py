@@ -19,10 +19,10 @@ from uictest.recording.formats import (
     read_contents,
     writer_of,
 )
-from uictest.recording.formats.extras import required
+from uictest.recording.formats.layout import name_and_unit
 from uictest.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
+from uictest.recording.formats.problems import required
 from uictest.recording.formats.reader import read_here
-from uictest.recording.formats.unit_in_name import name_and_unit
 
 Written = Callable[[str], Path]
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}

@@ -1,4 +1,4 @@
-"""Which format a file has, and what writes each."""
+"""The format of a file, and the module that writes it."""
 
 from __future__ import annotations
 

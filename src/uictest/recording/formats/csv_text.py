@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from uictest.recording.atomic import write_text_atomic
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.dialect import COMMENT, Dialect
 from uictest.recording.formats.encoding import MARK, encoding_of, undecodable
-from uictest.recording.formats.layout import Layout, cells_of, layout_of
+from uictest.recording.formats.layout import Layout, cells_of, layout_of, name_and_unit
 from uictest.recording.formats.limits import MOST_CHANNELS
 from uictest.recording.formats.problems import UnreadableError
 from uictest.recording.formats.sample_lines import (
@@ -27,10 +27,7 @@ from uictest.recording.formats.sample_lines import (
     refuse_open_quotation,
     sample_lines,
 )
-from uictest.recording.formats.unit_in_name import name_and_unit
-
-if TYPE_CHECKING:
-    from uictest.recording.recording import Recording
+from uictest.recording.recording import Recording
 
 _HEADING = 1000
 """Most lines before the first sample."""

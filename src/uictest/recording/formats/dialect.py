@@ -1,4 +1,4 @@
-"""How a text file writes its table: what separates cells and decimals, which lines are the heading."""
+"""The dialect of a text file: separators, decimal sign, and the lines of the heading."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Dialect:
         return cls(**fields)
 
     def changes_to(self, other: Dialect) -> str:
-        """Return the `csv` section that declares what differs in another dialect."""
+        """Return the `csv` section with the settings of another dialect that differ from this one."""
         declared = self.to_dict()
         changes = {name: value for name, value in other.to_dict().items() if value != declared[name]}
         return f"csv: {{{', '.join(f'{name}: {json.dumps(value)}' for name, value in changes.items())}}}"

@@ -16,14 +16,14 @@ MARK: Final = "\ufeff"
 
 
 def encoding_of(path: Path, stated: str) -> str:
-    """Return the encoding that a byte-order mark tells, else the stated one. Raises OSError."""
+    """Return the encoding of a byte-order mark, else the stated one. Raises OSError."""
     with path.open("rb") as file:
         beginning = file.read(4)
     return next((name for mark, name in _BYTE_ORDER_MARKS if beginning.startswith(mark)), stated)
 
 
 def undecodable(path: Path, encoding: str) -> str:
-    """Return where a file is not of an encoding, and what to state instead. Raises OSError."""
+    """Return where a file does not match its encoding, and what to write instead. Raises OSError."""
     content = path.read_bytes()
     try:
         content.decode(encoding)

@@ -84,18 +84,18 @@ def _refusal(folder: Path) -> str:
 
 
 def _collect(folder: Path) -> Contents:
-    told = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
-    return Contents(tuple(_group(each, folder) for each in told["groups"]), told["metadata"], told["skipped"])
+    form = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
+    return Contents(tuple(_group(each, folder) for each in form["groups"]), form["metadata"], form["skipped"])
 
 
-def _group(told: Mapping[str, Any], folder: Path) -> Group:
+def _group(form: Mapping[str, Any], folder: Path) -> Group:
     def array(number: int) -> Any:
         return np.load(folder / f"{number}.npy", allow_pickle=False)
 
     return Group(
-        told["name"],
-        {name: array(number) for name, number in told["channels"].items()},
-        told["units"],
-        None if told["time"] is None else array(told["time"]),
-        told["first_texts"],
+        form["name"],
+        {name: array(number) for name, number in form["channels"].items()},
+        form["units"],
+        None if form["time"] is None else array(form["time"]),
+        form["first_texts"],
     )

@@ -12,6 +12,7 @@ from uictest.recording.formats.dialect import COMMENT, Dialect
 from uictest.recording.formats.limits import MOST_CHANNELS
 from uictest.recording.formats.problems import UnreadableError
 
+_NAME_AND_UNIT = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
 _SEPARATORS: Final = (";", "\t", "|", ",")
 _LAST_ROWS: Final = 5
 """Lines of which the one with most numbers shows what a row of samples looks like; chosen."""
@@ -151,3 +152,11 @@ def _advice(declared: Dialect, likely: Dialect) -> str:
         seems.append(f"begin its samples in line {likely.first_line}")
     section = declared.changes_to(likely)
     return f"the table seems to {' and '.join(seems)}: set {section} in a channel map (--map)"
+
+
+def name_and_unit(text: str) -> tuple[str, str]:
+    """Return the name and the unit in brackets at its end; an empty unit where there is none."""
+    match = _NAME_AND_UNIT.fullmatch(text[:500])
+    if match is None or not match["name"]:
+        return text.strip(), ""
+    return match["name"], (match["square"] or match["round"] or "").strip()

@@ -1,4 +1,4 @@
-"""How much of a file is read: more than any stop needs, less than any machine has."""
+"""Limits of reading: larger than any stop needs, smaller than any machine has."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_VALUES = 50_000_000
 MOST_CHANNELS = 20_000
 
 READING_SECONDS = 120.0
-"""Time after which reading is given up."""
+"""Time after which reading is aborted."""
 
 READING_MEMORY = 6 * 2**30
 """Address space of the process that reads, bytes."""

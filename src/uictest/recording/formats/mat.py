@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
-from uictest.recording.formats.extras import required
 from uictest.recording.formats.limits import check_size
-
-if TYPE_CHECKING:
-    from uictest.recording.recording import Recording
+from uictest.recording.formats.problems import required
+from uictest.recording.recording import Recording
 
 _EXTRA = "mat"
 _HDF5 = b"\x89HDF\r\n\x1a\n"
@@ -28,7 +26,7 @@ _UNITS, _METADATA = "units", "metadata"
 def read(path: Path) -> Contents:
     """Read every vector of numbers; fields of structures are named `structure.field`.
 
-    Structures `units` and `metadata` of texts, as this program writes them, are taken for what they say.
+    Structures `units` and `metadata` of texts, as this program writes them, give units and metadata.
     Raises MissingExtraError without pymatreader where the file is of version 7.3; for a damaged file whatever
     the library raises.
     """

@@ -8,19 +8,16 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 from html import unescape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
-from uictest.recording.formats.extras import required
 from uictest.recording.formats.limits import check_size
-from uictest.recording.recording import TIME
+from uictest.recording.formats.problems import required
+from uictest.recording.recording import TIME, Recording
 from uictest.recording.states import STATES, state_kind
-
-if TYPE_CHECKING:
-    from uictest.recording.recording import Recording
 
 VERSION = "4.10"
 _EXTRA = "mdf"
@@ -89,10 +86,10 @@ def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
         yield Group(str(mdf.groups[number].channel_group.acq_name or ""), channels, units, time)
 
 
-def _distinct(name: str, taken: dict[str, Samples]) -> str:
-    if name not in taken:
+def _distinct(name: str, channels: dict[str, Samples]) -> str:
+    if name not in channels:
         return name
-    return next(other for k in range(2, len(taken) + 3) if (other := f"{name} ({k})") not in taken)
+    return next(other for k in range(2, len(channels) + 3) if (other := f"{name} ({k})") not in channels)
 
 
 def _valid(signal: Any) -> Samples:

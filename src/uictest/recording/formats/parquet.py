@@ -13,11 +13,10 @@ from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
 from uictest.recording.formats.problems import UnreadableError
 from uictest.recording.parquet import write_parquet
+from uictest.recording.recording import Recording
 
 if TYPE_CHECKING:
     import pyarrow as pa
-
-    from uictest.recording.recording import Recording
 
 _LONGEST_TEXT = 64
 
@@ -31,16 +30,16 @@ def read(path: Path) -> Contents:
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
             rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
             _refuse_same_names(schema.names)
-            wanted = [field.name for field in schema if _holds_samples(field.type)]
+            names = [field.name for field in schema if _holds_samples(field.type)]
             check_size([(rows,)] * len(schema))
-            table = parquet.read(columns=wanted, use_threads=False)
+            table = parquet.read(columns=names, use_threads=False)
     except (pa.ArrowException, OSError) as error:
         raise UnreadableError("no Parquet file, or a damaged one") from error
     facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
     units = {**_object(facts.get("uictest.units")), **_field_units(schema)}
     units |= {field.name: "s" for field in schema if _holds_times(field.type)}
-    skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in wanted}
-    channels = {name: _samples(table.column(name)) for name in wanted}
+    skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in names}
+    channels = {name: _samples(table.column(name)) for name in names}
     return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
 
 

@@ -47,7 +47,7 @@ def main(name: str, path: str, dialect: str) -> int:
             return NO_ROOM
         return _refuse(f"damaged, or nothing that can be read as {name} ({type(error).__name__})", REFUSED)
     try:
-        leave(contents, Path.cwd())
+        write_contents(contents, Path.cwd())
     except OSError:
         return NO_ROOM
     return 0
@@ -62,19 +62,19 @@ def read_here(name: str, path: Path, dialect: Dialect) -> Contents:
     return contents
 
 
-def leave(contents: Contents, folder: Path) -> None:
+def write_contents(contents: Contents, folder: Path) -> None:
     """Write contents into a folder; names from the file never become names of files."""
     numbers = itertools.count()
-    told = {
-        "groups": [_told(group, folder, numbers) for group in contents.groups],
+    contents_form = {
+        "groups": [_group_form(group, folder, numbers) for group in contents.groups],
         "metadata": contents.metadata,
         "skipped": contents.skipped,
     }
-    (folder / "contents.json").write_text(json.dumps(told), encoding="utf-8")
+    (folder / "contents.json").write_text(json.dumps(contents_form), encoding="utf-8")
 
 
-def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
-    def left(samples: Any) -> int:
+def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
+    def array_number(samples: Any) -> int:
         number, content = next(numbers), io.BytesIO()
         np.save(content, np.ascontiguousarray(samples), allow_pickle=False)
         # numpy itself writes to a full disk without an error
@@ -83,9 +83,9 @@ def _told(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
 
     return {
         "name": group.name,
-        "channels": {name: left(samples) for name, samples in group.channels.items()},
+        "channels": {name: array_number(samples) for name, samples in group.channels.items()},
         "units": group.units,
-        "time": None if group.time is None else left(np.asarray(group.time, dtype=np.float64)),
+        "time": None if group.time is None else array_number(np.asarray(group.time, dtype=np.float64)),
         "first_texts": group.first_texts,
     }
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
-from uictest.recording.formats.extras import required
 from uictest.recording.formats.limits import check_size
-from uictest.recording.recording import TIME
+from uictest.recording.formats.problems import required
+from uictest.recording.recording import TIME, Recording
 from uictest.recording.states import STATES, state_kind
-
-if TYPE_CHECKING:
-    from uictest.recording.recording import Recording
 
 _EXTRA = "tdms"
 _GROUP = "stop"
