@@ -77,11 +77,11 @@ SLIDE = {"measure": "maximum_slide_above_cutoff", "lower": "35 %", "wheelsets": 
         ({"measure": "locked_time", "upper": "1 s", "wheelsets": {"at_least": 5}}, "less than or equal to 4"),
         (
             {"measure": "initial_adhesion", "upper": "0.08 g"},
-            "rests on 'first_phase_duration', which is not defined",
+            "needs the definition 'first_phase_duration', which is missing",
         ),
         (
             {"measure": "braking_time", "upper": "9 s", "definition": PHASE},
-            "does not rest on 'first_phase_duration'",
+            "does not use the definition 'first_phase_duration'",
         ),
         ({**SLIDE, "definition": cutoff("35 km/h")}, "35 km/h is no multiple of 10 km/h"),
         ({**SLIDE, "definition": cutoff(last="65 km/h")}, "65 km/h is no multiple of 10 km/h"),

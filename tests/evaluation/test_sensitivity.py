@@ -3,8 +3,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.evaluation import judge
+from uictest.evaluation.bounds import bounds_of
 from uictest.evaluation.coverage import ObservedStop
-from uictest.evaluation.decision import Decision, bounds_of, decide
+from uictest.evaluation.decision import Decision, decide
 from uictest.evaluation.sensitivity import sensitivity
 
 G = 9.80665

@@ -24,7 +24,6 @@ from .json_form import (
     to_json_form as to_json_form,
 )
 from .judgement import judge as judge
-from .margin import narrowest_margin as narrowest_margin, relative_margin as relative_margin
 from .parameters import (
     EffectivePart as EffectivePart,
     Parameter as Parameter,
@@ -37,6 +36,7 @@ from .result import (
     CaseResult as CaseResult,
     CaseWheelsetMeasures as CaseWheelsetMeasures,
     NamedParts as NamedParts,
+    narrowest_margin as narrowest_margin,
 )
 from .verdict import (
     AppliedDefinition as AppliedDefinition,

@@ -1,4 +1,4 @@
-"""Values against their bounds, and which wheelset decides."""
+"""The bounds of a criterion, values against them, and which wheelset decides."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from uictest import scenario
+from uictest.units import in_unit, to_12_digits
+
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """What a value must keep between; None: no bound. `strict`: the bound itself does not pass."""
+    """Bounds of a value, in its unit; None: no bound. `strict`: a value at the bound does not pass."""
 
     lower: float | None
     upper: float | None
@@ -52,6 +55,15 @@ class Bounds:
         if self.upper is None:
             return f">{equal} {self.lower:.4g}"
         return f"{self.lower:.4g} .. {self.upper:.4g}"
+
+
+def bounds_of(criterion: scenario.Criterion) -> Bounds:
+    """Return the bounds of a criterion in the unit of its measure."""
+    lower, upper = (
+        None if bound is None else to_12_digits(in_unit(bound, criterion.unit))
+        for bound in (criterion.lower, criterion.upper)
+    )
+    return Bounds(lower, upper, criterion.strict)
 
 
 def deciding(values: Sequence[float], bounds: Bounds, needed: int) -> float:

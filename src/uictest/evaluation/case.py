@@ -9,8 +9,7 @@ from typing import Final
 from uictest import scenario
 from uictest.evaluation.coverage import Coverage
 from uictest.evaluation.judgement import judge
-from uictest.evaluation.outcome import outcome_of
-from uictest.evaluation.result import CaseResult
+from uictest.evaluation.result import CaseResult, outcome_of
 from uictest.measures import (
     MEASURES,
     STOP_COLUMNS,

@@ -1,31 +1,28 @@
-"""What of a stop was observed, and what is missing."""
+"""The observed part of a stop, and what its measures lack."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from uictest import scenario
 from uictest.measures import StopRecord, WheelsetRecords
 from uictest.units import in_unit, value_text
-
-if TYPE_CHECKING:
-    from uictest.scenario import Scenario
 
 
 @dataclass(frozen=True, slots=True)
 class MissingData:
     """What a value of a measure lacks, in words.
 
-    `bounded`: the data that are there bound the value, as part of a stop does; otherwise it may be anything.
+    `bounded`: the data that there are bound the value, as part of a stop does; otherwise it may be anything.
     """
 
     reason: str
     bounded: bool = True
 
     def and_also(self, reason: str) -> MissingData:
-        """Return this with a second reason; where the value may be anything, the first is enough."""
+        """Return this with a second reason; where the value may be anything, the first suffices."""
         return MissingData(f"{self.reason}; {reason}") if self.bounded else self
 
 
@@ -68,7 +65,7 @@ class ObservedStop:
         return tuple(gap.and_also(self.cut_off) if gap else end for gap in gaps or (None,) * count)
 
 
-def why_cut_off(scenario: Scenario, measures: StopRecord, coverage: Coverage | None) -> str:
+def why_cut_off(resolved: scenario.Scenario, measures: StopRecord, coverage: Coverage | None) -> str:
     """Return why a stop was not observed to standstill; empty where it was."""
     if measures.stopped:
         return ""
@@ -79,5 +76,5 @@ def why_cut_off(scenario: Scenario, measures: StopRecord, coverage: Coverage | N
     )
     if coverage is not None:
         return f"the record ends after {value_text(measures.end_time, 's')} with the train at {speed}"
-    limit = scenario.simulation.maximum_duration.text
+    limit = resolved.simulation.maximum_duration.text
     return f"the simulation ended after {limit} at {speed}; raise `simulation.maximum_duration`"

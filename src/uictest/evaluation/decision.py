@@ -11,7 +11,7 @@ from uictest.evaluation.bounds import Bounds, deciding
 from uictest.evaluation.coverage import MissingData, ObservedStop
 from uictest.evaluation.verdict import Status
 from uictest.measures import MEASURES, Course
-from uictest.units import in_unit, to_12_digits, value_text, with_unit
+from uictest.units import in_unit, value_text, with_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,20 +47,58 @@ def decide(
     if not 1 <= needed <= len(values):
         return Decision("inconclusive", None, f"the record holds {len(values)} wheelsets")
     if missing:
-        return _of_intervals(values, missing, course, bounds, needed, unit)
+        return _PartlyKnown(values, missing, course, bounds, needed, unit).decision()
     value = deciding(values, bounds, needed)
-    return _decided(
-        "pass" if bounds.hold(value) else "fail", value, bounds, _why(values, value, bounds, needed, unit)
-    )
+    status: Status = "pass" if bounds.hold(value) else "fail"
+    return _decided(status, value, bounds, _why(values, value, bounds, needed, unit))
 
 
-def bounds_of(criterion: scenario.Criterion) -> Bounds:
-    """Return the bounds of a criterion in the unit of its measure."""
-    lower, upper = (
-        None if bound is None else to_12_digits(in_unit(bound, criterion.unit))
-        for bound in (criterion.lower, criterion.upper)
-    )
-    return Bounds(lower, upper, criterion.strict)
+@dataclass(frozen=True, slots=True)
+class _PartlyKnown:
+    """Values of a measure, in `unit`, some of which lack data; `needed` of them must keep the bounds."""
+
+    values: Sequence[float]
+    missing: Sequence[MissingData | None]
+    course: Course
+    bounds: Bounds
+    needed: int
+    unit: str
+
+    def decision(self) -> Decision:
+        """Return the decision that holds wherever the values lie; inconclusive where there is none."""
+        holds = list(map(self._holds, self.values, self.missing))
+        keeping = [value for value, held in zip(self.values, holds, strict=True) if held]
+        breaking = [value for value, held in zip(self.values, holds, strict=True) if held is False]
+        possible = len(self.values) - len(breaking)
+        of_wheelsets, demand = f"of {len(self.values)} wheelsets", with_unit(str(self.bounds), self.unit)
+        if len(keeping) >= self.needed:
+            count = f"{len(keeping)} {of_wheelsets} keep {demand}, {self.needed} needed"
+            return self._decided("pass", deciding(keeping, self.bounds, self.needed), count)
+        if possible < self.needed:
+            count = f"{len(breaking)} {of_wheelsets} miss {demand}, {self.needed} must keep it"
+            return self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
+        return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must keep {demand}")
+
+    def _holds(self, value: float, gap: MissingData | None) -> bool | None:
+        """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
+        if gap is None:
+            return self.bounds.hold(value)
+        known = _known(value, gap)
+        lowest = value if known and self.course == "grows" else -math.inf
+        highest = value if known and self.course == "falls" else math.inf
+        return self.bounds.hold_throughout(lowest, highest)
+
+    def _decided(self, status: Status, value: float, count: str) -> Decision:
+        texts = [
+            value_text(value, "1") if _known(value, gap) else "-"
+            for value, gap in zip(self.values, self.missing, strict=True)
+        ]
+        reasons = _listed([gap for gap in self.missing if gap])
+        if set(texts) == {"-"}:
+            return _decided(status, value, self.bounds, reasons)
+        so_far = f"{with_unit(', '.join(texts), self.unit)} so far; {reasons}"
+        reason = so_far if len(self.values) == 1 else f"{count}: {so_far}"
+        return _decided(status, value, self.bounds, reason)
 
 
 def _decided(status: Status, value: float, bounds: Bounds, reason: str) -> Decision:
@@ -70,57 +108,15 @@ def _decided(status: Status, value: float, bounds: Bounds, reason: str) -> Decis
 
 
 def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
-    lacking = [gap for gap in missing if gap]
-    if not lacking:
+    gaps = [gap for gap in missing if gap]
+    if not gaps:
         return Decision("not_applicable", None, why)
-    bounded = all(gap.bounded for gap in lacking)
-    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed(lacking)]))
-
-
-def _of_intervals(
-    values: Sequence[float],
-    missing: Sequence[MissingData | None],
-    course: Course,
-    bounds: Bounds,
-    needed: int,
-    unit: str,
-) -> Decision:
-    holds = [_holds(value, gap, course, bounds) for value, gap in zip(values, missing, strict=True)]
-    keeping = [value for value, held in zip(values, holds, strict=True) if held]
-    breaking = [value for value, held in zip(values, holds, strict=True) if held is False]
-    possible = len(values) - len(breaking)
-    wheelsets, demand = f"of {len(values)} wheelsets", with_unit(str(bounds), unit)
-    status: Status = "inconclusive"
-    value, count = math.nan, f"{needed} {wheelsets} must keep {demand}"
-    if len(keeping) >= needed:
-        status, value = "pass", deciding(keeping, bounds, needed)
-        count = f"{len(keeping)} {wheelsets} keep {demand}, {needed} needed"
-    elif possible < needed:
-        status, value = "fail", deciding(breaking, bounds, needed - possible)
-        count = f"{len(breaking)} {wheelsets} miss {demand}, {needed} must keep it"
-    shown = [
-        value_text(value, "1") if _known(value, gap) else "-"
-        for value, gap in zip(values, missing, strict=True)
-    ]
-    reasons = _listed([gap for gap in missing if gap])
-    if set(shown) == {"-"}:
-        return _decided(status, value, bounds, reasons)
-    so_far = f"{with_unit(', '.join(shown), unit)} so far; {reasons}"
-    return _decided(status, value, bounds, so_far if len(values) == 1 else f"{count}: {so_far}")
+    bounded = all(gap.bounded for gap in gaps)
+    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed(gaps)]))
 
 
 def _known(value: float, gap: MissingData | None) -> bool:
     return gap is None or (gap.bounded and not math.isnan(value))
-
-
-def _holds(value: float, gap: MissingData | None, course: Course, bounds: Bounds) -> bool | None:
-    """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
-    if gap is None:
-        return bounds.hold(value)
-    known = _known(value, gap)
-    lowest = value if known and course == "grows" else -math.inf
-    highest = value if known and course == "falls" else math.inf
-    return bounds.hold_throughout(lowest, highest)
 
 
 def _listed(missing: Sequence[MissingData]) -> str:
@@ -130,13 +126,13 @@ def _listed(missing: Sequence[MissingData]) -> str:
 def _why(values: list[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:
     demand = with_unit(str(bounds), unit)
     if len(values) == 1:
-        return "" if bounds.hold(value) else _broken(value, bounds, demand, unit)
-    kept = sum(bounds.hold(each) for each in values)
-    listed = with_unit(", ".join(value_text(each, "1") for each in values), unit)
+        return "" if bounds.hold(value) else _missed(value, bounds, demand, unit)
+    kept = sum(map(bounds.hold, values))
+    listed = with_unit(", ".join(value_text(number, "1") for number in values), unit)
     return f"{kept} of {len(values)} wheelsets keep {demand}, {needed} needed: {listed}"
 
 
-def _broken(value: float, bounds: Bounds, demand: str, unit: str) -> str:
+def _missed(value: float, bounds: Bounds, demand: str, unit: str) -> str:
     if not math.isfinite(value):
         return f"{value} never keeps {demand}"
     return f"{value_text(value, unit)} misses {demand} by {value_text(-bounds.margin(value), unit)}"

@@ -5,24 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from uictest.evaluation.applicability import why_not_applicable
-from uictest.evaluation.bounds import Bounds
-from uictest.evaluation.conditions import TestConditions, test_conditions_of
+from uictest import scenario
+from uictest.evaluation.applicability import TestConditions, test_conditions_of, why_not_applicable
+from uictest.evaluation.bounds import Bounds, bounds_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
-from uictest.evaluation.decision import Decision, bounds_of, decide
-from uictest.evaluation.meaning import applied_definitions, meaning_of
+from uictest.evaluation.decision import Decision, decide
+from uictest.evaluation.definitions import applied_definitions, definition_texts
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
 from uictest.measures import StopRecord, WheelsetRecords
 
-if TYPE_CHECKING:
-    from uictest.scenario import Criteria, Criterion, MeasureDefinitions, Scenario
-
 
 def judge(
-    scenario: Scenario,
+    resolved: scenario.Scenario,
     measures: StopRecord,
     wheelset_measures: WheelsetRecords,
     *,
@@ -32,39 +28,41 @@ def judge(
     """Judge one stop by every criterion of its scenario, in the order written.
 
     Args:
-        scenario: resolved; says the circumstances and the criteria.
-        measures: record of the stop (fields of `measures.StopRecord`, SI).
-        wheelset_measures: one record per wheelset from the leading end (`measures.WheelsetRecord`, SI).
-        explain: whether the verdicts also say what they were taken to mean and how firmly they stand, which
-            takes most of the time.
+        resolved: scenario with the conditions of the stop and the criteria.
+        measures: record of the stop, SI.
+        wheelset_measures: one record per wheelset from the leading end, SI.
+        explain: whether the verdicts also list their definitions and whether another value in their range
+            would change them, which takes most of the time.
         coverage: what the record of a real stop lacks; None for a simulation.
 
     Returns:
-        One verdict per criterion: `not_applicable` where the criterion says nothing about such a stop,
+        One verdict per criterion: `not_applicable` where the criterion does not apply to such a stop,
         `inconclusive` where data to judge it are missing, both with the reason. NaN never passes.
 
     """
-    circumstances = test_conditions_of(scenario)
-    cut_off = why_cut_off(scenario, measures, coverage)
+    conditions = test_conditions_of(resolved)
+    cut_off = why_cut_off(resolved, measures, coverage)
     stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
     verdicts = []
-    for profile in scenario.criteria:
+    for profile in resolved.criteria:
         for criterion in profile.criteria:
-            verdict = _judge(criterion, circumstances, stop, scenario.measures, explain=explain)
-            verdicts.append(_defined(verdict, criterion, profile, scenario.measures) if explain else verdict)
+            verdict = _judge(criterion, conditions, stop, resolved.measures, explain=explain)
+            if explain:
+                verdict = _with_definitions(verdict, criterion, profile, resolved.measures)
+            verdicts.append(verdict)
     return verdicts
 
 
 def _judge(
-    criterion: Criterion,
-    circumstances: TestConditions,
+    criterion: scenario.Criterion,
+    conditions: TestConditions,
     stop: ObservedStop,
-    observation: MeasureDefinitions,
+    observation: scenario.MeasureDefinitions,
     *,
     explain: bool,
 ) -> Verdict:
     bounds = bounds_of(criterion)
-    undecided = _before_judging(criterion, circumstances, stop) or _unobserved(criterion, observation, stop)
+    undecided = _before_judging(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
     if undecided is not None:
         return _verdict(criterion, bounds, undecided)
     stated = criterion.definition.stated()
@@ -74,25 +72,28 @@ def _judge(
     return _verdict(criterion, bounds, decision, *_sensitivities(criterion, bounds, stated, stop))
 
 
-def _defined(
-    verdict: Verdict, criterion: Criterion, profile: Criteria, observation: MeasureDefinitions
+def _with_definitions(
+    verdict: Verdict,
+    criterion: scenario.Criterion,
+    profile: scenario.Criteria,
+    observation: scenario.MeasureDefinitions,
 ) -> Verdict:
-    """Return a verdict with what its criterion was taken to mean."""
+    """Return a verdict with the definitions that it depends on."""
     return replace(
         verdict,
-        definition=meaning_of(criterion, profile, observation),
+        definition=definition_texts(criterion, profile, observation),
         definitions=applied_definitions(criterion, profile, observation),
     )
 
 
 def _before_judging(
-    criterion: Criterion, circumstances: TestConditions, stop: ObservedStop
+    criterion: scenario.Criterion, conditions: TestConditions, stop: ObservedStop
 ) -> Decision | None:
-    """Return the decision on a criterion that does not apply, or of which that is not known; else None."""
+    """Return the decision on a criterion that does not apply, or may not apply; None where it applies."""
     unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed
     initial_speed = None if unknown else float(stop.measures.initial_speed)
-    if why_not := why_not_applicable(criterion.applies, circumstances, initial_speed):
-        return Decision("not_applicable", None, why_not)
+    if reason := why_not_applicable(criterion.applies, conditions, initial_speed):
+        return Decision("not_applicable", None, reason)
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if unknown and criterion.applies.initial_speed is not None:
@@ -100,8 +101,10 @@ def _before_judging(
     return None
 
 
-def _unobserved(criterion: Criterion, observation: MeasureDefinitions, stop: ObservedStop) -> Decision | None:
-    """Return that a measure was never observed: it would say that nothing slid or locked; else None."""
+def _unobserved(
+    criterion: scenario.Criterion, observation: scenario.MeasureDefinitions, stop: ObservedStop
+) -> Decision | None:
+    """Return the decision on a measure that was never observed: its zero says nothing; else None."""
     if stop.coverage is not None and stop.coverage.no_initial_speed:
         return None
     moving_speed = observation.moving_speed
@@ -109,13 +112,13 @@ def _unobserved(criterion: Criterion, observation: MeasureDefinitions, stop: Obs
         stop.measures.maximum_deceleration  # kept from the first sample at this speed on
     )
     if never_faster and "moving_speed" in criterion.observed_by:
-        why = f"the train never ran at `moving_speed` ({moving_speed.text}), from which on this is observed"
-        return Decision("not_applicable", None, why)
+        reason = f"the train never reached `moving_speed` ({moving_speed.text}), above which this is observed"
+        return Decision("not_applicable", None, reason)
     return None
 
 
 def _sensitivities(
-    criterion: Criterion, bounds: Bounds, stated: dict[str, float], stop: ObservedStop
+    criterion: scenario.Criterion, bounds: Bounds, stated: dict[str, float], stop: ObservedStop
 ) -> Iterator[Sensitivity]:
     for name, parameter in criterion.definition.parameters().items():
 
@@ -126,7 +129,9 @@ def _sensitivities(
         yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
 
 
-def _verdict(criterion: Criterion, bounds: Bounds, decision: Decision, *moves: Sensitivity) -> Verdict:
+def _verdict(
+    criterion: scenario.Criterion, bounds: Bounds, decision: Decision, *sensitivities: Sensitivity
+) -> Verdict:
     return Verdict(
         id=criterion.id,
         layer=criterion.layer,
@@ -137,7 +142,7 @@ def _verdict(criterion: Criterion, bounds: Bounds, decision: Decision, *moves: S
         margin=_margin(decision, bounds),
         status=decision.status,
         reason=decision.reason,
-        sensitivity=moves,
+        sensitivity=sensitivities,
         measure=criterion.measure,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Annotated, Literal
@@ -12,7 +12,7 @@ from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
 from uictest.evaluation.json_form import json_form
 from uictest.evaluation.parameters import EffectivePart
-from uictest.evaluation.verdict import Verdict
+from uictest.evaluation.verdict import Layer, Status, Verdict, relative_margin
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
@@ -84,3 +84,42 @@ class CaseResult:
     def met(self) -> bool:
         """Whether the outcome is the expected one; a skipped case meets only the expectation `pass`."""
         return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
+
+
+def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
+    """Return the outcome of a stop and why.
+
+    A failed validity criterion makes the stop invalid: it does not count as a test, whatever its
+    requirements. Otherwise a failed requirement fails the stop, unless a validity criterion is inconclusive:
+    the stop may be no test. Any other inconclusive criterion makes the stop inconclusive. A stop without any
+    applicable criterion is skipped.
+    """
+    verdicts = list(verdicts)
+    if reasons := _reasons(verdicts, ("fail",), "validity"):
+        return "invalid", reasons
+    reasons = _reasons(verdicts, ("fail",), "requirement")
+    if reasons and not _reasons(verdicts, ("inconclusive",), "validity"):
+        return "fail", reasons
+    if any(verdict.status == "inconclusive" for verdict in verdicts):
+        return "inconclusive", _reasons(verdicts, ("fail", "inconclusive"))
+    if not any(verdict.status == "pass" for verdict in verdicts):
+        return "skipped", _reasons(verdicts, ("not_applicable",)) or "no criterion"
+    return "pass", ""
+
+
+def _reasons(verdicts: list[Verdict], statuses: Sequence[Status], layer: Layer | None = None) -> str:
+    return "; ".join(
+        f"{verdict.id}: {verdict.reason}"
+        for verdict in verdicts
+        if verdict.status in statuses and layer in (None, verdict.layer)
+    )
+
+
+def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
+    """Return the smallest relative margin of a case and the id of its criterion; None and "" without any."""
+    margins = [
+        (margin, verdict.id)
+        for verdict in result.criteria
+        if (margin := relative_margin(verdict)) is not None
+    ]
+    return min(margins, default=(None, ""))

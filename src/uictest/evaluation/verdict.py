@@ -1,4 +1,4 @@
-"""What judging one criterion says, and how firmly."""
+"""The verdict of one criterion on one stop, and how sensitive it is to its definitions."""
 
 from __future__ import annotations
 
@@ -123,3 +123,16 @@ class Verdict:
     def defined(self, name: str) -> float | None:
         """Return the SI value of a definition, None where the verdict has none of this name."""
         return next((each.value for each in self.definitions if each.name == name), None)
+
+
+def relative_margin(verdict: Verdict) -> float | None:
+    """Return the margin over the bound, negative where the bound is missed; None where there is none.
+
+    All criteria share this scale. A criterion that is met exactly, as that of standstill is, only says yes
+    or no and has no margin. A verdict that flips within the range of a definition has none to spare: at
+    most 0.
+    """
+    if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm):
+        return None
+    bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
+    return verdict.margin / bound if verdict.firm and bound else min(verdict.margin, 0.0)

@@ -1,3 +1,4 @@
+from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS
 from .measure import (
     Course as Course,
     Definition as Definition,

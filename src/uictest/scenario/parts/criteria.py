@@ -1,4 +1,4 @@
-"""Criteria: bounds on the measures of a stop, when they apply, and how their words are read."""
+"""Criteria: bounds on the measures of a stop, when they apply, and the definitions of their words."""
 
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
@@ -40,10 +40,10 @@ def _known_measure(name: str) -> str:
     return name
 
 
-def _of_the_measure(given: object, info: ValidationInfo) -> object:
-    # Without a valid measure its kind is not known; the model is refused for that already.
+def _of_the_measure(bound: object, info: ValidationInfo) -> object:
+    # Without a valid measure its kind is not known; the model is rejected for that already.
     measure = MEASURES.get(info.data.get("measure", ""))
-    return given if measure is None else QuantityField(KINDS[measure.kind]).validate(given)
+    return bound if measure is None else QuantityField(KINDS[measure.kind]).validate(bound)
 
 
 MeasureName = Annotated[
@@ -100,27 +100,27 @@ class Criterion(Model):
     @property
     def unit(self) -> str:
         """The unit value and bounds are printed in."""
-        return self._measured.unit
+        return self._declared.unit
 
     @property
     def meaning(self) -> str:
         """What is measured, in words."""
-        return self._measured.meaning
+        return self._declared.meaning
 
     @property
     def observed_by(self) -> tuple[str, ...]:
         """The fields of the scenario's `measures` part that decide what was observed."""
-        return self._measured.observed_by
+        return self._declared.observed_by
 
     @property
     def course(self) -> Course:
         """What the measure's value can do while the stop goes on."""
-        return self._measured.course
+        return self._declared.course
 
     @property
     def of_simulation(self) -> bool:
-        """Whether the measure says something about the simulation itself, nothing about a train."""
-        return self._measured.of_simulation
+        """Whether the measure describes the simulation itself, not a train."""
+        return self._declared.of_simulation
 
     @property
     def aggregation(self) -> str:
@@ -136,16 +136,16 @@ class Criterion(Model):
         return count if self.wheelsets == "all" else 1
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield missing or crossed bounds, a wrong aggregation, definitions missing or of no use."""
-        yield from self._bounds_that_bound_nothing()
-        yield from self._aggregation_that_does_not_fit()
-        yield from self._definitions_that_do_not_fit()
+        """Yield missing or crossed bounds, a wrong number of wheelsets, missing or unused definitions."""
+        yield from self._bound_problems()
+        yield from self._wheelsets_problems()
+        yield from self._definition_problems()
 
     @property
-    def _measured(self) -> Measure:
+    def _declared(self) -> Measure:
         return MEASURES[self.measure]
 
-    def _bounds_that_bound_nothing(self) -> Iterator[Inconsistency]:
+    def _bound_problems(self) -> Iterator[Inconsistency]:
         if self.lower is None and self.upper is None:
             yield Inconsistency(
                 (), f"criterion {quoted(self.id)} has no bound", "write 'lower', 'upper' or both"
@@ -155,31 +155,31 @@ class Criterion(Model):
                 ("lower",), f"the lower bound {self.lower.text} is above the upper bound {self.upper.text}"
             )
 
-    def _aggregation_that_does_not_fit(self) -> Iterator[Inconsistency]:
-        if self._measured.of_wheelsets and self.wheelsets is None:
+    def _wheelsets_problems(self) -> Iterator[Inconsistency]:
+        if self._declared.of_wheelsets and self.wheelsets is None:
             yield Inconsistency(
                 (),
                 f"{quoted(self.measure)} has a value per wheelset: 'wheelsets' must say how many keep it",
                 "write 'wheelsets: all', 'wheelsets: any' or 'wheelsets: {at_least: half}'",
             )
-        if not self._measured.of_wheelsets and self.wheelsets is not None:
+        if not self._declared.of_wheelsets and self.wheelsets is not None:
             yield Inconsistency(
                 ("wheelsets",), f"{quoted(self.measure)} is a measure of the whole stop, not of wheelsets"
             )
 
-    def _definitions_that_do_not_fit(self) -> Iterator[Inconsistency]:
-        needed, given = self._measured.definitions, self.definition.parameters()
+    def _definition_problems(self) -> Iterator[Inconsistency]:
+        needed, defined = self._declared.definitions, self.definition.parameters()
         for name in needed:
-            if name not in given:
+            if name not in defined:
                 yield Inconsistency(
                     (),
-                    f"{quoted(self.measure)} rests on {quoted(name)}, which is not defined",
+                    f"{quoted(self.measure)} needs the definition {quoted(name)}, which is missing",
                     "write it under 'definition'",
                 )
-        for name in given:
+        for name in defined:
             if name not in needed:
                 yield Inconsistency(
-                    ("definition", name), f"{quoted(self.measure)} does not rest on {quoted(name)}"
+                    ("definition", name), f"{quoted(self.measure)} does not use the definition {quoted(name)}"
                 )
 
 

@@ -1,4 +1,4 @@
-"""How the words of a criterion are read: each definition, the value used and the range it might have had."""
+"""The definitions of a criterion: the value used of each, and the range that its words allow."""
 
 from collections.abc import Iterator
 from typing import Annotated, ClassVar
@@ -9,23 +9,23 @@ from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantit
 from uictest.units import KILOMETRE_PER_HOUR, in_unit
 
 
-def _marked_throughout(given: object) -> object:
+def _with_its_source(definition: object) -> object:
     """Give the source that a definition names to each of its numbers."""
-    if not (isinstance(given, dict) and isinstance(given.get("source"), str)):
-        return given
-    marked, source = {**given}, given["source"]
-    if "value" in given:
-        marked["value"] = _marked(given["value"], source)
-    if isinstance(given.get("range"), list | tuple):
-        marked["range"] = tuple(_marked(end, source) for end in given["range"])
+    if not (isinstance(definition, dict) and isinstance(definition.get("source"), str)):
+        return definition
+    marked, source = {**definition}, definition["source"]
+    if "value" in definition:
+        marked["value"] = _with_source(definition["value"], source)
+    if isinstance(definition.get("range"), list | tuple):
+        marked["range"] = tuple(_with_source(end, source) for end in definition["range"])
     return marked
 
 
-def _marked(given: object, source: str) -> object:
-    return given if isinstance(given, dict | Quantity) else {"value": given, "source": source}
+def _with_source(number: object, source: str) -> object:
+    return number if isinstance(number, dict | Quantity) else {"value": number, "source": source}
 
 
-def _range_contradictions(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Inconsistency]:
+def _range_problems(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Inconsistency]:
     """Yield a range that does not rise or does not hold the value."""
     lower, upper = ends
     if lower > upper:
@@ -56,7 +56,7 @@ class FirstPhaseDuration(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a range that does not rise or does not hold the value."""
-        yield from _range_contradictions(self.value, self.range)
+        yield from _range_problems(self.value, self.range)
 
 
 class LowSpeedCutoff(Model):
@@ -82,23 +82,23 @@ class LowSpeedCutoff(Model):
                 yield Inconsistency(
                     key, f"{cutoff.text} is no multiple of 10 km/h", "slides are kept in such classes"
                 )
-        yield from _range_contradictions(self.value, self.range)
+        yield from _range_problems(self.value, self.range)
 
 
 Parameter = FirstPhaseDuration | LowSpeedCutoff
-"""One definition a criterion rests on: the value used, and the range it might as well have had.
+"""One definition of a criterion: the value used, and the range of values that the words allow.
 
 `unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is continuous.
 """
 
 
 class Definition(Model):
-    """The definitions a criterion rests on; each measure says which it needs."""
+    """The definitions that a criterion depends on; each measure says which it needs."""
 
-    first_phase_duration: Annotated[FirstPhaseDuration, BeforeValidator(_marked_throughout)] | None = Field(
+    first_phase_duration: Annotated[FirstPhaseDuration, BeforeValidator(_with_its_source)] | None = Field(
         default=None, description="First phase of braking, counted from the first sliding."
     )
-    low_speed_cutoff: Annotated[LowSpeedCutoff, BeforeValidator(_marked_throughout)] | None = Field(
+    low_speed_cutoff: Annotated[LowSpeedCutoff, BeforeValidator(_with_its_source)] | None = Field(
         default=None, description="Speed down to which slides count."
     )
 

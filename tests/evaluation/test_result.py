@@ -1,0 +1,108 @@
+"""The outcome of a case, and its narrowest margin on a scale that all criteria share."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import pytest
+
+from uictest.evaluation import (
+    CaseResult,
+    Sensitivity,
+    Verdict,
+    VerdictInterval,
+    narrowest_margin,
+)
+from uictest.evaluation.result import outcome_of
+from uictest.evaluation.verdict import relative_margin
+
+FLIPPING = Sensitivity(
+    "cut-off", "km/h", 20.0, 40.0, (VerdictInterval(20, 30, "pass"), VerdictInterval(30, 40, "fail"))
+)
+
+
+def verdict(**changes: Any) -> Verdict:
+    content: dict[str, Any] = {
+        "id": "distance",
+        "layer": "requirement",
+        "value": 450.0,
+        "unit": "m",
+        "lower": None,
+        "upper": 500.0,
+        "margin": 50.0,
+        "status": "pass",
+        "reason": "",
+        "definition": {},
+    }
+    return Verdict(**(content | changes))
+
+
+def result(*criteria: Verdict) -> CaseResult:
+    return CaseResult("stop", "stop.yaml", {}, "pass", "pass", criteria=criteria)
+
+
+def test_a_margin_counts_over_its_bound() -> None:
+    assert relative_margin(verdict()) == pytest.approx(0.1)
+    assert relative_margin(verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
+
+
+def test_a_verdict_that_hangs_on_a_definition_has_no_margin() -> None:
+    assert relative_margin(verdict(sensitivity=(FLIPPING,))) == 0.0
+
+
+def test_what_only_says_yes_or_no_has_none() -> None:
+    standstill = verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
+    assert relative_margin(standstill) is None
+    assert relative_margin(verdict(margin=None, status="not_applicable")) is None
+    missed = verdict(id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, status="fail")
+    assert relative_margin(missed) == -1.0
+
+
+def test_the_narrowest_of_several_is_named() -> None:
+    close = verdict(id="slide", unit="%", value=34.0, upper=35.0, margin=1.0)
+    assert narrowest_margin(result(verdict(), close)) == (pytest.approx(1.0 / 35.0), "slide")
+    assert narrowest_margin(result()) == (None, "")
+
+
+OPEN, OPEN_TEST = "requirement-inconclusive: because", "validity-inconclusive: because"
+FAILED = "requirement-fail: because"
+
+
+def judged(layer: str, status: str) -> Verdict:
+    return Verdict(f"{layer}-{status}", layer, None, "m", None, 1.0, None, status, "because")
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "outcome", "reason"),
+    [
+        ([("validity", "pass"), ("requirement", "pass")], "pass", ""),
+        ([("validity", "pass"), ("requirement", "not_applicable")], "pass", ""),
+        ([("validity", "pass"), ("requirement", "fail")], "fail", FAILED),
+        ([("requirement", "fail"), ("validity", "fail")], "invalid", "validity-fail: because"),
+        ([("validity", "not_applicable")], "skipped", "validity-not_applicable: because"),
+        ([("validity", "not_applicable"), ("requirement", "fail")], "fail", FAILED),
+        ([("validity", "pass"), ("requirement", "inconclusive")], "inconclusive", OPEN),
+        ([("requirement", "fail"), ("requirement", "inconclusive")], "fail", FAILED),
+        ([("validity", "inconclusive"), ("requirement", "fail")], "inconclusive", f"{OPEN_TEST}; {FAILED}"),
+        ([("validity", "inconclusive"), ("validity", "fail")], "invalid", "validity-fail: because"),
+        ([("validity", "not_applicable"), ("requirement", "inconclusive")], "inconclusive", OPEN),
+        ([], "skipped", "no criterion"),
+    ],
+)
+def test_validity_comes_before_requirements(verdicts, outcome: str, reason: str) -> None:
+    assert outcome_of(judged(*one) for one in verdicts) == (outcome, reason)
+
+
+@pytest.mark.parametrize("layer", ["validity", "requirement"])
+def test_nothing_passes_while_a_criterion_could_not_be_judged(layer: str) -> None:
+    kinds = product(("validity", "requirement"), ("pass", "fail", "not_applicable", "inconclusive"))
+    for others in product(list(kinds), repeat=2):
+        verdicts = [judged(layer, "inconclusive"), *(judged(*each) for each in others)]
+        assert outcome_of(verdicts)[0] in ("fail", "invalid", "inconclusive")
+
+
+def test_the_order_of_the_criteria_does_not_matter() -> None:
+    kinds = list(product(("validity", "requirement"), ("pass", "fail", "not_applicable", "inconclusive")))
+    for one, other in product(kinds, kinds):
+        assert outcome_of([judged(*one), judged(*other)])[0] == outcome_of([judged(*other), judged(*one)])[0]
