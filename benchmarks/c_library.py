@@ -18,7 +18,8 @@ from machine import processor
 from numpy.typing import NDArray
 
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.model.records import BOGIE, CAR, PARAMETERS, WHEELSET
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 
 SOURCES = Path(__file__).parent / "c"
 PLAIN = ("-O3", "-march=native")
@@ -139,7 +140,7 @@ class CLanes:
 
 
 class CStop:
-    """The stop of the C rig, called as :func:`uictest.rig.model.stop.stop` is; nothing is recorded."""
+    """The stop of the C rig with the threshold controller, called as ours is; nothing is recorded."""
 
     def __init__(self, flags: tuple[str, ...]) -> None:
         self._stop = library(Unit("rig.c", flags)).stop
@@ -157,7 +158,7 @@ class CStop:
         rail: NDArray[np.float64],
         measures: Any,
         wheelset_measures: Any,
-        trace: NDArray[np.float64],
+        trace: Any,
         steps_per_sample: int,
     ) -> int:
         """Run one stop on zeroed records; return the number of rows recorded, which is none."""

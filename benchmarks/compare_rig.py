@@ -10,8 +10,8 @@ from c_library import PLAIN, STRICT, CStop
 from stops import TIMED, Stop, shipped
 from timing import side_by_side
 
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import SteppedStop, run
 
 TARGET = 1.3
 """Highest ratio of our time to that of C."""
@@ -20,9 +20,9 @@ _WHEELSETS = 4
 
 def timed(name: str, stop: Stop, c_stop: CStop, turns: int) -> float:
     """Time one stop, print a line and return the ratio."""
-    ours = compiled_stop()
-    steps = run(ours, *stop, 0).car.steps
-    comparison = side_by_side(lambda: run(ours, *stop, 0), lambda: run(c_stop, *stop, 0), turns)
+    ours = compiled_stop(stop.controller)
+    steps = run_to_end(ours, stop).car.steps
+    comparison = side_by_side(lambda: run_to_end(ours, stop), lambda: run_to_end(c_stop, stop), turns)
     own, other = (
         1e9 * median(times) / (steps * _WHEELSETS) for times in (comparison.ours, comparison.theirs)
     )
@@ -31,7 +31,7 @@ def timed(name: str, stop: Stop, c_stop: CStop, turns: int) -> float:
     return comparison.ratio
 
 
-def disagreement(ours: SteppedStop, theirs: SteppedStop) -> float:
+def disagreement(ours: FinishedStop, theirs: FinishedStop) -> float:
     """Largest relative difference of any measure and of any final state."""
     pairs = [
         (ours.measures, theirs.measures),
@@ -55,7 +55,7 @@ def agreement(stops: dict[str, Stop], c_stop: CStop) -> None:
     """Print how far distance, time and everything else differ, for every shipped case."""
     print(f"\nagreement without contraction {'distance m':>21} {'time s':>10} {'largest difference':>20}")
     for name, stop in stops.items():
-        ours, theirs = run(compiled_stop(), *stop, 0), run(c_stop, *stop, 0)
+        ours, theirs = run_to_end(compiled_stop(stop.controller), stop), run_to_end(c_stop, stop)
         worst = disagreement(ours, theirs)
         verdict = "same bits" if worst == 0.0 else f"{worst:.1e}"
         m = ours.measures

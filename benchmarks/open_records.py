@@ -8,10 +8,10 @@ import numpy as np
 from stops import Stop
 
 from uictest.physics import arithmetic
-from uictest.rig.backends.compiled import translate
-from uictest.rig.model.cycle import begin_cycle, command_valves, sense
-from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.backends.compiled import translate, with_controller
+from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.start import start
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
 
 
@@ -45,17 +45,22 @@ def opened(record: Any) -> SimpleNamespace:
 
 def rolling(stop: Stop) -> Rig:
     """Return the rig at the brake command, its valves told to fill."""
-    parameters, rail = stop
+    parameters, rail, controller = stop
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
-    start(car[0], bogies, wheelsets, parameters)
-    sense(car[0], wheelsets, parameters)
-    begin_cycle(car[0], wheelsets, parameters, rail)
+    with_own = with_controller(controller, _unchanged, {})
+    translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters)
+    read_sensors(car[0], wheelsets, parameters)
+    translate(start_cycle, _unchanged, with_own)(car[0], wheelsets, parameters, rail)
     command_valves(car[0], wheelsets, parameters)
     return Rig(
         opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]
     )
+
+
+def _unchanged(function: Callable[..., Any]) -> Any:
+    return function
 
 
 def rounded_twice(a: Any, b: Any, c: Any) -> Any:
@@ -77,5 +82,5 @@ def step_in(select: Any, minimum: Any, maximum: Any, sqrt: Any) -> Callable[...,
         arithmetic.maximum: maximum,
         arithmetic.sqrt: sqrt,
     }
-    translated: Callable[..., None] = translate(step, lambda function: function, operations)
+    translated: Callable[..., None] = translate(step, _unchanged, operations)
     return translated

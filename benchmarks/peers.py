@@ -21,9 +21,10 @@ from reduced_model import integrated_seconds
 from stops import Stop, shipped
 
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import run
+from uictest.rig.model.friction_law import FRICTIONS
 
 CASE = "slide-80[compensation=full]"
 STOPS = 64
@@ -49,16 +50,16 @@ class Column(np.ndarray):
 
 def different_stops(stop: Stop) -> tuple[Any, NDArray[np.float64]]:
     """Return parameters and friction laws of stops on rails from slippery to good."""
-    parameters = np.repeat(stop[0].reshape(1), STOPS).view(stop[0].dtype)
+    parameters = np.repeat(stop.parameters.reshape(1), STOPS).view(stop.parameters.dtype)
     parameters["case_key"] = np.arange(STOPS)
-    rails = np.tile(stop[1][:, :1], (STOPS, 1, 1))
-    rails[:, 1, 0] = np.linspace(0.10, 0.30, STOPS)
+    rails = np.tile(stop.rail[:, :1], (STOPS, 1, 1))
+    rails[:, FRICTIONS, 0] = np.linspace(0.10, 0.30, STOPS)
     return parameters, rails
 
 
 def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
     """Run a stop on a scalar rig."""
-    return float(run(stop_of, *stop, 0).car.steps * _WHEELSETS)
+    return float(run_to_end(stop_of, stop).car.steps * _WHEELSETS)
 
 
 def c_lanes(lanes: CLanes, stop: Stop) -> float:
@@ -66,19 +67,19 @@ def c_lanes(lanes: CLanes, stop: Stop) -> float:
     parameters, rails = different_stops(stop)
     measures, wheelset_measures = np.zeros(STOPS, STOP_MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
     lanes(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
-    return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
+    return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
 
 
 def ours_in_lanes(stop: Stop) -> float:
     """Run stops on the rig compiled in lanes."""
-    measures = run_in_lanes(*different_stops(stop)).measures
-    return float(measures["end_time"].sum() / stop[0].step * _WHEELSETS)
+    measures = run_in_lanes(*different_stops(stop), [stop.controller] * STOPS).measures
+    return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
 
 
 def plain_python(stop: Stop, steps: int) -> float:
     """Step the rig in the interpreter."""
     on_floats = step_on_floats()
-    rig, parameters = rolling(stop), opened(stop[0])
+    rig, parameters = rolling(stop), opened(stop.parameters)
     for _ in range(steps):
         on_floats(rig.car, rig.bogies, rig.wheelsets, parameters)
     return steps * _WHEELSETS
@@ -95,7 +96,7 @@ def step_in_columns() -> Callable[..., None]:
 def numpy_columns(stop: Stop, runs: int, steps: int) -> float:
     """Step many runs at once, each number an array."""
     in_columns = step_in_columns()
-    one, parameters = rolling(stop), opened(stop[0])
+    one, parameters = rolling(stop), opened(stop.parameters)
     rig = one.filled([np.full(runs, number, float).view(Column) for number in one.numbers()])
     for _ in range(steps):
         in_columns(rig.car, rig.bogies, rig.wheelsets, parameters)
@@ -107,7 +108,7 @@ def python_control(stop: Stop, steps: int) -> float:
     import control
 
     on_floats = step_on_floats()
-    one, parameters = rolling(stop), opened(stop[0])
+    one, parameters = rolling(stop), opened(stop.parameters)
     start = np.array(list(one.numbers()), float)
 
     def update(_time: float, x: Any, _input: Any, _parameters: Any) -> list[Any]:
@@ -129,7 +130,7 @@ class JaxColumns:
         import jax.numpy as jnp
 
         jax.config.update("jax_enable_x64", True)
-        one, parameters = rolling(stop), opened(stop[0])
+        one, parameters = rolling(stop), opened(stop.parameters)
         traced = step_in(jnp.where, jnp.minimum, jnp.maximum, jnp.sqrt)
 
         def advance(numbers: Any, _: None) -> tuple[Any, None]:
@@ -154,7 +155,7 @@ class JaxColumns:
 
 def peers(stop: Stop) -> Iterator[Peer]:
     """Yield the peers, the one that all are compared with first."""
-    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop()
+    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop(stop.controller)
     eight, sixteen = CLanes(8), CLanes(16)
     yield "C, scalar, gcc -O3 -march=native", lambda: one_by_one(in_c, stop)
     yield "C, scalar, without contraction", lambda: one_by_one(strict_in_c, stop)
@@ -170,7 +171,10 @@ def peers(stop: Stop) -> Iterator[Peer]:
         yield "JAX scan, 1024 runs", lambda: many(2)
     yield "plain Python", lambda: plain_python(stop, 400)
     yield "python-control, discrete nlsys", lambda: python_control(stop, 100)
-    yield "scipy solve_ivp, reduced model", lambda: integrated_seconds(stop, 4.0) / stop[0].step * _WHEELSETS
+    yield (
+        "scipy solve_ivp, reduced model",
+        lambda: integrated_seconds(stop, 4.0) / stop.parameters.step * _WHEELSETS,
+    )
 
 
 def main() -> None:

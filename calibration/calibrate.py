@@ -15,6 +15,8 @@ from objective import SLIDE, misfit
 from parameters import FREE, values
 from scipy.optimize import OptimizeResult, differential_evolution
 
+from uictest.rig.model.friction_law import FRICTIONS
+
 POPULATION = 30
 SPREAD = 0.06
 """Standard deviation of the first cloud, as a share of the bounds."""
@@ -65,9 +67,9 @@ def _arguments() -> argparse.Namespace:
 
 def _present() -> NDArray[np.float64]:
     """Free parameters as they stand in the library, as shares between their bounds."""
-    record = SLIDE.record
+    record = SLIDE.inputs.parameters
     delay = record.valve_delay_cycles * record.cycle_time + record.valve_delay_steps * record.step
-    special = {"switching_delay": delay, "friction": SLIDE.rail[1, 0]}
+    special = {"switching_delay": delay, "friction": SLIDE.inputs.rail[FRICTIONS, 0]}
     shares = [
         free.share(float(special[free.name] if free.name in special else record[free.name])) for free in FREE
     ]

@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from parameters import Fields, fields, values
 
-from uictest.rig.assembly import assemble
+from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import SteppedStop, run
+from uictest.rig.model.friction_law import FRICTIONS
 from uictest.scenario import load
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
@@ -28,24 +28,24 @@ GIVEN_UP = 20.0
 class Stop:
     """A stop to be run with other numbers: the slide test, the dry stop, the slip-brake test."""
 
-    record: Any
-    rail: NDArray[np.float64]
+    inputs: StopInputs
 
-    def run(self, changed: Fields, friction: float | None = None) -> SteppedStop:
+    def run(self, changed: Fields, friction: float | None = None) -> FinishedStop:
         """Run it with some record fields, and maybe the rail's friction, changed."""
-        record = self.record.copy()
+        record = self.inputs.parameters.copy()
         for name, value in changed.items():
             record[name] = value
-        rail = self.rail.copy()
+        rail = self.inputs.rail.copy()
         if friction is not None:
-            rail[1] = friction
-        return run(compiled_stop(), record, rail, 0)
+            rail[FRICTIONS] = friction
+        controller = self.inputs.controller
+        return run_to_end(compiled_stop(controller), StopInputs(record, rail, controller))
 
 
 def stop(file: str, selected: str) -> Stop:
     """The stop of one case of a shipped scenario file."""
     case = next(case for case in load([SCENARIOS / file]) if case.id == selected)
-    return Stop(*assemble(case))
+    return Stop(assemble(case))
 
 
 SLIDE = stop("slide-80.yaml", "slide-80[compensation=full]")
@@ -57,9 +57,9 @@ SLIPPERIEST = stop("low-adhesion-80.yaml", "low-adhesion-80")
 def misfit(shares: NDArray[np.float64]) -> float:
     """Misfit of free parameters given as shares between their bounds."""
     chosen = values(shares)
-    changed = fields(chosen, SLIDE.record)
+    changed = fields(chosen, SLIDE.inputs.parameters)
     slide = float(np.mean([_slide_test(changed, chosen["friction"], seed) for seed in SEEDS]))
-    changed.pop("demanded_pressure")  # dry stop and slip-brake test are made in position R
+    changed.pop("commanded_pressure")  # dry stop and slip-brake test are made in position R
     total = slide + _dry_stop(changed)
     if total > GIVEN_UP:
         return total + GIVEN_UP
@@ -90,7 +90,7 @@ def _slide_test(changed: Fields, friction: float, seed: int) -> float:
     return misfit + sum(_course(outcome, 1.0 if name == "full" else 0.3) for name, outcome in stops.items())
 
 
-def _course(outcome: SteppedStop, weight: float) -> float:
+def _course(outcome: FinishedStop, weight: float) -> float:
     measures, wheelsets = outcome.measures, outcome.wheelset_measures
     if not measures.stopped:
         return GIVEN_UP
@@ -113,7 +113,7 @@ def _slip_brake_test(changed: Fields) -> float:
     if not measures.stopped:
         return 5.0 * GIVEN_UP
     speeds = measures.speed_after_sliding
-    adhesion = (speeds[0] - speeds[3]) / 3.0 / float(SLIP.record.gravity)
+    adhesion = (speeds[0] - speeds[3]) / 3.0 / float(SLIP.inputs.parameters.gravity)
     slides = np.sort(wheelsets.maximum_slide_above[:, 3])
     return (
         beyond(adhesion, 0.0, 0.076, 0.002)

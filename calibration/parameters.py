@@ -47,7 +47,7 @@ FREE = (
     Free("fill_pulse_on", 0.02, 0.15),
     Free("fill_pulse_off", 0.02, 0.15),
     Free("refill_time", 0.1, 1.2),
-    Free("demanded_pressure", 4.2e5, 4.8e5),  # emergency application, gauge
+    Free("commanded_pressure", 4.2e5, 4.8e5),  # emergency application, gauge
     Free("friction", 0.145, 0.175),  # of the rail in the slide test
 )
 

@@ -70,12 +70,12 @@ static void end_cycle(Work *work, Place *place, State *state, Lanes *parameters,
     take_next(work, place, state, parameters, lane);
 }
 
-static void start_cycle(const Work *work, const Place *place, State *state)
+static void start_cycle_of_stop(const Work *work, const Place *place, State *state)
 {
     Rail laws = {work->rails + 4 * place->stop, 1};
     const Parameters *p = &work->parameters[place->stop];
-    sense(&state->car, state->wheelsets, p);
-    begin_cycle(&state->car, state->wheelsets, p, laws);
+    read_sensors(&state->car, state->wheelsets, p);
+    start_cycle(&state->car, state->wheelsets, p, laws);
 }
 
 void stops(int64_t count, const Parameters *parameters, const double *rails, Measures *measures,
@@ -93,7 +93,7 @@ void stops(int64_t count, const Parameters *parameters, const double *rails, Mea
         if (places[lane].stop < 0) { /* fewer stops than lanes: an idle lane repeats the last stop unseen */
             put(lane_parameters, lane, &parameters[count - 1], NUMBERS(Parameters));
         } else {
-            start_cycle(&work, &places[lane], &state);
+            start_cycle_of_stop(&work, &places[lane], &state);
             busy++;
         }
         put(lanes, lane, &state, NUMBERS(State));
@@ -109,7 +109,7 @@ void stops(int64_t count, const Parameters *parameters, const double *rails, Mea
                 busy--;
                 continue;
             }
-            start_cycle(&work, &places[lane], &state);
+            start_cycle_of_stop(&work, &places[lane], &state);
             put(lanes, lane, &state, NUMBERS(State));
         }
     }

@@ -16,8 +16,8 @@ void stop(Car *restrict car, Bogie *restrict bogies, Wheelset *restrict wheelset
     start(car, bogies, wheelsets, p);
     begin_stop_measures(car, measures, wheelset_measures, p);
     while (car->stopped == 0.0 && car->cycle < p->cycles) {
-        sense(car, wheelsets, p);
-        begin_cycle(car, wheelsets, p, laws);
+        read_sensors(car, wheelsets, p);
+        start_cycle(car, wheelsets, p, laws);
         for (int64_t k = 0; k < p->steps_per_cycle; k++)
             step(car, bogies, wheelsets, p);
         observe_cycle(car, wheelsets, measures, wheelset_measures, p);

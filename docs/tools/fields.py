@@ -16,7 +16,7 @@ from uictest.scenario.model import Scenario
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
-from uictest.scenario.parts.controller import SlipBandController, ThresholdController
+from uictest.scenario.parts.controller import CONTROLLER_MODELS
 from uictest.scenario.parts.criteria import Criterion
 from uictest.scenario.parts.measures import MeasureDefinitions
 from uictest.scenario.parts.rail import RailCondition
@@ -34,8 +34,7 @@ PARTS: dict[str, type[BaseModel]] = {
     "brake": BrakeSystem,
     "caliper": Caliper,
     "compensation": Compensation,
-    "threshold controller": ThresholdController,
-    "slip-band controller": SlipBandController,
+    **{f"{name} controller": model for name, model in CONTROLLER_MODELS.items()},
     "sensors": Sensors,
     "rail": RailCondition,
     "measures": MeasureDefinitions,

@@ -3,8 +3,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest.rig.assembly import StopInputs
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import SteppedStop, run
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""
@@ -19,15 +20,15 @@ def c_stop() -> Any:
         pytest.skip(str(reason))
 
 
-def short_stop(name: str) -> tuple[Any, Any]:
+def short_stop(name: str) -> StopInputs:
     from stops import shipped
 
-    parameters, rail = shipped()[name]
-    parameters.cycles = FIVE_SECONDS
-    return parameters, rail
+    stop = shipped()[name]
+    stop.parameters.cycles = FIVE_SECONDS
+    return stop
 
 
-def bits(outcome: SteppedStop) -> bytes:
+def bits(outcome: FinishedStop) -> bytes:
     records = (outcome.measures, outcome.wheelset_measures, outcome.car, outcome.wheelsets)
     return b"".join(np.asarray(record).tobytes() for record in records)
 
@@ -37,13 +38,13 @@ def bits(outcome: SteppedStop) -> bytes:
 )
 def test_c_rig_agrees_bit_for_bit(name: str) -> None:
     stop = short_stop(name)
-    assert bits(run(c_stop(), *stop, 0)) == bits(run(compiled_stop(), *stop, 0))
+    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(stop.controller), stop))
 
 
 def test_header_follows_the_records() -> None:
     from c_library import records_header
 
-    from uictest.rig.model.records import PARAMETERS
+    from uictest.rig.model.parameters import PARAMETERS
 
     header = records_header()
     assert all(f" {name};" in header for name in PARAMETERS.names)
@@ -56,9 +57,10 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
 
     from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 
-    parameters, rail = short_stop("dry-120")
+    stop = short_stop("dry-120")
+    parameters, rail, _ = stop
     parameters.uses_cylinder_dynamics = 0.0
-    scalar = run(c_stop(), parameters, rail, 0)
+    scalar = run_to_end(c_stop(), stop)
     stops = np.repeat(parameters.reshape(1), 11).view(parameters.dtype)
     measures, wheelset_measures = np.zeros(11, STOP_MEASURES), np.zeros(44, WHEELSET_MEASURES)
     CLanes()(stops, np.tile(rail[:, 0], (11, 1)), measures, wheelset_measures)

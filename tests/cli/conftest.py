@@ -125,5 +125,5 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return CaseRun(result)
 
     monkeypatch.setattr(batch, "run_case", examine)
-    monkeypatch.setattr(rig, "is_warm", lambda: True)
+    monkeypatch.setattr(rig, "is_compiled", lambda cases: True)
     return examined

@@ -1,12 +1,13 @@
 """Records that hold what the contract lets a controller see, and nothing else."""
 
 from collections.abc import Callable
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from uictest.controllers import slip_band, threshold
+from uictest.controllers import CONTROLLERS, Controller
+from uictest.record import fields_of
 from uictest.scenario import load_part
 
 CYCLE = 0.01
@@ -20,25 +21,24 @@ def _record(*fields: str) -> Any:
 class Bench:
     """A controller with its memory and four speed sensors."""
 
-    def __init__(self, controller: ModuleType, parameters: Any, speed: float) -> None:
+    def __init__(self, controller: Controller, parameters: Any, speed: float) -> None:
         self.controller = controller
         self.parameters = parameters
-        self.car = _record(*(name for name, _ in controller.CAR_MEMORY))
-        memory = [name for name, _ in controller.WHEELSET_MEMORY]
-        self.wheelsets = [_record("measured_speed", "command", *memory) for _ in range(4)]
-        controller.begin(self.car, self.wheelsets, speed)
+        self.train = _record(*fields_of(controller.train_memory))
+        self.wheelsets = [_record(*fields_of(controller.wheelset_memory)) for _ in range(4)]
+        controller.begin(self.train, self.wheelsets, speed)
 
     def commands(self, *speeds: float) -> list[int]:
         """Commands of one cycle in which the sensors read these speeds, m/s."""
         for wheelset, speed in zip(self.wheelsets, speeds, strict=True):
             wheelset.measured_speed = speed
-        self.controller.decide(self.car, self.wheelsets, self.parameters)
-        return [wheelset.command for wheelset in self.wheelsets]
+        self.controller.decide(self.train, self.wheelsets, self.parameters)
+        return [wheelset.valve_command for wheelset in self.wheelsets]
 
     @property
     def reference(self) -> float:
         """The controller's estimate of the train's speed, m/s."""
-        return float(getattr(self.car, self.controller.CAR_MEMORY[0][0]))
+        return float(self.train.reference_speed)
 
 
 def _shipped(name: str) -> dict[str, Any]:
@@ -47,7 +47,9 @@ def _shipped(name: str) -> dict[str, Any]:
 
 def _threshold(speed: float, **changes: float) -> Bench:
     fixed = {"cycle_time": CYCLE, "reference_deceleration": 1.8}
-    return Bench(threshold, SimpleNamespace(**{**_shipped("threshold"), **fixed, **changes}), speed)
+    return Bench(
+        CONTROLLERS["threshold"], SimpleNamespace(**{**_shipped("threshold"), **fixed, **changes}), speed
+    )
 
 
 def _slip_band(speed: float) -> Bench:
@@ -55,10 +57,10 @@ def _slip_band(speed: float) -> Bench:
         cycle_time=CYCLE,
         lower_slide=0.08,
         upper_slide=0.20,
-        band_reference_deceleration=1.8,
-        band_minimum_speed=1.4,
+        reference_deceleration=1.8,
+        minimum_speed=1.4,
     )
-    return Bench(slip_band, parameters, speed)
+    return Bench(CONTROLLERS["slip-band"], parameters, speed)
 
 
 @pytest.fixture(name="threshold_bench", scope="session")

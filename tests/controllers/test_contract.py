@@ -4,11 +4,14 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given, strategies as st
 
-from uictest.controllers import ALGORITHMS, CAR_MEMORY, WHEELSET_MEMORY, reference_speed
+from uictest.controllers import CONTROLLERS, TrainMemory
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.model.records import CAR, PARAMETERS, WHEELSET
+from uictest.record import fields_of, layout_of
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import CAR, WHEELSET, Car
 
 Benches = Callable[..., Any]
 CYCLE = 0.01
@@ -78,18 +81,22 @@ def test_below_a_walking_pace_the_brake_is_left_alone(bench: Benches) -> None:
         assert controller.commands(1.0, 0.0, 0.0, 1.0) == [FILL] * 4
 
 
-def test_memories_have_names_of_their_own_in_the_records() -> None:
-    for memory, layout in ((CAR_MEMORY, CAR), (WHEELSET_MEMORY, WHEELSET)):
-        names = [name for name, _ in memory]
-        assert len(set(names)) == len(names)
-        assert set(names) <= set(layout.names or ())
+def test_reference_speed_is_recorded_from_the_memory_that_every_controller_has() -> None:
+    assert all(issubclass(controller.train_memory, TrainMemory) for controller in CONTROLLERS.values())
 
 
-def test_reference_speed_is_that_of_the_controller_in_charge() -> None:
-    car, parameters = np.zeros(1, CAR)[0], np.zeros(1, PARAMETERS)[0]
-    car.reference_speed, car.band_reference_speed = 20.0, 10.0
-    estimates = []
-    for algorithm in range(len(ALGORITHMS)):
-        parameters.algorithm = algorithm
-        estimates.append(reference_speed(car, parameters))
-    assert estimates == [20.0, 10.0]
+def test_fields_of_every_controller_are_in_the_records() -> None:
+    for controller in CONTROLLERS.values():
+        assert fields_of(controller.train_memory).keys() <= set(CAR.names)
+        assert fields_of(controller.wheelset_memory).keys() <= set(WHEELSET.names)
+        assert fields_of(controller.parameters).keys() <= set(PARAMETERS.names)
+
+
+def test_a_controller_cannot_take_a_field_of_the_rig() -> None:
+    """It would write over what the rig steps, or read what no sensor shows."""
+
+    class Greedy(TrainMemory):
+        position: float
+
+    with pytest.raises(TypeError, match="position is declared elsewhere"):
+        layout_of(Car, Greedy)

@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest.measures import (
-    DEFINITION,
     STOP_MEASURES,
     WHEELSET_MEASURES,
+    MeasureDefinition,
     begin,
     begin_slides,
     begin_wheelset,
@@ -21,6 +21,7 @@ from uictest.measures import (
     observe_train,
     observe_wheelset,
 )
+from uictest.record import layout_of
 
 Column = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ def _samples() -> Samples:
 
 def _measured(samples: Samples) -> tuple[Any, Any]:
     """Measures of the train and of its wheelsets after all samples but the first, which begins them."""
-    definition = np.zeros(1, np.dtype((np.record, list(DEFINITION))))[0]
+    definition = np.zeros(1, layout_of(MeasureDefinition))[0]
     for name, value in _DEFINITION.items():
         definition[name] = value
     train = np.zeros(1, STOP_MEASURES)[0]

@@ -11,16 +11,17 @@ import numpy as np
 import pytest
 
 from uictest.measures import (
-    DEFINITION,
     MEASURES,
     STOP_COLUMNS,
     WHEELSET_COLUMNS,
+    MeasureDefinition,
     WheelsetColumn,
     column_unit,
     stop_column_values,
     wheelset_column_values,
 )
 from uictest.measures.registry import measures_in
+from uictest.record import fields_of
 from uictest.units import KINDS
 
 from .catalogue.conftest import sliding_stop, stop, wheelsets
@@ -98,7 +99,7 @@ def test_each_measure_fits_its_declaration(name: str, stop, wheelsets) -> None:
 
 def test_what_decides_an_observation_is_a_definition_of_the_measures() -> None:
     deciding = {name for measure in MEASURES.values() for name in measure.observed_by}
-    assert deciding == {name for name, _ in DEFINITION}
+    assert deciding == fields_of(MeasureDefinition).keys()
 
 
 def test_a_residual_counts_by_its_magnitude(stop, wheelsets) -> None:

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.brake_operating_unit import demand, relay_opening
+from uictest.physics.brake_operating_unit import demanded_pressure, relay_opening
 
 FULL = 3.8e5
 FILLING_RATE = 1.0 / 1.5
@@ -14,12 +14,17 @@ times = st.floats(0.0, 100.0)
 @given(times, times)
 def test_demand_never_falls_and_never_exceeds_the_command(a: float, b: float) -> None:
     early, late = sorted((a, b))
-    assert 0.0 <= demand(early, FULL, 0.4, FILLING_RATE) <= demand(late, FULL, 0.4, FILLING_RATE) <= FULL
+    assert (
+        0.0
+        <= demanded_pressure(early, FULL, 0.4, FILLING_RATE)
+        <= demanded_pressure(late, FULL, 0.4, FILLING_RATE)
+        <= FULL
+    )
 
 
 @pytest.mark.parametrize(("time", "share"), [(0.0, 0.0), (0.4, 0.0), (1.15, 0.5), (1.9, 1.0), (60.0, 1.0)])
 def test_demand_waits_for_the_dead_time_and_rises_evenly(time: float, share: float) -> None:
-    assert demand(time, FULL, 0.4, FILLING_RATE) == pytest.approx(share * FULL, abs=1e-6)
+    assert demanded_pressure(time, FULL, 0.4, FILLING_RATE) == pytest.approx(share * FULL, abs=1e-6)
 
 
 def test_relay_valve_laps_at_the_demand() -> None:

@@ -13,11 +13,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.rig.assembly import assemble
+from uictest.controllers import CONTROLLERS, DEFAULT
+from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.backends.compiled import translate
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import SteppedStop, run
-from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.model.controller import begin
 from uictest.rig.model.start import start
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario import Case, load
 
@@ -35,21 +38,25 @@ class Rig:
         return load([self.path], list(overrides))[0]
 
     def parameters(self, *overrides: str, **fields: float) -> tuple[Any, Array]:
-        parameters, rail = assemble(self.case(*overrides))
+        parameters, rail, _ = assemble(self.case(*overrides))
         for name, value in fields.items():
             parameters[name] = value
         return parameters, rail
 
-    def _stop(self, *overrides: str, every: int = 0, **fields: float) -> SteppedStop:
+    def inputs(self, *overrides: str, **fields: float) -> StopInputs:
+        """What the rig is given, with the controller that the overrides choose."""
+        return StopInputs(*self.parameters(*overrides, **fields), assemble(self.case(*overrides)).controller)
+
+    def _stop(self, *overrides: str, every: int = 0, **fields: float) -> FinishedStop:
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
-        return run(compiled_stop(), *self.parameters(*overrides, **fields), every)
+        inputs = self.inputs(*overrides, **fields)
+        return run_to_end(compiled_stop(inputs.controller), inputs, every)
 
     def columns(self, *overrides: str, every: int = 20, **fields: float) -> dict[str, Array]:
         """Trace of a stop by channel; a wheelset's channel has a column for each of the four."""
         trace = self.stop(*overrides, every=every, **fields).trace
-        columns = {name: trace[:, k] for k, (name, _) in enumerate(CAR_CHANNELS)}
-        modules = trace[:, len(CAR_CHANNELS) :].reshape(len(trace), 4, len(WHEELSET_CHANNELS))
-        return columns | {name: modules[:, :, k] for k, (name, _) in enumerate(WHEELSET_CHANNELS)}
+        columns = {name: trace.train[name] for name, _ in CAR_CHANNELS}
+        return columns | {name: trace.wheelsets[name] for name, _ in WHEELSET_CHANNELS}
 
 
 class Bench:
@@ -60,7 +67,8 @@ class Bench:
         self.car = self._blank(CAR)
         self.bogies = [self._blank(BOGIE) for _ in range(2)]
         self.wheelsets = [self._blank(WHEELSET) for _ in range(4)]
-        start(self.car, self.bogies, self.wheelsets, self.p)
+        begin_stop = translate(start, lambda function: function, {begin: CONTROLLERS[DEFAULT].begin})
+        begin_stop(self.car, self.bogies, self.wheelsets, self.p)
 
     @staticmethod
     def _blank(layout: np.dtype[Any]) -> SimpleNamespace:

@@ -8,16 +8,17 @@ import pytest
 
 from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE
 from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
-from uictest.rig.assembly import STANDARD_GRAVITY, friction_laws
-from uictest.rig.model.records import PARAMETERS
+from uictest.rig.assembly import friction_laws
+from uictest.rig.model.parameters import PARAMETERS
 from uictest.scenario import ScenarioErrors
+from uictest.units import STANDARD_GRAVITY
 
 
 def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: Any) -> None:
     from uictest.rig.assembly import assemble
 
     for case in scenarios:
-        parameters, rail = assemble(case)
+        parameters, rail, _ = assemble(case)
         assert all(np.isfinite(parameters[name]) for name in PARAMETERS.names or ())
         assert np.isfinite(rail).all()
 
@@ -76,7 +77,7 @@ def test_suspension_is_summed_over_axle_boxes_and_sides(rig: Any) -> None:
 def test_pressures_are_absolute_but_for_the_demand(rig: Any) -> None:
     p = rig.parameters("brake.command=80 %")[0]
     assert p.reservoir_pressure == pytest.approx(8e5 + p.atmospheric_pressure)
-    assert p.demanded_pressure == pytest.approx(0.8 * rig.parameters()[0].demanded_pressure)
+    assert p.commanded_pressure == pytest.approx(0.8 * rig.parameters()[0].commanded_pressure)
 
 
 @pytest.mark.parametrize(("delay", "cycles", "steps"), [("0.5 ms", 0, 1), ("10 ms", 1, 0), ("64 ms", 6, 8)])

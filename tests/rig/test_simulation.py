@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig import SimulatedStop, is_warm, simulate
+from uictest.rig import SimulatedStop, is_compiled, simulate
 
 
 @pytest.fixture(name="stops", scope="module")
@@ -71,5 +71,5 @@ def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
     assert all(stop.recording is None for stop in stops.values())
 
 
-def test_rig_is_warm_once_it_ran(stops: dict[str, SimulatedStop]) -> None:
-    assert is_warm()
+def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop], scenarios: Any) -> None:
+    assert is_compiled(scenarios)

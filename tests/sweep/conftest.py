@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from uictest.controllers import Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.model.friction_law import FRICTIONS
 from uictest.sweep import ChunkRunner, Plan, load_sweep
 from uictest.sweep.running.case_blocks import BlockAssembler
 
@@ -42,11 +44,13 @@ def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
     return write_and_load
 
 
-def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
+def formula(
+    parameters: NDArray[Any], rail: NDArray[np.float64], controllers: Sequence[Controller]
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
     measures = np.zeros(parameters.size, STOP_MEASURES)
     wheelsets = np.zeros((parameters.size, 4), WHEELSET_MEASURES)
-    speed, friction = parameters["initial_speed"], rail[:, 1, 0]
+    speed, friction = parameters["initial_speed"], rail[:, FRICTIONS, 0]
     for name in STOP_MEASURES.names or ():
         measures[name] = np.nan
     measures["initial_speed"], measures["stopped"] = speed, 1.0
@@ -61,7 +65,9 @@ def formula(parameters: NDArray[Any], rail: NDArray[np.float64]) -> tuple[NDArra
     ):
         measures[name] = 0.0
     # Wheels lock at high pressure on slippery rail: the only thing that a stop can fail by.
-    wheelsets["longest_lock"] = (parameters["demanded_pressure"] * 1e-5 / 3.8 - 9.0 * friction)[:, None] * 5.0
+    wheelsets["longest_lock"] = (parameters["commanded_pressure"] * 1e-5 / 3.8 - 9.0 * friction)[
+        :, None
+    ] * 5.0
     return measures, wheelsets
 
 

@@ -7,13 +7,13 @@
 #include "../physics/once_per_cycle.h"
 #include "records.h"
 
-enum { FREE = 0, VENTING = 1, HOLDING = 2, REFILLING = 3, SOUNDING = 4 };
+enum { FREE = 0, VENTING = 1, HOLDING = 2, REFILLING = 3, PROBING = 4 };
 
 static inline void begin_threshold(Car *car, Wheelset *wheelsets, double speed)
 {
     car->reference_speed = speed;
     car->blind_cycles = 0;
-    car->sounded = 3;
+    car->probed = 3;
     for (int i = 0; i < 4; i++) {
         wheelsets[i].previous_speed = speed;
         wheelsets[i].measured_acceleration = 0.0;
@@ -39,7 +39,7 @@ static inline bool rolls(const Wheelset *wheelset, const Parameters *p)
 static inline bool shows_speed(const Wheelset *wheelset, const Parameters *p)
 {
     double time_in_mode = (double)wheelset->mode_cycles * p->cycle_time;
-    if (wheelset->mode != SOUNDING || time_in_mode < p->sounding_time)
+    if (wheelset->mode != PROBING || time_in_mode < p->sounding_time)
         return false;
     bool gains = wheelset->measured_acceleration > p->reacceleration_threshold;
     bool loses = wheelset->measured_acceleration < -p->reference_deceleration;
@@ -49,19 +49,19 @@ static inline bool shows_speed(const Wheelset *wheelset, const Parameters *p)
 static inline void estimate_speed(Car *car, const Wheelset *wheelsets, const Parameters *p)
 {
     double fastest = 0.0;
-    bool rolling = false, sounded = false;
+    bool rolling = false, probed = false;
     for (int i = 0; i < 4; i++) {
         fastest = maximum(fastest, wheelsets[i].measured_speed);
         rolling = rolling || rolls(&wheelsets[i], p);
-        sounded = sounded || shows_speed(&wheelsets[i], p);
+        probed = probed || shows_speed(&wheelsets[i], p);
     }
     double fall = rolling ? p->reference_deceleration : p->holding_deceleration;
     double estimate = car->reference_speed - fall * p->cycle_time;
-    if (sounded) {
+    if (probed) {
         double blind_time = (double)car->blind_cycles * p->cycle_time;
         estimate -= (p->reference_deceleration - p->holding_deceleration) * blind_time;
     }
-    if (rolling || sounded) {
+    if (rolling || probed) {
         car->blind_cycles = 0;
     } else {
         car->blind_cycles += 1;
@@ -117,8 +117,8 @@ static inline int64_t next_mode(const Wheelset *wheelset, double reference, cons
     double time_in_mode = (double)(wheelset->mode_cycles + 1) * p->cycle_time;
     if (reference < p->minimum_speed)
         return FREE;
-    if (wheelset->mode == SOUNDING)
-        return shows_speed(wheelset, p) || time_in_mode > p->vent_watchdog ? REFILLING : SOUNDING;
+    if (wheelset->mode == PROBING)
+        return shows_speed(wheelset, p) || time_in_mode > p->vent_watchdog ? REFILLING : PROBING;
     if (wheelset->mode == VENTING)
         return after_venting(wheelset, slip, reference, time_in_mode, p);
     if (wheelset->mode == HOLDING)
@@ -130,7 +130,7 @@ static inline int64_t next_mode(const Wheelset *wheelset, double reference, cons
 
 static inline int64_t threshold_command(const Wheelset *wheelset, const Parameters *p)
 {
-    if (wheelset->mode == VENTING || wheelset->mode == SOUNDING)
+    if (wheelset->mode == VENTING || wheelset->mode == PROBING)
         return VENT;
     if (wheelset->mode == HOLDING)
         return HOLD;
@@ -142,14 +142,14 @@ static inline int64_t threshold_command(const Wheelset *wheelset, const Paramete
     return FILL;
 }
 
-static inline void sound(Car *car, Wheelset *wheelsets, const Parameters *p)
+static inline void probe(Car *car, Wheelset *wheelsets, const Parameters *p)
 {
     for (int i = 0; i < 4; i++)
-        if (wheelsets[i].mode == SOUNDING)
+        if (wheelsets[i].mode == PROBING)
             return;
     if ((double)car->blind_cycles * p->cycle_time > p->sounding_interval) {
-        car->sounded = (car->sounded + 1) % 4;
-        enter(&wheelsets[car->sounded], SOUNDING);
+        car->probed = (car->probed + 1) % 4;
+        enter(&wheelsets[car->probed], PROBING);
     }
 }
 
@@ -160,9 +160,9 @@ static inline void decide_by_threshold(Car *car, Wheelset *wheelsets, const Para
     estimate_speed(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
         enter(&wheelsets[i], next_mode(&wheelsets[i], car->reference_speed, p));
-    sound(car, wheelsets, p);
+    probe(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
-        wheelsets[i].command = threshold_command(&wheelsets[i], p);
+        wheelsets[i].valve_command = threshold_command(&wheelsets[i], p);
 }
 
 #endif

@@ -21,14 +21,14 @@ OURS real pressure_change(real pressure, real stiffness, real mass_change, real 
     return stiffness * fma(air, mass_change, -pressure * volume_change);
 }
 
-OURS real demand(real time, real full_demand, real dead_time, real filling_rate)
+OURS real demanded_pressure(real time, real commanded_pressure, real dead_time, real filling_rate)
 {
-    return full_demand * clamp((time - dead_time) * filling_rate, number(0.0), number(1.0));
+    return commanded_pressure * clamp((time - dead_time) * filling_rate, number(0.0), number(1.0));
 }
 
-OURS real relay_opening(real demanded, real pressure, real gain)
+OURS real relay_opening(real demanded_pressure, real pressure, real gain)
 {
-    return clamp((demanded - pressure) * gain, number(-1.0), number(1.0));
+    return clamp((demanded_pressure - pressure) * gain, number(-1.0), number(1.0));
 }
 
 OURS real compressor_running(real pressure, real running, real cut_in, real cut_out)

@@ -55,8 +55,8 @@ OURS real force_and_slope(Gradient g, real speed, real limit, real limit_slope, 
     real shape = fma(adhering * g.hold, g.inverse_adhesion, g.angle + arctan_within_octant(g.tangent));
     real bend = fma(-adhering, adhering, g.hold * g.hold) * g.inverse_adhesion * g.inverse_adhesion;
     real shape_slope = fma(reduction_adhesion, bend, reduction_slip * g.inverse_slip);
-    real pull_slope = fma(stiffness, g.hold, -g.pull * speed * limit_slope);
-    *slope = TWO_OVER_PI * fma(limit_slope, shape, limit * shape_slope * pull_slope);
+    real quotient_slope = fma(stiffness, g.hold, -g.pull * speed * limit_slope);
+    *slope = TWO_OVER_PI * fma(limit_slope, shape, limit * shape_slope * quotient_slope);
     return TWO_OVER_PI * limit * shape;
 }
 

@@ -2,7 +2,6 @@
 #ifndef CYCLE_H
 #define CYCLE_H
 
-#include "../controllers/slip_band.h"
 #include "../controllers/threshold.h"
 #include "../physics/once_per_cycle.h"
 #include "records.h"
@@ -22,7 +21,7 @@ static inline double noise(const Parameters *p, int64_t cycle, int channel)
     return bell(word_0, word_1);
 }
 
-static inline void read_sensors(Wheelset *wheelset, const Parameters *p, int64_t cycle, int place)
+static inline void read_module_sensors(Wheelset *wheelset, const Parameters *p, int64_t cycle, int place)
 {
     int channel = place * CHANNELS;
     wheelset->pressure_error = p->pressure_noise * noise(p, cycle, channel + PRESSURE);
@@ -35,26 +34,26 @@ static inline void read_sensors(Wheelset *wheelset, const Parameters *p, int64_t
 static inline void command_valve(Wheelset *wheelset, const Parameters *p)
 {
     if (p->wsp_active == 0)
-        wheelset->command = FILL;
-    wheelset->command_register = remember(wheelset->command_register, wheelset->command);
+        wheelset->valve_command = FILL;
+    wheelset->command_register = remember(wheelset->command_register, wheelset->valve_command);
     int64_t before = command_before(wheelset->command_register, p->valve_delay_cycles + 1);
     int64_t after = command_before(wheelset->command_register, p->valve_delay_cycles);
     wheelset->fill_before = before == FILL;
     wheelset->fill_after = after == FILL;
     wheelset->vent_before = before == VENT;
     wheelset->vent_after = after == VENT;
-    wheelset->venting = wheelset->command == VENT;
-    wheelset->filling_cycles = wheelset->command == FILL ? wheelset->filling_cycles + 1 : 0;
+    wheelset->venting = wheelset->valve_command == VENT;
+    wheelset->filling_cycles = wheelset->valve_command == FILL ? wheelset->filling_cycles + 1 : 0;
     wheelset->wsp_acting = wheelset->filling_cycles < p->wsp_acting_cycles;
 }
 
-static inline void sense(const Car *car, Wheelset *wheelsets, const Parameters *p)
+static inline void read_sensors(const Car *car, Wheelset *wheelsets, const Parameters *p)
 {
     for (int i = 0; i < 4; i++)
-        read_sensors(&wheelsets[i], p, car->cycle, i);
+        read_module_sensors(&wheelsets[i], p, car->cycle, i);
 }
 
-static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail)
+static inline void start_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail)
 {
     const double *places = rail.rows, *frictions = places + rail.width;
     const double *times = frictions + rail.width, *factors = times + rail.width;
@@ -63,10 +62,7 @@ static inline void begin_cycle(Car *car, Wheelset *wheelsets, const Parameters *
         double along = interpolated(car->position - wheelsets[i].behind, places, frictions, p->friction_points);
         wheelsets[i].friction = along * factor;
     }
-    if (p->algorithm == 1)
-        decide_by_slip_band(car, wheelsets, p);
-    else
-        decide_by_threshold(car, wheelsets, p);
+    decide_by_threshold(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
         command_valve(&wheelsets[i], p);
     car->substep = 0.0;

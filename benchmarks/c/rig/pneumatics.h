@@ -20,8 +20,8 @@ OURS real through(real source, real vessel, real conductance_in, real conductanc
 OURS void step_supply(Car *car, real drawn, const Parameters *p)
 {
     real gauge = car->line_pressure - p->atmospheric_pressure;
-    car->demand = demand(car->time, p->demanded_pressure, p->dead_time, p->filling_rate);
-    real opening = relay_opening(car->demand, gauge, p->relay_gain);
+    car->demanded_pressure = demanded_pressure(car->time, p->commanded_pressure, p->dead_time, p->filling_rate);
+    real opening = relay_opening(car->demanded_pressure, gauge, p->relay_gain);
     real filled;
     real exhausted =
         through(car->reservoir_pressure, car->line_pressure, p->relay_conductance * maximum(opening, number(0.0)),

@@ -78,20 +78,20 @@ OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
                                     p->pad_friction, p->disc_radius);
 }
 
-OURS void find_limit(Wheelset *wheelset, const Parameters *p)
+OURS void find_friction_limit(Wheelset *wheelset, const Parameters *p)
 {
     wheelset->friction_limit =
         friction_limit(wheelset->slip_estimate, wheelset->wheel_load, wheelset->friction, p->friction_ratio,
                        p->friction_decay, &wheelset->limit_slope);
 }
 
-OURS void find_gradient(Wheelset *wheelset, const Parameters *p)
+OURS void find_stress_gradient(Wheelset *wheelset, const Parameters *p)
 {
     Gradient g = stress_gradient(wheelset->slip_estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
                                  wheelset->friction_limit, wheelset->contact_stiffness, p->reduction_adhesion,
                                  p->reduction_slip);
-    wheelset->stress_pull = g.pull;
-    wheelset->stress_hold = g.hold;
+    wheelset->stress_numerator = g.pull;
+    wheelset->stress_denominator = g.hold;
     wheelset->inverse_adhesion = g.inverse_adhesion;
     wheelset->inverse_slip = g.inverse_slip;
     wheelset->stress_angle = g.angle;
@@ -101,7 +101,7 @@ OURS void find_gradient(Wheelset *wheelset, const Parameters *p)
 /* One Newton step towards the slip speed; returns the creep force of both wheels before it. */
 OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
 {
-    Gradient g = {wheelset->stress_pull,  wheelset->stress_hold,  wheelset->inverse_adhesion,
+    Gradient g = {wheelset->stress_numerator,  wheelset->stress_denominator,  wheelset->inverse_adhesion,
                   wheelset->inverse_slip, wheelset->stress_angle, wheelset->stress_tangent};
     real slope;
     real force = force_and_slope(g, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)), wheelset->friction_limit,
@@ -112,7 +112,7 @@ OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
     return 2.0 * force;
 }
 
-OURS void begin_slip(Wheelset *wheelset, const Parameters *p)
+OURS void bracket_slip(Wheelset *wheelset, const Parameters *p)
 {
     real load_ratio = minimum(wheelset->wheel_load * p->load_scale, number(HIGHEST_LOAD));
     wheelset->contact_stiffness = contact_stiffness(p->creep_stiffness, load_ratio);
@@ -133,17 +133,17 @@ OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
 {
     real speed = wheelset->speed;
     real rotation = wheelset->rotation;
-    real sense = turning_direction(rotation, speed);
+    real direction = turning_direction(rotation, speed);
     real slip_change = wheelset->free_slip - wheelset->slip_estimate;
     real turning_creep = wheelset->slip_direction * slip_change * p->slip_stiffness;
-    real moment = fma(p->wheel_radius, turning_creep, -sense * wheelset->torque);
+    real moment = fma(p->wheel_radius, turning_creep, -direction * wheelset->torque);
     real turned = fma(p->inertia_response, moment, rotation);
-    mask locked = turned * sense <= 0.0;
+    mask locked = turned * direction <= 0.0;
     real free_speed = fma(p->mass_response, wheelset->thrust, speed);
     real sliding_creep = locked_force(speed, free_speed, wheelset->sliding_force, p->mass_response);
     real holding = fma(p->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
     real creep = choose(locked, sliding_creep, turning_creep);
-    real braking = choose(locked, holding, sense * wheelset->torque);
+    real braking = choose(locked, holding, direction * wheelset->torque);
     wheelset->creep_force = creep;
     wheelset->speed = fma(-p->mass_response, creep, free_speed);
     wheelset->rotation = choose(locked, number(0.0), turned);

@@ -1,7 +1,6 @@
 #ifndef START_H
 #define START_H
 
-#include "../controllers/slip_band.h"
 #include "../controllers/threshold.h"
 #include "balance.h"
 #include "records.h"
@@ -42,7 +41,6 @@ static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Par
         wheelsets[i].air_mass = p->atmospheric_pressure * volume / (p->gas_constant * p->air_temperature);
     }
     begin_threshold(car, wheelsets, p->initial_speed);
-    begin_slip_band(car, p->initial_speed);
     car->initial_energy = stored_energy(car, bogies, wheelsets, p);
     car->initial_air = stored_air(car, wheelsets);
 }

@@ -9,9 +9,9 @@
 OURS void find_creep(Wheelset *wheelsets, const Parameters *p)
 {
     for (int i = 0; i < 4; i++)
-        find_limit(&wheelsets[i], p);
+        find_friction_limit(&wheelsets[i], p);
     for (int i = 0; i < 4; i++)
-        find_gradient(&wheelsets[i], p);
+        find_stress_gradient(&wheelsets[i], p);
 }
 
 OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
@@ -24,7 +24,7 @@ OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Param
     for (int i = 0; i < 4; i++)
         couple_wheelset(&wheelsets[i], &bogies[i / 2], car, p);
     for (int i = 0; i < 4; i++)
-        begin_slip(&wheelsets[i], p);
+        bracket_slip(&wheelsets[i], p);
     find_creep(wheelsets, p);
     for (int i = 0; i < 4; i++)
         wheelsets[i].sliding_force = refine_slip(&wheelsets[i], p);

@@ -96,7 +96,7 @@ def _append_step_summary(content: report.RunContent) -> None:
 
 
 def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> BatchResult:
-    announce_compilation(warm=rig.is_warm(), quiet=batch.quiet)
+    announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 
         def take(examined: CaseRun) -> None:

@@ -148,7 +148,8 @@ def prepared_runner(run: SweepRun) -> ChunkRunner:
     """
     if run.selection.device == "cuda":
         return _runner_on_gpu(run)
-    announce_compilation(warm=rig.lanes_are_warm(), quiet=run.quiet)
+    controller = rig.controller_of(run.selection.plan.base.scenario)
+    announce_compilation(warm=rig.lanes_are_compiled([controller]), quiet=run.quiet)
     runner = sweep.chunk_runner(run.selection.plan)
     runner.prepare()
     return runner

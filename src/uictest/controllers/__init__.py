@@ -1,20 +1,15 @@
 """Wheel-slide-protection controllers and the contract that each of them keeps.
 
-Once per controller cycle the rig reads its speed sensors into ``wheelset.measured_speed`` (m/s) and
-calls the controller. A controller is a module with these names:
+Once per controller cycle the rig reads its speed sensors into ``wheelset.measured_speed`` (m/s) and calls
+the controller, which sets ``wheelset.valve_command`` of each of the four wheelsets to FILL, HOLD or VENT
+(:mod:`uictest.physics.wsp_valve`). A controller sees ``measured_speed``, its own memory and its own
+parameters, and nothing else of the rig.
 
-``WHEELSET_MEMORY`` and ``CAR_MEMORY``
-    What it remembers between cycles: pairs of field and kind (``"f8"`` or ``"i8"``) that become fields of
-    the wheelset and of the car record.
-``begin(car, wheelsets, speed)``
-    Sets that memory at the start of a stop from ``speed`` m/s.
-``decide(car, wheelsets, parameters)``
-    Sets ``wheelset.command`` of each of the four wheelsets to FILL, HOLD or VENT
-    (:mod:`uictest.physics.wsp_valve`). It sees ``measured_speed``, its own memory and the parameters of its
-    own model in ``scenario.parts.controller``, and nothing else of the rig.
-
-It is scalar code without allocation, may branch, and counts time in its own cycles. A new one is a
-module here, a model there and a line in :mod:`uictest.controllers.selection`.
+A built-in controller is one module in :mod:`uictest.controllers.built_in`, found there without a further
+edit. It declares a :class:`Controller`: name, parameters, memory, what sets the memory at the start of a stop
+(``begin``) and what decides (``decide``). Both functions are scalar code without allocation, may branch, and
+count time in controller cycles. Controllers that declare the same field share it in the records: only one of
+them runs in a stop.
 """
 
 import lazy_loader

@@ -1,8 +1,10 @@
-from .selection import (
-    ALGORITHMS as ALGORITHMS,
-    CAR_MEMORY as CAR_MEMORY,
-    WHEELSET_MEMORY as WHEELSET_MEMORY,
-    begin as begin,
-    decide as decide,
-    reference_speed as reference_speed,
+from .contract import (
+    Conflict as Conflict,
+    ControlledWheelset as ControlledWheelset,
+    Controller as Controller,
+    ControllerCycle as ControllerCycle,
+    ControllerParameters as ControllerParameters,
+    Parameter as Parameter,
+    TrainMemory as TrainMemory,
 )
+from .registry import CONTROLLERS as CONTROLLERS, DEFAULT as DEFAULT

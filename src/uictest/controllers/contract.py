@@ -1,14 +1,114 @@
-"""Types of what a controller is given.
+"""What every controller is given, and what it declares."""
 
-They are records whose fields are read and written as attributes, in plain Python and in compiled code
-alike; the fields depend on the controllers and are listed in :mod:`uictest.rig.model.records`.
-"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
-from collections.abc import Sequence
-from typing import Any
+from uictest.record import Record, fields_of
 
-Record = Any
-Car = Record
-Wheelset = Record
-Wheelsets = Sequence[Record]
-Parameters = Record
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of a controller.
+
+    Attributes:
+        kind: kind of quantity, a name of :data:`uictest.units.KINDS`.
+        description: one sentence for people.
+        at_least: smallest value, as a user would write it, such as ``"1 ms"``.
+        at_most: largest value, likewise.
+    """
+
+    kind: str
+    description: str
+    at_least: str
+    at_most: str
+
+
+def parameter(kind: str, description: str, *, at_least: str, at_most: str) -> Any:
+    """Declare that a field of :class:`ControllerParameters` is a parameter; see :class:`Parameter`."""
+    return Parameter(kind, description, at_least, at_most)
+
+
+class ControllerCycle(Record):
+    """The parameter that a controller shares with the rig."""
+
+    cycle_time: float = parameter("time", "Time between two decisions.", at_least="1 ms", at_most="1 s")
+
+
+class ControllerParameters(ControllerCycle):
+    """Parameters that every controller has, SI units. Its docstring describes the controller to users."""
+
+    reference_deceleration: float = parameter(
+        "acceleration",
+        "Fastest fall of the estimate of the train's speed (positive number).",
+        at_least="0.001 m/s2",
+        at_most="100 m/s2",
+    )
+    minimum_speed: float = parameter(
+        "speed",
+        "Estimated train speed below which the controller leaves the brake alone.",
+        at_least="0.001 km/h",
+        at_most="100 km/h",
+    )
+
+
+class TrainMemory(Record):
+    """What every controller remembers about the train from one cycle to the next."""
+
+    reference_speed: float  # its estimate of the train's speed, m/s
+
+
+class ControlledWheelset(Record):
+    """What every controller reads and sets of a wheelset; a controller adds what it remembers."""
+
+    measured_speed: float  # circumferential, as the sensor gives it, m/s
+    valve_command: int  # newest command: FILL, HOLD or VENT
+
+
+class Conflict(NamedTuple):
+    """Parameters that are acceptable one by one but not together.
+
+    Attributes:
+        parameter: the one to change.
+        message: why; ``{name}`` stands for the value of a parameter as the user wrote it.
+    """
+
+    parameter: str
+    message: str
+
+
+def no_conflicts(parameters: Any) -> Iterator[Conflict]:
+    """Accept every combination of parameters."""
+    yield from ()
+
+
+@dataclass(frozen=True, slots=True)
+class Controller:
+    """A controller, as its module declares it.
+
+    Attributes:
+        name: what a scenario calls it.
+        parameters: its parameters.
+        train_memory: what it remembers about the train.
+        wheelset_memory: what it reads, sets and remembers of each wheelset.
+        begin: sets that memory at the start of a stop from a speed in m/s.
+        decide: sets ``valve_command`` of each of the four wheelsets, once per controller cycle.
+        conflicts: finds parameters that are impossible together.
+    """
+
+    name: str
+    parameters: type[ControllerParameters]
+    train_memory: type[TrainMemory]
+    wheelset_memory: type[ControlledWheelset]
+    begin: Callable[[Any, Any, float], None]
+    decide: Callable[[Any, Any, Any], None]
+    conflicts: Callable[[Any], Iterator[Conflict]] = no_conflicts
+
+    @property
+    def symbol(self) -> str:
+        """The name as compiled code may have it."""
+        return self.name.replace("-", "_")
+
+    def declared_parameters(self) -> dict[str, Parameter]:
+        """Return the declarations of the parameters by name, those that every controller has first."""
+        return {name: getattr(self.parameters, name) for name in fields_of(self.parameters)}

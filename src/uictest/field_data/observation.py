@@ -15,11 +15,11 @@ from uictest.field_data.channels import WHEELSETS
 from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.support import coverage_of
 from uictest.measures import (
-    DEFINITION,
     SPEED_CLASSES,
     STOP_MEASURES,
     WHEELSET_MEASURES,
     WINDOW_SECONDS,
+    MeasureDefinition,
     begin,
     begin_slides,
     begin_wheelset,
@@ -30,6 +30,7 @@ from uictest.measures import (
     observe_train,
     observe_wheelset,
 )
+from uictest.record import fields_of
 from uictest.recording import TIME, Recording
 
 _VENT = 2.0
@@ -50,7 +51,9 @@ def observe(stop: RecordedStop, definition: scenario.MeasureDefinitions) -> Obse
     # Plain objects in the loop: attributes of numpy records take ten times as long outside compiled code.
     train = SimpleNamespace(speed_after_sliding=[float("nan")] * (WINDOW_SECONDS + 1))
     wheelsets = [SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES) for _ in WHEELSETS]
-    defined = SimpleNamespace(**{name: float(getattr(definition, name)) for name, _ in DEFINITION})
+    defined = SimpleNamespace(
+        **{name: float(getattr(definition, name)) for name in fields_of(MeasureDefinition)}
+    )
     _observe(stop, train, wheelsets, defined)
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):

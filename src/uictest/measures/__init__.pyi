@@ -12,11 +12,13 @@ from .measure import (
     WheelsetRecords as WheelsetRecords,
 )
 from .records import (
-    DEFINITION as DEFINITION,
     SPEED_CLASSES as SPEED_CLASSES,
     STOP_MEASURES as STOP_MEASURES,
     WHEELSET_MEASURES as WHEELSET_MEASURES,
     WINDOW_SECONDS as WINDOW_SECONDS,
+    MeasureDefinition as MeasureDefinition,
+    StopMeasures as StopMeasures,
+    WheelsetMeasures as WheelsetMeasures,
 )
 from .registry import (
     MEASURES as MEASURES,

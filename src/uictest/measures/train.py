@@ -1,15 +1,14 @@
 """Measures of the train: speed, distance, deceleration, air."""
 
-from typing import Any
-
-from uictest.measures.records import WINDOW_SECONDS
+from uictest.measures.records import WINDOW_SECONDS, MeasureDefinition, StopMeasures
 from uictest.physics import maximum, minimum, select
 
-Record = Any
 NAN = float("nan")
 
 
-def begin(measures: Record, time: float, distance: float, speed: float, reservoir_pressure: float) -> None:
+def begin(
+    measures: StopMeasures, time: float, distance: float, speed: float, reservoir_pressure: float
+) -> None:
     """Start the measures with the first sample (s, m, m/s, Pa gauge)."""
     measures.initial_speed = speed
     measures.stopped = 0.0
@@ -32,15 +31,15 @@ def begin(measures: Record, time: float, distance: float, speed: float, reservoi
     measures.samples = 1.0
 
 
-def begin_window(measures: Record) -> None:
+def begin_window(measures: StopMeasures) -> None:
     """Start the speeds after the first sliding."""
     for second in range(WINDOW_SECONDS + 1):
         measures.speed_after_sliding[second] = NAN
 
 
 def observe_train(
-    measures: Record,
-    definition: Record,
+    measures: StopMeasures,
+    definition: MeasureDefinition,
     time: float,
     distance: float,
     speed: float,
@@ -57,7 +56,7 @@ def observe_train(
     measures.samples += 1.0
 
 
-def keep_window(measures: Record, samples: Record) -> None:
+def keep_window(measures: StopMeasures, samples: StopMeasures) -> None:
     """Keep the speed at whole seconds after the first sliding, linear between the last two samples.
 
     Args:
@@ -76,7 +75,7 @@ def keep_window(measures: Record, samples: Record) -> None:
         measures.speed_after_sliding[second] = samples.previous_speed + share * change
 
 
-def finish(measures: Record, stands: bool, time: float, distance: float) -> None:
+def finish(measures: StopMeasures, stands: bool, time: float, distance: float) -> None:
     """Where the train ``stands``, note that it came to a standstill at ``time`` s after ``distance`` m."""
     measures.stopped = select(stands, 1.0, measures.stopped)
     measures.braking_time = select(stands, time, measures.braking_time)
@@ -86,7 +85,9 @@ def finish(measures: Record, stands: bool, time: float, distance: float) -> None
     measures.end_speed = select(stands, 0.0, measures.end_speed)
 
 
-def _observe_deceleration(measures: Record, definition: Record, time: float, speed: float) -> None:
+def _observe_deceleration(
+    measures: StopMeasures, definition: MeasureDefinition, time: float, speed: float
+) -> None:
     """Filter the deceleration and keep its extremes while the train moves and the brake is developed."""
     interval = time - measures.end_time
     deceleration = (measures.end_speed - speed) / interval

@@ -1,17 +1,14 @@
 """Measures of one wheelset: slide, locks, valve actuations, clamping force."""
 
-from typing import Any
-
-from uictest.measures.records import SPEED_CLASSES
+from uictest.measures.records import SPEED_CLASSES, MeasureDefinition, StopMeasures, WheelsetMeasures
 from uictest.physics import maximum, minimum, select
 
-Record = Any
 NAN = float("nan")
 _CLASSES_PER_SPEED = 3.6 / 10.0
 """Classes of 10 km/h per m/s."""
 
 
-def begin_wheelset(measures: Record) -> None:
+def begin_wheelset(measures: WheelsetMeasures) -> None:
     """Start the measures of a wheelset that rolls with its brake released."""
     measures.maximum_slide = 0.0
     measures.slide = 0.0
@@ -26,16 +23,16 @@ def begin_wheelset(measures: Record) -> None:
     measures.air_vented = NAN
 
 
-def begin_slides(measures: Record) -> None:
+def begin_slides(measures: WheelsetMeasures) -> None:
     """Start the slides of the classes of speed."""
     for k in range(SPEED_CLASSES):
         measures.maximum_slide_above[k] = NAN
 
 
 def observe_wheelset(
-    measures: Record,
-    train: Record,
-    definition: Record,
+    measures: WheelsetMeasures,
+    train: StopMeasures,
+    definition: MeasureDefinition,
     number: int,
     time: float,
     speed: float,
@@ -46,9 +43,9 @@ def observe_wheelset(
     """Take in the next sample of wheelset ``number`` (1..4), before the train's.
 
     Args:
-        measures: record of :data:`~uictest.measures.records.WHEELSET_MEASURES`.
-        train: record of :data:`~uictest.measures.records.MEASURES`; its last sample gives the interval.
-        definition: record with the fields of :data:`~uictest.measures.records.DEFINITION`.
+        measures: measures of the wheelset.
+        train: measures of the stop; its last sample gives the interval.
+        definition: how samples become measures.
         number: number of the wheelset, from the leading end.
         time: since the brake command, s.
         speed: of the train, m/s.
@@ -70,13 +67,15 @@ def observe_wheelset(
     _observe_lock(measures, moves, moves & (wheel_speed < definition.locked_speed), interval)
 
 
-def keep_slide(measures: Record, samples: Record, definition: Record, speed: float) -> None:
+def keep_slide(
+    measures: WheelsetMeasures, samples: WheelsetMeasures, definition: MeasureDefinition, speed: float
+) -> None:
     """Keep the largest slide for each lowest train speed.
 
     Args:
         measures: record that holds a slide for each class of speed.
         samples: record that :func:`observe_wheelset` filled with the last sample; may be the same.
-        definition: record with the fields of :data:`~uictest.measures.records.DEFINITION`.
+        definition: how samples become measures.
         speed: of the train at that sample, m/s.
     """
     if not speed > definition.moving_speed:
@@ -98,7 +97,7 @@ def _highest_class_below(speed: float) -> int:
 
 
 def _observe_sliding(
-    measures: Record, train: Record, slides: bool, number: int, time: float, interval: float
+    measures: WheelsetMeasures, train: StopMeasures, slides: bool, number: int, time: float, interval: float
 ) -> None:
     """Add up the time spent sliding, and note which wheelset slid first and when."""
     measures.sliding_duration += select(slides, interval, 0.0)
@@ -110,7 +109,7 @@ def _observe_sliding(
     train.sliding_time = select(slides, minimum(train.sliding_time, time), train.sliding_time)
 
 
-def _observe_lock(measures: Record, moves: bool, locked: bool, interval: float) -> None:
+def _observe_lock(measures: WheelsetMeasures, moves: bool, locked: bool, interval: float) -> None:
     """Add up the time during which the wheelset stands while the train moves."""
     measures.locked_time += select(locked, interval, 0.0)
     measures.lock = select(locked, measures.lock + interval, select(moves, 0.0, measures.lock))

@@ -52,7 +52,7 @@ def stress_gradient(
     reduction_adhesion: float,
     reduction_slip: float,
 ) -> tuple[float, float, float, float, float, float]:
-    """Gradient eps of the tangential stress as a quotient, and all that has to be divided by it.
+    """Return the gradient eps of the tangential stress as a quotient, and what a force needs of it.
 
     Args:
         slip_speed: size of the slip speed w, m/s, >= 0.
@@ -66,18 +66,18 @@ def stress_gradient(
         Numerator n and denominator d of eps; 1 / (d^2 + (kA n)^2) and 1 / (d^2 + (kS n)^2); arctan(kS eps) as
         an angle and the tangent of a small rest. One division serves all of them.
     """
-    pull, hold = stiffness * slip_speed, speed * limit
-    adhering, slipping = reduction_adhesion * pull, reduction_slip * pull
-    hold_squared = hold * hold
-    adhesion_part = fma(adhering, adhering, hold_squared)
-    slip_part = fma(slipping, slipping, hold_squared)
-    angle, opposite, adjacent = octant(slipping, hold)
+    numerator, denominator = stiffness * slip_speed, speed * limit
+    adhering, slipping = reduction_adhesion * numerator, reduction_slip * numerator
+    denominator_squared = denominator * denominator
+    adhesion_part = fma(adhering, adhering, denominator_squared)
+    slip_part = fma(slipping, slipping, denominator_squared)
+    angle, opposite, adjacent = octant(slipping, denominator)
     parts = adhesion_part * slip_part
     inverse = 1.0 / (parts * adjacent)
     inverse_parts = inverse * adjacent
     return (
-        pull,
-        hold,
+        numerator,
+        denominator,
         slip_part * inverse_parts,
         adhesion_part * inverse_parts,
         angle,
@@ -94,21 +94,21 @@ def force_and_slope(
     reduction_adhesion: float,
     reduction_slip: float,
 ) -> tuple[float, float]:
-    """Creep force of one wheel in N and its slope with respect to slip speed in N s/m.
+    """Return the creep force of one wheel in N and its slope with respect to slip speed in N s/m.
 
     Args:
         gradient: :func:`stress_gradient`.
         limit_slope: change of the friction limit with the slip speed, N s/m.
         speed, limit, stiffness, reduction_adhesion, reduction_slip: as there.
     """
-    pull, hold, per_adhesion, per_slip, angle, tangent = gradient
-    adhering = reduction_adhesion * pull
-    shape = fma(adhering * hold, per_adhesion, angle + arctan_within_octant(tangent))
-    bend = fma(-adhering, adhering, hold * hold) * per_adhesion * per_adhesion
+    numerator, denominator, per_adhesion, per_slip, angle, tangent = gradient
+    adhering = reduction_adhesion * numerator
+    shape = fma(adhering * denominator, per_adhesion, angle + arctan_within_octant(tangent))
+    bend = fma(-adhering, adhering, denominator * denominator) * per_adhesion * per_adhesion
     shape_slope = fma(reduction_adhesion, bend, reduction_slip * per_slip)
-    pull_slope = fma(stiffness, hold, -pull * speed * limit_slope)
+    quotient_slope = fma(stiffness, denominator, -numerator * speed * limit_slope)
     force = _TWO_OVER_PI * limit * shape
-    return force, _TWO_OVER_PI * fma(limit_slope, shape, limit * shape_slope * pull_slope)
+    return force, _TWO_OVER_PI * fma(limit_slope, shape, limit * shape_slope * quotient_slope)
 
 
 def creep_force(
@@ -122,7 +122,7 @@ def creep_force(
     reduction_adhesion: float,
     reduction_slip: float,
 ) -> tuple[float, float]:
-    """Creep force of one wheel in N and its slope with respect to slip speed in N s/m.
+    """Return the creep force of one wheel in N and its slope with respect to slip speed in N s/m.
 
     Args:
         slip_speed: size of the slip speed w, m/s, >= 0.

@@ -1,25 +1,26 @@
 """A case in, a stop out."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
-from uictest.rig.assembly import assemble
-from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import SteppedStop, run
+from uictest.rig.assembly import assemble, controller_of
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
+from uictest.rig.backends.native import compiled_stop, stops_are_compiled
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario import Case
 
 
 @dataclass(frozen=True)
 class SimulatedStop:
-    """What the simulation of a case leaves.
+    """Result of the simulation of a case.
 
     Attributes:
-        measures: record of :data:`uictest.measures.MEASURES`.
+        measures: record of :data:`uictest.measures.STOP_MEASURES`.
         wheelset_measures: four records of :data:`uictest.measures.WHEELSET_MEASURES`.
-        recording: channels over time, when asked for.
+        recording: channels over time, if requested.
     """
 
     measures: Any
@@ -34,25 +35,33 @@ def simulate(case: Case, record_every: float | None = None) -> SimulatedStop:
         case: the case.
         record_every: time between two samples of a recording, s, in whole base steps; None: no recording.
     """
-    parameters, rail = assemble(case)
-    steps_per_sample = 0 if record_every is None else max(round(record_every / float(parameters.step)), 1)
-    outcome = run(compiled_stop(), parameters, rail, steps_per_sample)
-    recording = _recording(case, outcome) if steps_per_sample else None
-    return SimulatedStop(outcome.measures, outcome.wheelset_measures, recording)
+    inputs = assemble(case)
+    step = float(inputs.parameters.step)
+    steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
+    finished = run_to_end(compiled_stop(inputs.controller), inputs, steps_per_sample)
+    recording = _recording(case, finished) if steps_per_sample else None
+    return SimulatedStop(finished.measures, finished.wheelset_measures, recording)
 
 
-def _recording(case: Case, outcome: SteppedStop) -> Recording:
-    names = [
-        *CAR_CHANNELS,
-        *((f"{name}_{i}", unit) for i in (1, 2, 3, 4) for name, unit in WHEELSET_CHANNELS),
-    ]
-    channels = {name: outcome.trace[:, k].copy() for k, (name, _) in enumerate(names)}
-    return Recording(channels, dict(names), _facts(case, outcome))
+def is_compiled(cases: Iterable[Case]) -> bool:
+    """Return whether the rig lies compiled in the cache for the controllers of these cases."""
+    return stops_are_compiled(controller_of(case.scenario) for case in cases)
 
 
-def _facts(case: Case, outcome: SteppedStop) -> dict[str, str]:
-    """What a recording says beside its samples; when a wheelset first slid is known to the step only here."""
+def _recording(case: Case, finished: FinishedStop) -> Recording:
+    """Return the channels of the train, then those of each wheelset."""
+    train, wheelsets = finished.trace
+    channels = {name: train[name].copy() for name, _ in CAR_CHANNELS}
+    units = dict(CAR_CHANNELS)
+    for i in range(4):
+        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name, _ in WHEELSET_CHANNELS}
+        units |= {f"{name}_{i + 1}": unit for name, unit in WHEELSET_CHANNELS}
+    return Recording(channels, units, _facts(case, finished))
+
+
+def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
+    """Return the metadata of a recording; the instant of the first sliding is more exact than the samples."""
     facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
-    if math.isfinite(outcome.measures.sliding_time):
-        facts["sliding_time"] = f"{outcome.measures.sliding_time:.6g}"
+    if math.isfinite(finished.measures.sliding_time):
+        facts["sliding_time"] = f"{finished.measures.sliding_time:.6g}"
     return facts

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.physics import LONGEST_DELAY_CYCLES
 from uictest.scenario.feasibility import (
     braking_force,
@@ -70,7 +71,7 @@ class Scenario(Model):
     brake: Brake = Field(description="Brake system, command and position.")
     rail: Rail = Field(description="Rail condition, friction and gradient.")
     rig: Rig = Field(description="Topology of the rig, compensation, WSP.")
-    controller: Annotated[Controller, PartReference(Controller, "threshold")] = Field(
+    controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = Field(
         description="The WSP controller under test: a library name, a relative path or an inline mapping."
     )
     criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = Field(

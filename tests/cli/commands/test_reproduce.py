@@ -34,7 +34,7 @@ def catalogue(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two studies, of which the second misses its band."""
     chosen = {each.name: each for each in (study("sound", 2.0), study("amiss", 0.5))}
     monkeypatch.setattr(studies, "STUDIES", chosen)
-    monkeypatch.setattr(rig, "is_warm", lambda: True)
+    monkeypatch.setattr(rig, "stops_are_compiled", lambda controllers: True)
 
 
 def test_studies_are_listed(call: Call) -> None:

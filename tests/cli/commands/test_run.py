@@ -235,7 +235,7 @@ def test_the_first_run_of_an_installation_says_that_it_compiles(
 ) -> None:
     scenario("a")
     assert "compiling" not in call("run").err
-    monkeypatch.setattr(rig, "is_warm", lambda: False)
+    monkeypatch.setattr(rig, "is_compiled", lambda cases: False)
     assert "compiling the rig (once per installation, ten to forty seconds)..." in call("run").err
     assert "compiling" not in call("run", "-q").err
 

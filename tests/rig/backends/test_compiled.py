@@ -6,15 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.controllers import ALGORITHMS
+from uictest.controllers import CONTROLLERS
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics.arithmetic import maximum
 from uictest.physics.flow import mass_flow, orifice_law
-from uictest.rig.backends.compiled import translate
+from uictest.rig.backends.compiled import translate, with_controller
+from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.rig.backends.plain import plain_stop
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
-from uictest.rig.model.trace import ROW
 
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 # Each setting takes other ways through the code, within few steps.
@@ -44,10 +45,14 @@ def everything(function: Any, parameters: Any, rail: Any, every: int) -> dict[st
     layouts |= {"measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
     counts = (1, 2, 4, 1, 4)
     records = {name: np.zeros(n, layout) for n, (name, layout) in zip(counts, layouts.items(), strict=True)}
-    trace = np.zeros((parameters.cycles * parameters.steps_per_cycle + 1 if every else 0, ROW))
+    trace = empty_trace(parameters.cycles * parameters.steps_per_cycle + 1 if every else 0)
+    for samples in trace:
+        samples[...] = 0.0
     car, bogies, wheelsets, measures, wheelset_measures = records.values()
     function(car[0], bogies, wheelsets, parameters, rail, measures[0], wheelset_measures, trace, every)
-    return {name: record.tobytes() for name, record in records.items()} | {"trace": trace.tobytes()}
+    return {name: record.tobytes() for name, record in records.items()} | {
+        "trace": trace.train.tobytes() + trace.wheelsets.tobytes()
+    }
 
 
 def fields_that_differ(layout: np.dtype[Any], one: bytes, other: bytes) -> list[str]:
@@ -61,9 +66,9 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
     overrides, fields = SETTINGS[setting]
     if "cycles" not in fields:
         fields = {**fields, "cycles": 200}
-    parameters, rail = rig.parameters(*overrides, **fields)
-    plain = everything(run_stop, parameters, rail, 1)
-    compiled = everything(compiled_stop(), parameters, rail, 1)
+    parameters, rail, controller = rig.inputs(*overrides, **fields)
+    plain = everything(plain_stop(controller), parameters, rail, 1)
+    compiled = everything(compiled_stop(controller), parameters, rail, 1)
     for name, layout in (
         ("car", CAR),
         ("bogies", BOGIE),
@@ -83,7 +88,26 @@ def test_the_settings_reach_what_they_say(rig: Any) -> None:
     assert slides.wheelset_measures.locked_time.any()
     assert band.wheelset_measures.valve_actuations.any()
     assert downhill.measures.end_speed > 0.0
-    assert len(ALGORITHMS) == 2
+    used = {rig.inputs(*overrides).controller.name for overrides, _ in SETTINGS.values()}
+    assert used == CONTROLLERS.keys()
+
+
+def test_a_stop_with_one_controller_compiles_no_other(rig: Any) -> None:
+    """Nor the other way round: whoever adds one does not lengthen the first run of all others."""
+    functions: list[str] = []
+
+    def note(function: Any) -> Any:
+        functions.append(function.__module__)
+        return function
+
+    translate(run_stop, note, with_controller(CONTROLLERS["threshold"], note, {}))
+    assert "uictest.controllers.built_in.threshold" in functions
+    assert "uictest.controllers.built_in.slip_band" not in functions
+
+
+def test_a_stop_made_without_a_controller_says_so(rig: Any) -> None:
+    with pytest.raises(NotImplementedError, match="without a controller"):
+        everything(run_stop, *rig.parameters(cycles=1), 0)
 
 
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
@@ -101,13 +125,14 @@ def test_recording_changes_nothing(rig: Any) -> None:
 
 def test_a_sparse_trace_is_part_of_a_dense_one(rig: Any) -> None:
     dense, sparse = (rig.stop(*SLIDING, every=every).trace for every in (1, 7))
-    np.testing.assert_array_equal(dense[::7], sparse)
+    for one, other in zip(dense, sparse, strict=True):
+        np.testing.assert_array_equal(one[::7], other)
 
 
 def test_threads_do_not_disturb_each_other(rig: Any) -> None:
     """The same stop in six places, and others beside it."""
     parameters = [rig.parameters(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
-    compiled = compiled_stop()
+    compiled = compiled_stop(CONTROLLERS["threshold"])
     with ThreadPoolExecutor(4) as threads:
         jobs = [threads.submit(everything, compiled, one, rail, 0) for one, rail in parameters * 2]
         ends = [job.result() for job in jobs]

@@ -20,21 +20,24 @@ import json, os, sys
 os.environ["NUMBA_ENABLE_CUDASIM"] = "1"
 from pathlib import Path
 import numpy as np
-from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.rig import cuda
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.run_stop import run
-from uictest.rig.model.stop import stop
+from uictest.rig.backends import cuda
+from uictest.rig.backends.finished_stop import run_to_end
+from uictest.rig.backends.plain import plain_stop
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
 from uictest.scenario import load
 
 case = load([Path(sys.argv[1])])[0]
-parameters, rail = assemble(case)
+inputs = assemble(case)
+parameters, rail, controller = inputs
 parameters["cycles"] = 2
-measures, wheelsets = np.zeros(1, MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
+measures, wheelsets = np.zeros(1, STOP_MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
 batch = np.array([parameters], dtype=parameters.dtype)
 with np.errstate(invalid="ignore"):
-    cuda.kernel[1, 1](batch, rail[None], measures, wheelsets, np.zeros((1, 1)))
-    plain = run(stop, parameters, rail, 0)
+    no_trace = np.zeros(1, TRAIN_SAMPLE), np.zeros((1, 1), WHEELSET_SAMPLE)
+    cuda.kernel(controller)[1, 1](batch, rail[None], measures, wheelsets, *no_trace)
+    plain = run_to_end(plain_stop(controller), inputs)
 same = measures[0].tobytes() == plain.measures.tobytes()
 same_wheelsets = wheelsets[0].tobytes() == plain.wheelset_measures.tobytes()
 print(json.dumps([same, same_wheelsets, float(measures["end_distance"][0])]))
@@ -45,16 +48,20 @@ import json
 from types import SimpleNamespace
 import numba
 from numba.cuda import compile_ptx, dispatcher
-from uictest.measures import MEASURES, WHEELSET_MEASURES
-from uictest.rig import cuda
-from uictest.rig.model.records import PARAMETERS
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.controllers import CONTROLLERS
+from uictest.rig.backends import cuda
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
+from uictest.rig.model.parameters import PARAMETERS
 
+kernel = cuda.kernel(CONTROLLERS["threshold"])
 # What a machine without a GPU cannot say of itself: the capability to compile for.
 dispatcher.get_current_device = lambda: SimpleNamespace(compute_capability=(9, 0))
 record = numba.from_dtype
 signature = numba.void(
-    record(PARAMETERS)[::1], numba.float64[:, :, ::1], record(MEASURES)[::1],
-    record(WHEELSET_MEASURES)[:, ::1], numba.float64[:, ::1],
+    record(PARAMETERS)[::1], numba.float64[:, :, ::1], record(STOP_MEASURES)[::1],
+    record(WHEELSET_MEASURES)[:, ::1],
+    record(TRAIN_SAMPLE)[::1], record(WHEELSET_SAMPLE)[:, ::1],
 )
 
 def twice(x):
@@ -63,7 +70,7 @@ def twice(x):
 
 counts = []
 with cuda.without_contraction():
-    for function, kind in ((cuda.kernel.py_func, signature), (twice, numba.void(numba.float64[::1]))):
+    for function, kind in ((kernel.py_func, signature), (twice, numba.void(numba.float64[::1]))):
         ptx, _ = compile_ptx(function, kind, cc=(9, 0))
         counts.append([ptx.count(name) for name in (".entry", "fma.rn.f64", "mul.rn.f64", "mul.f64")])
 print(json.dumps(counts))

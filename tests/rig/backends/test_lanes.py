@@ -12,10 +12,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest.rig.backends.lanes import BatchMeasures, run_in_lanes
+from uictest.rig.backends.batch import BatchMeasures
+from uictest.rig.backends.finished_stop import run_to_end
+from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.backends.run_stop import run
-from uictest.rig.model.records import PARAMETERS
+from uictest.rig.model.parameters import PARAMETERS
 
 WET = ("rail.condition=wet", "rail.friction=0.09")
 PLACES = "{position: 0 m, friction: 0.2}, {position: 9 m, friction: 0.04}"
@@ -42,10 +43,12 @@ import sys
 sys.modules["numba"] = None
 from pathlib import Path
 import numpy as np
-from uictest.rig.backends.lanes import lanes_are_warm, run_in_lanes
-assert lanes_are_warm()
+from uictest.controllers import CONTROLLERS
+from uictest.rig.backends.lanes import lanes_are_compiled, run_in_lanes
+controllers = [CONTROLLERS["threshold"]] * 2
+assert lanes_are_compiled(controllers)
 parameters, rail = (np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "rail"))
-print(run_in_lanes(parameters, rail).measures.tobytes().hex())
+print(run_in_lanes(parameters, rail, controllers).measures.tobytes().hex())
 """
 
 
@@ -54,21 +57,23 @@ class Batch:
 
     def __init__(self, rig: Any) -> None:
         cases = [
-            rig.parameters(*variant, f"initial_speed={speed} km/h", case_key=number)
+            rig.inputs(*variant, f"initial_speed={speed} km/h", case_key=number)
             for number, variant in enumerate(VARIANTS)
             for speed in (9, 24 + number)
         ]
-        cases.append(rig.parameters(cycles=120))
+        cases.append(rig.inputs(cycles=120))
         self.parameters: NDArray[Any] = np.zeros(len(cases), PARAMETERS)
-        self.rail = np.zeros((len(cases), 4, max(rail.shape[1] for _, rail in cases)))
-        for number, (parameters, rail) in enumerate(cases):
+        self.rail = np.zeros((len(cases), 4, max(case.rail.shape[1] for case in cases)))
+        self.controllers = [case.controller for case in cases]
+        for number, (parameters, rail, _) in enumerate(cases):
             self.parameters[number] = parameters
             self.rail[number, :, : rail.shape[1]] = rail
-        self.alone = [run(compiled_stop(), parameters, rail, 0) for parameters, rail in cases]
+        self.alone = [run_to_end(compiled_stop(case.controller), case) for case in cases]
 
     def in_lanes(self, numbers: Sequence[int], width: int | None = None) -> BatchMeasures:
         chosen = list(numbers)
-        return run_in_lanes(self.parameters[chosen], self.rail[chosen], width)
+        controllers = [self.controllers[number] for number in chosen]
+        return run_in_lanes(self.parameters[chosen], self.rail[chosen], controllers, width)
 
     def is_as_alone(self, numbers: Sequence[int], batch: BatchMeasures) -> bool:
         return all(

@@ -10,13 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest.controllers import CONTROLLERS
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import simulate
-from uictest.rig.backends.native import compiled_stop, is_warm
-from uictest.rig.model.records import BOGIE, CAR, WHEELSET
-from uictest.rig.model.trace import ROW
+from uictest.rig.backends.finished_stop import empty_trace
+from uictest.rig.backends.native import compiled_stop, stops_are_compiled
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
 from uictest.scenario import load
 
+THRESHOLD = CONTROLLERS["threshold"]
 WITHOUT_COMPILER = """
 import sys
 sys.modules["numba"] = None
@@ -49,14 +52,14 @@ def arguments(rig: Any) -> dict[str, Any]:
         "rail": rail,
         "measures": np.zeros(1, STOP_MEASURES)[0],
         "wheelset_measures": np.zeros(4, WHEELSET_MEASURES),
-        "trace": np.zeros((0, ROW)),
+        "trace": empty_trace(0),
         "steps_per_sample": 0,
     }
 
 
 def test_a_warm_start_needs_no_compiler(tmp_path: Any) -> None:
-    compiled_stop()
-    assert is_warm()
+    compiled_stop(THRESHOLD)
+    assert stops_are_compiled([THRESHOLD])
     scenario = tmp_path / "stop.yaml"
     scenario.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n")
     command = [sys.executable, "-c", WITHOUT_COMPILER, scenario]
@@ -89,11 +92,11 @@ def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Pa
         "wheelsets": np.zeros(2, WHEELSET),
         "wheelset_measures": np.zeros(8, WHEELSET_MEASURES)[::2],
         "rail": np.zeros((4, 2), np.float32),
-        "trace": np.zeros((0, ROW - 1)),
+        "trace": Trace(np.zeros(0, TRAIN_SAMPLE), np.zeros((0, 4), TRAIN_SAMPLE)),
     }.items(),
 )
 def test_another_layout_is_refused(rig: Any, name: str, other: Any) -> None:
     """Machine code would read and write beyond it."""
     with pytest.raises(TypeError, match="contiguous"):
-        compiled_stop()(**{**arguments(rig), name: other})
-    assert compiled_stop()(**arguments(rig)) == 0
+        compiled_stop(THRESHOLD)(**{**arguments(rig), name: other})
+    assert compiled_stop(THRESHOLD)(**arguments(rig)) == 0

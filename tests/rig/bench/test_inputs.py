@@ -22,19 +22,21 @@ CLOCK = Clock(0.0005, 20)
 
 def test_levels_are_demanded_at_once_and_held():
     applied = stepwise([1e5, 3e5], 0.5, CLOCK)
-    assert applied.demand[[0, 999, 1000, 1999]].tolist() == [1e5, 1e5, 3e5, 3e5]
-    assert applied.commands.tolist() == [FILL] * 100
+    assert applied.demanded_pressures[[0, 999, 1000, 1999]].tolist() == [1e5, 1e5, 3e5, 3e5]
+    assert applied.valve_commands.tolist() == [FILL] * 100
 
 
 def test_a_triangle_rises_and_falls_at_its_rate():
     applied = triangular([2e5], 0.5e5, 1e5, CLOCK)
-    assert len(applied.demand) == 6000
-    assert applied.demand.max() == pytest.approx(2e5)
-    assert np.abs(np.diff(applied.demand)) == pytest.approx(50.0)
+    assert len(applied.demanded_pressures) == 6000
+    assert applied.demanded_pressures.max() == pytest.approx(2e5)
+    assert np.abs(np.diff(applied.demanded_pressures)) == pytest.approx(50.0)
 
 
 def test_random_pressure_depends_on_its_seed_alone():
-    first, again, other = (random_pressure(0.0, 4e5, 1.0, 5.0, seed, CLOCK).demand for seed in (1, 1, 2))
+    first, again, other = (
+        random_pressure(0.0, 4e5, 1.0, 5.0, seed, CLOCK).demanded_pressures for seed in (1, 1, 2)
+    )
     assert np.array_equal(first, again)
     assert not np.array_equal(first, other)
     assert 0.0 <= first.min() <= first.max() <= 4e5
@@ -42,7 +44,7 @@ def test_random_pressure_depends_on_its_seed_alone():
 
 def test_wsp_cycling_vents_holds_and_fills_within_its_spans():
     applied = wsp_cycling(4e5, 1.0, 5, (0.1, 0.2), (0.05, 0.1), (0.1, 0.3), 7, CLOCK)
-    commands = applied.commands
+    commands = applied.valve_commands
     assert commands[:100].tolist() == [FILL] * 100
     changes = np.flatnonzero(np.diff(commands)) + 1
     order = commands[changes][:8].tolist()
@@ -50,24 +52,26 @@ def test_wsp_cycling_vents_holds_and_fills_within_its_spans():
     vents = [len(part) for part in np.split(commands, changes) if part[0] == VENT]
     assert len(vents) == 5
     assert all(10 <= length <= 20 for length in vents)
-    assert len(applied.demand) == 20 * len(commands)
+    assert len(applied.demanded_pressures) == 20 * len(commands)
 
 
 def test_inputs_are_joined_one_after_the_other():
     parts = [stepwise([1e5], 0.1, CLOCK), stepwise([2e5], 0.2, CLOCK)]
     whole = joined(parts)
-    assert len(whole.commands) == 30
-    assert whole.demand[[0, -1]].tolist() == [1e5, 2e5]
+    assert len(whole.valve_commands) == 30
+    assert whole.demanded_pressures[[0, -1]].tolist() == [1e5, 2e5]
 
 
 def test_a_recorded_command_was_in_force_since_the_sample_before():
     time = np.array([0.0, 0.01, 0.02, 0.03]) + 5.0
     applied = recorded(time, np.full(4, 3e5), np.array([0.0, 0.0, 2.0, 1.0]), CLOCK)
-    assert applied.commands.tolist() == [FILL, VENT, HOLD]
+    assert applied.valve_commands.tolist() == [FILL, VENT, HOLD]
 
 
 def test_without_commands_the_valves_fill():
     applied = recorded(np.array([0.0, 1.0]), np.array([0.0, 1e5]), None, CLOCK)
-    assert set(applied.commands.tolist()) == {FILL}
-    assert applied.demand[-1] == pytest.approx(1e5)
-    assert np.array_equal(applied.demand, bypassed([0.0, 1.0], [0.0, 1e5], CLOCK).demand)
+    assert set(applied.valve_commands.tolist()) == {FILL}
+    assert applied.demanded_pressures[-1] == pytest.approx(1e5)
+    assert np.array_equal(
+        applied.demanded_pressures, bypassed([0.0, 1.0], [0.0, 1e5], CLOCK).demanded_pressures
+    )

@@ -12,7 +12,7 @@ from uictest.rig.bench import loading as bench_loading
 from uictest.rig.bench.inputs import BenchInput, joined, stepwise, triangular
 from uictest.rig.bench.loading import load_bench, recipe_path
 from uictest.rig.bench.run import clock_of, run_bench
-from uictest.rig.bench.step import bench
+from uictest.rig.bench.step import run_bench_test
 from uictest.rig.bench.trace import BENCH_CHANNELS
 from uictest.rig.simulation import simulate
 
@@ -38,7 +38,7 @@ def pulled(case, clock):
 
 def test_plain_and_compiled_bench_give_the_same_bits(case, clock):
     applied = triangular([1.5e5], 0.0, 5e5, clock)
-    plain, compiled = run_bench(case, applied, bench), run_bench(case, applied)
+    plain, compiled = run_bench(case, applied, run_bench_test), run_bench(case, applied)
     for name, _ in BENCH_CHANNELS:
         assert np.array_equal(plain[name], compiled[name]), name
 

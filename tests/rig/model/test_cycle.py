@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.controllers import decide
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.backends.compiled import translate
-from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.controller import decide
+from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.step import step
 
 Benches = Callable[[Any], Any]
@@ -22,9 +22,9 @@ def scripted(commands: list[int]) -> Any:
     def follow(car: Any, wheelsets: Any, p: Any) -> None:
         command = next(script, FILL)
         for wheelset in wheelsets:
-            wheelset.command = command
+            wheelset.valve_command = command
 
-    return translate(begin_cycle, lambda function: function, {decide: follow})
+    return translate(start_cycle, lambda function: function, {decide: follow})
 
 
 def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[str, np.ndarray]:
@@ -76,9 +76,10 @@ def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig: Any, be
     wheelbase, pivots = 2.0 * parameters.half_wheelbase, 2.0 * parameters.half_pivot_distance
     behind = np.array([0.0, wheelbase, pivots, pivots + wheelbase])
     standing = bench(parameters)
+    undecided = scripted([])
     for place, time in ((0.0, 0.0), (51.0, 2.0), (58.5, 5.0), (70.0, 20.0), (90.0, 9.0)):
         standing.car.position, standing.car.time = place, time
-        begin_cycle(standing.car, standing.wheelsets, standing.p, rail)
+        undecided(standing.car, standing.wheelsets, standing.p, rail)
         along = np.interp(place - behind, rail[0], rail[1])
         factor = np.interp(time, [0.0, 10.0], [1.0, 0.5])
         found = [wheelset.friction for wheelset in standing.wheelsets]
@@ -101,10 +102,11 @@ def test_a_step_of_friction_is_met_by_one_wheelset_after_the_other(rig: Any) -> 
 def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
     parameters, rail = rig.parameters()
     rolling = bench(parameters)
+    undecided = scripted([])
     noise = []
     for _ in range(400):
-        sense(rolling.car, rolling.wheelsets, rolling.p)
-        begin_cycle(rolling.car, rolling.wheelsets, rolling.p, rail)
+        read_sensors(rolling.car, rolling.wheelsets, rolling.p)
+        undecided(rolling.car, rolling.wheelsets, rolling.p, rail)
         command_valves(rolling.car, rolling.wheelsets, rolling.p)
         noise.append([(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets])
     channels = np.array(noise).reshape(400, 12)

@@ -37,8 +37,8 @@ def _braked(rig: Any, bench: Benches) -> Any:
 
 def test_brake_line_and_tanks_reach_the_demand(braked: Any) -> None:
     p = braked.p
-    assert braked.car.demand == p.demanded_pressure
-    assert braked.car.line_pressure - p.atmospheric_pressure == pytest.approx(p.demanded_pressure, rel=1e-4)
+    assert braked.car.demanded_pressure == p.commanded_pressure
+    assert braked.car.line_pressure - p.atmospheric_pressure == pytest.approx(p.commanded_pressure, rel=1e-4)
     for wheelset in braked.wheelsets:
         assert wheelset.pressure == pytest.approx(braked.car.line_pressure, rel=1e-5)
 
@@ -75,11 +75,11 @@ def test_held_tanks_keep_their_pressure_and_vented_ones_fall_to_the_atmosphere(b
 
 
 def test_overcharged_line_is_exhausted_by_the_relay_valve(braked: Any) -> None:
-    braked.p.demanded_pressure *= 0.5
+    braked.p.commanded_pressure *= 0.5
     blow(braked, 8000)
     assert braked.car.exhausted_air > 0.0
     gauge = braked.car.line_pressure - braked.p.atmospheric_pressure
-    assert gauge == pytest.approx(braked.p.demanded_pressure, rel=0.02)
+    assert gauge == pytest.approx(braked.p.commanded_pressure, rel=0.02)
 
 
 def test_moving_piston_draws_on_the_air_of_its_tank_and_of_no_other(braked: Any) -> None:

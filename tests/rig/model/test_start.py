@@ -14,7 +14,7 @@ NO_RESISTANCE = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistan
 
 def test_without_a_brake_the_train_rolls_on_as_it_began(rig: Any, bench: Benches) -> None:
     """All parts are in equilibrium: nothing swings, nothing slides, no air flows."""
-    quiet = {"demanded_pressure": 0.0, "loadcell_offset": 0.0, "loadcell_noise": 0.0, **NO_RESISTANCE}
+    quiet = {"commanded_pressure": 0.0, "loadcell_offset": 0.0, "loadcell_noise": 0.0, **NO_RESISTANCE}
     rolling = bench(rig.parameters(**quiet)[0])
     for wheelset in rolling.wheelsets:
         wheelset.friction = 0.3

@@ -63,7 +63,7 @@ def test_standstill_lies_between_two_steps_where_the_speed_says(rig: Any) -> Non
 
 def test_coasting_follows_the_running_resistance(rig: Any) -> None:
     """M v' = -(a + b v + c v^2) has a closed form: v falls along a tangent."""
-    settings = {"demanded_pressure": 0.0, "cycles": 6000, **EXACT_SENSORS}
+    settings = {"commanded_pressure": 0.0, "cycles": 6000, **EXACT_SENSORS}
     p = rig.parameters(DRY, **settings)[0]
     trace = rig.columns(DRY, **settings)
     inert = masses(p)[1]
@@ -76,7 +76,7 @@ def test_coasting_follows_the_running_resistance(rig: Any) -> None:
 
 
 def test_train_rolls_downhill_as_on_an_inclined_plane(rig: Any) -> None:
-    settings = {"demanded_pressure": 0.0, "cycles": 1000, **NO_RESISTANCE, **EXACT_SENSORS}
+    settings = {"commanded_pressure": 0.0, "cycles": 1000, **NO_RESISTANCE, **EXACT_SENSORS}
     overrides = (DRY, "rail.gradient=-25 permille")
     p = rig.parameters(*overrides, **settings)[0]
     trace = rig.columns(*overrides, **settings)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from uictest.evaluation import JUDGED_KEYS
-from uictest.rig.assembly import FRICTION_KEYS, SECTIONS, assemble, friction_laws
+from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, assemble, assigned, friction_laws
 from uictest.scenario import Case, Scenario, load as load_scenarios
 from uictest.scenario.yaml.model import Model
 from uictest.sweep import Plan
@@ -68,7 +68,8 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
     for place in range(plan.size):
-        record, rail = assemble(written_out(plan, place))
+        record, rail, controller = assemble(written_out(plan, place))
+        assert block.controllers[place] is controller
         assert record.tobytes() == block.parameters[place].tobytes()
         assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
 
@@ -115,9 +116,7 @@ class Watched:
 
 def keys_read(function: Any, scenario: Scenario) -> set[str]:
     read: set[str] = set()
-    result = function(Watched(scenario, "", read))
-    if isinstance(result, Iterator):
-        list(result)
+    function(Watched(scenario, "", read))
     return read
 
 
@@ -125,10 +124,12 @@ SHIPPED = load_scenarios([Path(__file__).parents[3] / "scenarios"])
 
 
 @pytest.mark.parametrize("case", SHIPPED, ids=lambda case: case.id)
-def test_sections_read_nothing_but_what_they_say(case: Case) -> None:
-    for section, keys in (*SECTIONS.items(), (friction_laws, FRICTION_KEYS)):
-        for read in keys_read(section, case.scenario):
-            assert any(read == key or read.startswith(f"{key}.") for key in keys), (section.__name__, read)
+def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> None:
+    """What sets parameters, and what they are set to apart from all others."""
+    setters = [(lambda scenario, each=each: assigned([each], scenario), each.keys) for each in ASSIGNMENTS]
+    for setter, keys in (*setters, (friction_laws, FRICTION_KEYS)):
+        for read in keys_read(setter, case.scenario):
+            assert any(read == key or read.startswith(f"{key}.") for key in keys), (keys, read)
 
 
 @pytest.mark.parametrize("case", SHIPPED[:3], ids=lambda case: case.id)
@@ -137,8 +138,8 @@ def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
 
     from ..conftest import formula
 
-    record, rail = assemble(case)
-    measures, wheelsets = formula(np.array([record]), rail[None])
+    record, rail, controller = assemble(case)
+    measures, wheelsets = formula(np.array([record]), rail[None], [controller])
     read: set[str] = set()
     watched: Any = Watched(case.scenario, "", read)
     for stopped in (1.0, 0.0):

@@ -65,7 +65,7 @@ def bench(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
-    from uictest.rig.bench import is_warm, loading as bench_loading
+    from uictest.rig.bench import is_compiled, loading as bench_loading
 
     if listed:
         data("\n".join(bench_loading.recipe_names()))
@@ -73,7 +73,7 @@ def bench(
     test = _test(recipe, trace, pressure, command, overrides or (), seed, trusted or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     writer = _writer(target)
-    announce_compilation(warm=is_warm(), quiet=quiet)
+    announce_compilation(warm=is_compiled(), quiet=quiet)
     recording = _run(test)
     writer(recording, target)
     if not quiet:

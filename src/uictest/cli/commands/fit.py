@@ -85,7 +85,7 @@ def fit(
         raise InvalidInputError(f"uictest: {file}: {error}") from error
     for line in _lines(found):
         data(line)
-    announce_compilation(warm=rig.is_warm())
+    announce_compilation(warm=rig.is_compiled([case]))
     place = _publish(
         context.obj.arguments, case, scenario, overrides or (), found, stop, output, trusted or ()
     )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from uictest import rig
+from uictest import controllers, rig
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import interactive
 from uictest.cli.exit_codes import ExitCode
@@ -92,7 +92,9 @@ def _run(studies: Sequence[Study], jobs: int, output: Path, *, quiet: bool) -> l
     """Run the studies one after the other, and write the tables of each as soon as it has ended."""
     from uictest.studies import StopRunner, run_study, write_comparison, write_tables
 
-    announce_compilation(warm=rig.is_warm(), quiet=quiet)
+    announce_compilation(
+        warm=rig.stops_are_compiled([controllers.CONTROLLERS[controllers.DEFAULT]]), quiet=quiet
+    )
     stop_runner = StopRunner(jobs)
     results: list[StudyResult] = []
     for study in studies:

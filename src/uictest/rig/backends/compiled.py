@@ -18,9 +18,12 @@ from typing import Any, cast
 
 import numpy as np
 
+from uictest.controllers import Controller
+from uictest.rig.model.controller import begin, decide
+
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
-_SOURCES = ("physics", "controllers", "measures", "lanes", "rig")
+_SOURCES = ("record.py", "physics", "controllers", "measures", "lanes", "rig")
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
 
 
@@ -30,6 +33,18 @@ def compiled_operations() -> dict[Function, Any]:
     from uictest.physics import arithmetic
 
     return {arithmetic.fma: lanes.fma} if lanes.fuses() else {}
+
+
+def with_controller(
+    controller: Controller, wrap: Wrap, operations: dict[Function, Any]
+) -> dict[Function, Any]:
+    """Return replacements for :func:`translate` that put a controller in its place in the model.
+
+    ``operations`` are replacements that hold within the controller, too.
+    """
+    done = dict(operations)
+    functions = translate(controller.begin, wrap, done), translate(controller.decide, wrap, done)
+    return {**done, begin: functions[0], decide: functions[1]}
 
 
 def translate(function: Function, wrap: Wrap, done: dict[Function, Any]) -> Any:
@@ -63,6 +78,11 @@ def _is_ours(value: object) -> bool:
     )
 
 
+def compiler() -> Any:
+    """Return numba, loaded at the first use; its functions have no types."""
+    return importlib.import_module("numba")
+
+
 def callback(function: Function, *arguments: Any) -> Any:
     """Compile a function of addresses and whole numbers, called as C calls it; it returns a whole number.
 
@@ -70,7 +90,7 @@ def callback(function: Function, *arguments: Any) -> Any:
         function: what is compiled.
         arguments: for each argument the layout of what lies at the address, or `int` for a whole number.
     """
-    numba: Any = importlib.import_module("numba")  # its functions have no types
+    numba = compiler()
     kinds = [
         numba.int64 if each is int else numba.types.CPointer(numba.from_dtype(np.dtype(each)))
         for each in arguments
@@ -83,5 +103,8 @@ def compiler_inputs() -> bytes:
     """Return everything that compiled code depends on beside the processor: sources, options, versions."""
     versions = (sys.version_info[:2], *(metadata.version(name) for name in ("numba", "llvmlite", "numpy")))
     package = Path(__file__).parents[2]
-    sources = (source for room in _SOURCES for source in sorted((package / room).rglob("*.py")))
+    rooms = (package / name for name in _SOURCES)
+    sources = [
+        source for room in rooms for source in (sorted(room.rglob("*.py")) if room.is_dir() else [room])
+    ]
     return b"".join([repr((OPTIONS, versions)).encode(), *(source.read_bytes() for source in sources)])

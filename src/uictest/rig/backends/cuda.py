@@ -4,20 +4,23 @@ The functions that step the rig in plain Python and on the processor are transla
 (extra ``cuda``). Importing this module needs numba-cuda, calling :func:`run_on_gpu` a GPU.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numba.cuda
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.controllers import Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.physics import arithmetic
-from uictest.rig.backends.compiled import Function, translate
-from uictest.rig.model.records import BOGIE, CAR, WHEELSET
+from uictest.physics import fma
+from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
+from uictest.rig.backends.compiled import Function, translate, with_controller
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 
 THREADS_PER_BLOCK = 128
 """Threads of a block: few, since each stop fills the registers of a thread."""
@@ -34,58 +37,76 @@ def fused(a: float, b: float, c: float) -> Any:
 
 def _operations() -> dict[Function, Any]:
     """Return what takes the place of plain functions; numba's simulator rounds its own ``fma`` twice."""
-    return {} if cuda.config.ENABLE_CUDASIM else {arithmetic.fma: fused}
+    return {} if cuda.config.ENABLE_CUDASIM else {fma: fused}
 
 
-device_stop = translate(run_stop, cuda.jit(device=True), _operations())
+@cache
+def kernel(controller: Controller) -> Any:
+    """Return the kernel that runs the stop of one case in each thread, for cases with one controller."""
+    device = cuda.jit(device=True)
+    run_on_device = translate(run_stop, device, with_controller(controller, device, _operations()))
+
+    def run_stops(
+        parameters: Any, rail: Any, measures: Any, wheelset_measures: Any, no_train: Any, no_wheelsets: Any
+    ) -> None:
+        i = cuda.grid(1)
+        if i < parameters.shape[0]:
+            # States live in the thread's own memory.
+            car = cuda.local.array(1, CAR)
+            bogies = cuda.local.array(2, BOGIE)
+            wheelsets = cuda.local.array(4, WHEELSET)
+            run_on_device(
+                car[0],
+                bogies,
+                wheelsets,
+                parameters[i],
+                rail[i],
+                measures[i],
+                wheelset_measures[i],
+                Trace(no_train, no_wheelsets),
+                NO_TRACE,
+            )
+
+    return cuda.jit(run_stops)
 
 
-@cuda.jit  # type: ignore[untyped-decorator]
-def kernel(parameters: Any, rail: Any, measures: Any, wheelset_measures: Any, trace: Any) -> None:
-    """Run the stop of one case in each thread; states live in the thread's own memory."""
-    i = cuda.grid(1)
-    if i < parameters.shape[0]:
-        car = cuda.local.array(1, CAR)
-        bogies = cuda.local.array(2, BOGIE)
-        wheelsets = cuda.local.array(4, WHEELSET)
-        device_stop(
-            car[0],
-            bogies,
-            wheelsets,
-            parameters[i],
-            rail[i],
-            measures[i],
-            wheelset_measures[i],
-            trace,
-            NO_TRACE,
-        )
-
-
-def run_on_gpu(parameters: Any, rail: NDArray[np.float64]) -> tuple[Any, Any]:
+def run_on_gpu(
+    parameters: Any, rail: NDArray[np.float64], controllers: Sequence[Controller]
+) -> BatchMeasures:
     """Simulate many stops on the GPU.
 
     Args:
-        parameters: records of :data:`~uictest.rig.model.records.PARAMETERS`, shape (n,).
-        rail: friction laws, shape (n, 4, points), as :func:`uictest.rig.assembly.assemble` gives them.
-
-    Returns:
-        Records of :data:`~uictest.measures.STOP_MEASURES`, shape (n,), and of
-        :data:`~uictest.measures.WHEELSET_MEASURES`, shape (n, 4).
+        parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
+        rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
+            (n, 4, points).
+        controllers: the controller of each case.
 
     Raises:
         numba.cuda.CudaSupportError: when there is no GPU or no driver for it.
     """
     count = len(parameters)
+    batch = BatchMeasures(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES))
+    for controller, cases in cases_by_controller(controllers):
+        measures, wheelset_measures = _run(controller, parameters[cases], rail[cases])
+        batch.measures[cases] = measures
+        batch.wheelset_measures[cases] = wheelset_measures
+    return batch
+
+
+def _run(controller: Controller, parameters: Any, rail: NDArray[np.float64]) -> tuple[Any, Any]:
+    """Return the measures of cases with the same controller."""
+    count = len(parameters)
     measures = cuda.device_array(count, STOP_MEASURES)
     wheelset_measures = cuda.device_array((count, 4), WHEELSET_MEASURES)
     blocks = -(-count // THREADS_PER_BLOCK)
     with without_contraction():
-        kernel[blocks, THREADS_PER_BLOCK](
+        kernel(controller)[blocks, THREADS_PER_BLOCK](
             cuda.to_device(parameters),
             cuda.to_device(rail),
             measures,
             wheelset_measures,
-            cuda.device_array((1, 1), np.float64),
+            cuda.device_array(1, TRAIN_SAMPLE),
+            cuda.device_array((1, 1), WHEELSET_SAMPLE),
         )
     return measures.copy_to_host(), wheelset_measures.copy_to_host()
 

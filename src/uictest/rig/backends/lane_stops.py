@@ -2,13 +2,13 @@
 
 Compiled only. What branches or looks up tables - friction laws, controllers, tables of measures - runs lane
 by lane once per controller cycle; everything else runs in all lanes at once. A lane does what
-:func:`uictest.rig.model.stop.stop` does, and its measures have the same bits.
+:func:`uictest.rig.model.stop.run_stop` does, and its measures have the same bits.
 """
 
 from typing import Any, NamedTuple
 
 from uictest.lanes import align_stack, lane, put, take, vectors
-from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
 from uictest.rig.model.stop import (
@@ -107,12 +107,12 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
     car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
     settings = vectors(lanes.settings)
     steps = 0
-    sense(car, wheelsets, settings)
+    read_sensors(car, wheelsets, settings)
     for k in range(running.size):
         case = running[k]
         if case != _IDLE:
             p = cases.parameters[case]
-            begin_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
+            start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             steps = p.steps_per_cycle
     command_valves(car, wheelsets, settings)
     for _ in range(steps):

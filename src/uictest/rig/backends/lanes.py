@@ -1,18 +1,30 @@
 """Many stops on one core, several at a time in the lanes of a SIMD register."""
 
-import importlib
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.controllers import Controller
 from uictest.lanes import block, register_width
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics import arithmetic
-from uictest.rig.backends.compiled import OPTIONS, Function, callback, compiled_operations, translate
+from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
+from uictest.rig.backends.compiled import (
+    OPTIONS,
+    Function,
+    callback,
+    compiled_operations,
+    compiler,
+    translate,
+    with_controller,
+)
 from uictest.rig.backends.machine_code import address, is_kept, native_function
-from uictest.rig.model.records import BOGIE, CAR, PARAMETERS, WHEELSET
+from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 
 _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
@@ -20,20 +32,11 @@ _BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records that each lane has."""
 
 
-class BatchMeasures(NamedTuple):
-    """Measures of many stops, in the order of the cases.
-
-    Attributes:
-        measures: records of :data:`uictest.measures.STOP_MEASURES`, shape (cases,).
-        wheelset_measures: records of :data:`uictest.measures.WHEELSET_MEASURES`, shape (cases, 4).
-    """
-
-    measures: NDArray[Any]
-    wheelset_measures: NDArray[Any]
-
-
 def run_in_lanes(
-    parameters: NDArray[Any], rail: NDArray[np.float64], width: int | None = None
+    parameters: NDArray[Any],
+    rail: NDArray[np.float64],
+    controllers: Sequence[Controller],
+    width: int | None = None,
 ) -> BatchMeasures:
     """Run the stop of every case; each gives the same bits as alone, whatever its neighbours.
 
@@ -41,31 +44,40 @@ def run_in_lanes(
     seconds more, for compilation.
 
     Args:
-        parameters: records of :data:`~uictest.rig.model.records.PARAMETERS`, shape (cases,).
-        rail: friction laws of the cases, shape (cases, 4, n): places in m, friction coefficients there, times
-            in s, factors then.
+        parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (cases,).
+        rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
+            (cases, 4, n).
+        controllers: the controller of each case.
         width: number of lanes; by default as many as this processor's registers hold.
     """
     parameters, rail = np.ascontiguousarray(parameters), np.ascontiguousarray(rail)
     batch = BatchMeasures(
         np.zeros(parameters.size, STOP_MEASURES), np.zeros((parameters.size, 4), WHEELSET_MEASURES)
     )
-    for queue in _queues(parameters["steps_per_cycle"]):
-        _run_queue(parameters, rail, batch, queue, width or register_width())
+    for controller, queue in _queues(controllers, parameters["steps_per_cycle"]):
+        _run_queue(controller, parameters, rail, batch, queue, width or register_width())
     return batch
 
 
-def lanes_are_warm() -> bool:
-    """Whether the lanes of this processor lie compiled in the cache, so that a batch begins at once."""
-    return is_kept(_name(register_width()))
+def lanes_are_compiled(controllers: Iterable[Controller]) -> bool:
+    """Return whether the lanes of this processor lie compiled in the cache for these controllers."""
+    return all(is_kept(_name(controller, register_width())) for controller in set(controllers))
 
 
-def _queues(steps_per_cycle: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """Numbers of the cases that can run side by side: lanes begin their controller cycles together."""
-    return [np.flatnonzero(steps_per_cycle == steps) for steps in np.unique(steps_per_cycle)]
+def _queues(
+    controllers: Sequence[Controller], steps_per_cycle: NDArray[np.int64]
+) -> Iterator[tuple[Controller, NDArray[np.int64]]]:
+    """Yield controllers and the numbers of cases that can run side by side.
+
+    Lanes begin their controller cycles together, so that all must have the same number of steps in one.
+    """
+    for controller, cases in cases_by_controller(controllers):
+        for steps in np.unique(steps_per_cycle[cases]):
+            yield controller, cases[steps_per_cycle[cases] == steps]
 
 
 def _run_queue(
+    controller: Controller,
     parameters: NDArray[Any],
     rail: NDArray[np.float64],
     batch: BatchMeasures,
@@ -74,26 +86,27 @@ def _run_queue(
 ) -> None:
     blocks = [block(layout, width, number) for layout, number in _BLOCKS]
     blank = [np.zeros(number, layout) for layout, number in _RIG]
-    made_here = (*blocks, *blank, *batch, queue, np.empty(width, np.int64))
+    allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64))
     count, points = parameters.size, rail.shape[-1]
     arguments = (
         address(parameters, PARAMETERS, (count,)),
-        address(rail, "f8", (count, 4, points)),
-        *(address(array, array.dtype, array.shape) for array in made_here),
+        address(rail, "f8", (count, ROWS, points)),
+        *(address(array, array.dtype, array.shape) for array in allocated),
         *(count, points, queue.size),
     )
-    native_function(_name(width), partial(_callback, width), len(arguments))(*arguments)
+    compiled = native_function(_name(controller, width), partial(_compile, controller, width), len(arguments))
+    compiled(*arguments)
 
 
-def _name(width: int) -> str:
-    return f"uictest_lanes_{width}"
+def _name(controller: Controller, width: int) -> str:
+    return f"uictest_lanes_{width}_{controller.symbol}"
 
 
-def _callback(width: int) -> Any:
+def _compile(controller: Controller, width: int) -> Any:
     """Return the loop over a queue of cases compiled, as a function of addresses and of what lies there."""
-    numba: Any = importlib.import_module("numba")  # its functions have no types
+    numba = compiler()
     carray = numba.carray
-    lanes, rig, all_cases, run_queue = _translated(numba)
+    lanes, rig, all_cases, run_queue = _translated(controller, numba.njit(**OPTIONS))
 
     def on_addresses(
         parameters: Any,
@@ -125,7 +138,7 @@ def _callback(width: int) -> Any:
             rig(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
             all_cases(
                 carray(parameters, count),
-                carray(rail, (count, 4, points)),
+                carray(rail, (count, ROWS, points)),
                 carray(measures, count),
                 carray(wheelset_measures, (count, 4)),
             ),
@@ -139,18 +152,17 @@ def _callback(width: int) -> Any:
     return callback(on_addresses, PARAMETERS, "f8", *blocks, *records, "i8", "i8", int, int, int)
 
 
-def _translated(numba: Any) -> tuple[Any, Any, Any, Any]:
+def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
     """Return what lanes, a rig and cases are to compiled code, and the loop over a queue of cases.
 
     What has no branches is translated for lanes, the rest for one.
     """
     from uictest import lanes
     from uictest.rig.backends.lane_stops import Cases, Lanes, Rig, run_queue
-    from uictest.rig.model.cycle import command_valves, sense
+    from uictest.rig.model.cycle import command_valves, read_sensors
     from uictest.rig.model.step import step
     from uictest.rig.model.stop import observe_cycle
 
-    njit: Any = numba.njit(**OPTIONS)
     in_lanes: dict[Function, Any] = {
         **compiled_operations(),
         arithmetic.select: lanes.select,
@@ -159,6 +171,7 @@ def _translated(numba: Any) -> tuple[Any, Any, Any, Any]:
         arithmetic.sqrt: lanes.sqrt,
         arithmetic.floor: lanes.floor,
     }
-    without_branches = (sense, command_valves, step, observe_cycle)
+    without_branches = (read_sensors, command_valves, step, observe_cycle)
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}
-    return Lanes, Rig, Cases, translate(run_queue, njit, {**compiled_operations(), **wide})
+    scalar = with_controller(controller, njit, compiled_operations())
+    return Lanes, Rig, Cases, translate(run_queue, njit, {**scalar, **wide})

@@ -1,44 +1,58 @@
-"""The compiled stop: made once by numba, kept as machine code in the cache, called by address."""
+"""The stop in machine code: compiled once per controller by numba, kept in the cache, called by address."""
 
-from __future__ import annotations
-
-import importlib
-from functools import cache
+from collections.abc import Iterable
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.controllers import Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import OPTIONS, callback, compiled_operations, translate
+from uictest.rig.backends.compiled import (
+    OPTIONS,
+    callback,
+    compiled_operations,
+    compiler,
+    translate,
+    with_controller,
+)
 from uictest.rig.backends.machine_code import address, is_kept, native_function
-from uictest.rig.model.records import BOGIE, CAR, PARAMETERS, WHEELSET
+from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
-from uictest.rig.model.trace import ROW
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 
-_NAME = "uictest_stop"
 _ARGUMENTS = (
     *(CAR, BOGIE, WHEELSET, PARAMETERS, "f8", int),
-    *(STOP_MEASURES, WHEELSET_MEASURES, "f8", int, int),
+    *(STOP_MEASURES, WHEELSET_MEASURES, TRAIN_SAMPLE, WHEELSET_SAMPLE, int, int),
 )
 
 
+def stops_are_compiled(controllers: Iterable[Controller]) -> bool:
+    """Return whether the stop with each of these controllers lies compiled in the cache."""
+    return all(is_kept(_name(controller)) for controller in set(controllers))
+
+
+def _name(controller: Controller) -> str:
+    return f"uictest_stop_{controller.symbol}"
+
+
 @cache
-def compiled_stop() -> NativeStop:
-    """Return :func:`uictest.rig.model.stop.stop` compiled; the first call on a machine takes some seconds."""
-    return NativeStop()
+def compiled_stop(controller: Controller) -> "NativeStop":
+    """Return :func:`uictest.rig.model.stop.run_stop` compiled for a controller.
 
-
-def is_warm() -> bool:
-    """Whether the compiled rig lies in the cache, so that the first case starts at once."""
-    return is_kept(_NAME)
+    The first call on a machine takes about twenty seconds.
+    """
+    return NativeStop(controller)
 
 
 class NativeStop:
-    """The stop of `rig.model.stop` in machine code. It releases the interpreter's lock while it runs."""
+    """The stop in machine code. It releases the interpreter's lock while it runs."""
 
-    def __init__(self) -> None:
-        self._stop = native_function(_NAME, _callback, len(_ARGUMENTS))
+    def __init__(self, controller: Controller) -> None:
+        self._stop = native_function(_name(controller), partial(_compile, controller), len(_ARGUMENTS))
 
     def __call__(
         self,
@@ -49,30 +63,32 @@ class NativeStop:
         rail: NDArray[np.float64],
         measures: Any,
         wheelset_measures: Any,
-        trace: NDArray[np.float64],
+        trace: Trace,
         steps_per_sample: int,
     ) -> int:
-        """Run one stop on zeroed records. Raises TypeError where one is not laid out as the code takes it."""
+        """Run one stop on zeroed records. Raises TypeError where one does not have the compiled layout."""
+        rows = len(trace.train)
         return self._stop(
             address(car, CAR),
             address(bogies, BOGIE, (2,)),
             address(wheelsets, WHEELSET, (4,)),
             address(p, PARAMETERS),
-            address(rail, np.dtype("f8"), (4, rail.shape[1])),
+            address(rail, np.dtype("f8"), (ROWS, rail.shape[1])),
             rail.shape[1],
             address(measures, STOP_MEASURES),
             address(wheelset_measures, WHEELSET_MEASURES, (4,)),
-            address(trace, np.dtype("f8"), (len(trace), ROW)),
-            len(trace),
+            address(trace.train, TRAIN_SAMPLE, (rows,)),
+            address(trace.wheelsets, WHEELSET_SAMPLE, (rows, 4)),
+            rows,
             steps_per_sample,
         )
 
 
-def _callback() -> Any:
+def _compile(controller: Controller) -> Any:
     """Return the stop compiled by numba, as a function of addresses and the lengths behind them."""
-    numba: Any = importlib.import_module("numba")  # its functions have no types
-    carray = numba.carray
-    entry = translate(run_stop, numba.njit(**OPTIONS), compiled_operations())
+    numba = compiler()
+    carray, njit = numba.carray, numba.njit(**OPTIONS)
+    entry = translate(run_stop, njit, with_controller(controller, njit, compiled_operations()))
 
     def on_addresses(
         car: Any,
@@ -83,7 +99,8 @@ def _callback() -> Any:
         points: int,
         measures: Any,
         wheelset_measures: Any,
-        trace: Any,
+        train_samples: Any,
+        wheelset_samples: Any,
         rows: int,
         steps_per_sample: int,
     ) -> Any:
@@ -92,10 +109,10 @@ def _callback() -> Any:
             carray(bogies, 2),
             carray(wheelsets, 4),
             carray(p, 1)[0],
-            carray(rail, (4, points)),
+            carray(rail, (ROWS, points)),
             carray(measures, 1)[0],
             carray(wheelset_measures, 4),
-            carray(trace, (rows, ROW)),
+            Trace(carray(train_samples, rows), carray(wheelset_samples, (rows, 4))),
             steps_per_sample,
         )
 

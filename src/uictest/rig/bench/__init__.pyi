@@ -13,4 +13,5 @@ from .loading import (
     run_test as run_test,
     trace_recipe as trace_recipe,
 )
-from .run import clock_of as clock_of, is_warm as is_warm, run_bench as run_bench
+from .native import is_compiled as is_compiled
+from .run import clock_of as clock_of, run_bench as run_bench

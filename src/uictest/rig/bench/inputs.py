@@ -36,30 +36,31 @@ class Clock:
 class BenchInput:
     """Demanded gauge pressure in Pa for each step, valve command for each controller cycle."""
 
-    demand: NDArray[np.float64]
-    commands: NDArray[np.int64]
+    demanded_pressures: NDArray[np.float64]
+    valve_commands: NDArray[np.int64]
 
 
 def joined(inputs: Iterable[BenchInput]) -> BenchInput:
     """One input after the other."""
     parts = list(inputs)
     return BenchInput(
-        np.concatenate([part.demand for part in parts]), np.concatenate([part.commands for part in parts])
+        np.concatenate([part.demanded_pressures for part in parts]),
+        np.concatenate([part.valve_commands for part in parts]),
     )
 
 
 def bypassed(times: Sequence[float], pressures: Sequence[float], clock: Clock) -> BenchInput:
     """A pressure given at times in s from 0 on, straight between them; the valves always fill."""
     cycles = clock.cycles(float(times[-1]))
-    demand = np.interp(clock.times(cycles), times, pressures)
-    return BenchInput(demand, np.full(cycles, FILL))
+    demanded_pressures = np.interp(clock.times(cycles), times, pressures)
+    return BenchInput(demanded_pressures, np.full(cycles, FILL))
 
 
 def stepwise(levels: Sequence[float], hold: float, clock: Clock) -> BenchInput:
     """Pressure levels in Pa, each demanded at once and for ``hold`` s."""
     cycles = clock.cycles(hold)
-    demand = np.repeat(np.asarray(levels, dtype=float), cycles * clock.steps_per_cycle)
-    return BenchInput(demand, np.full(cycles * len(levels), FILL))
+    demanded_pressures = np.repeat(np.asarray(levels, dtype=float), cycles * clock.steps_per_cycle)
+    return BenchInput(demanded_pressures, np.full(cycles * len(levels), FILL))
 
 
 def triangular(peaks: Sequence[float], floor: float, rate: float, clock: Clock) -> BenchInput:
@@ -111,10 +112,10 @@ def recorded(
     """A demand, straight between its samples, and the commands in force at the middle of each cycle."""
     start = float(times[0])
     cycles = clock.cycles(float(times[-1]) - start)
-    demand = np.interp(clock.times(cycles), times - start, pressures)
+    demanded_pressures = np.interp(clock.times(cycles), times - start, pressures)
     if commands is None:
-        return BenchInput(demand, np.full(cycles, FILL))
+        return BenchInput(demanded_pressures, np.full(cycles, FILL))
     middles = (np.arange(cycles) + 0.5) * clock.cycle_time
     # A sample says which command was in force when it was taken, hence since the one before it.
     at = np.searchsorted(times - start, middles, side="left")
-    return BenchInput(demand, commands[np.minimum(at, len(commands) - 1)].astype(np.int64))
+    return BenchInput(demanded_pressures, commands[np.minimum(at, len(commands) - 1)].astype(np.int64))

@@ -5,101 +5,87 @@ line, which follows a demanded pressure. Four further records compute what modul
 setting of the compensation.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 from uictest.physics import sqrt
+from uictest.rig.bench.rig import BenchRig
 from uictest.rig.bench.trace import sample
 from uictest.rig.model.clamping import step_clamping
-from uictest.rig.model.cycle import command_valve, read_sensors, sensor_noise
-from uictest.rig.model.pneumatics import follow_demand, step_tank
-from uictest.rig.model.start import start_supply
+from uictest.rig.model.cycle import command_valve, read_module_sensors, sensor_noise
+from uictest.rig.model.pneumatics import follow_demanded_pressure, step_tank
+from uictest.rig.model.start import LONG_AGO, start_supply
 
-Record = Any
-SETTINGS = ("none", "hysteresis", "cylinder", "full")
-"""Settings of the compensation, in the order of the records that compute them."""
 _LOADCELL = 8
 """Noise channel of the first loadcell, behind those that a stop uses."""
-_LONG_AGO = 1_000_000
 
 
-def bench(
-    car: Record,
-    modules: Sequence[Record],
-    computed: Sequence[Record],
-    settings: Sequence[Record],
-    demand: Any,
-    commands: Any,
-    loadcells: Any,
-    trace: Any,
-) -> None:
-    """Run a bench test on zeroed records and write a row of ``trace`` for the start and after every step.
+def run_bench_test(rig: BenchRig, demanded_pressures: Any, valve_commands: Any, trace: Any) -> None:
+    """Run a bench test on zeroed records.
 
     Args:
-        car: record whose air supply feeds the modules.
-        modules: two module records: with caliper, and without.
-        computed: four module records, which compute the force of module 2 under the four settings.
-        settings: four parameter records that differ in the setting of the compensation alone.
-        demand: demanded gauge pressure of the brake line in each step, Pa.
-        commands: valve command of both modules in each controller cycle.
-        loadcells: array for the momentary errors of three loadcells, N.
-        trace: array with a row of :data:`~uictest.rig.bench.trace.ROW` numbers more than there are steps.
+        rig: records of the rig.
+        demanded_pressures: gauge pressure demanded of the brake line in each step, Pa.
+        valve_commands: command of the valves of both modules in each controller cycle.
+        trace: records of :data:`~uictest.rig.bench.trace.BENCH_SAMPLE` for the start and after each step.
     """
-    p = settings[0]
-    start_bench(car, modules, computed, p)
-    sample(trace[0], car, modules, computed, loadcells, p)
-    for cycle in range(len(commands)):
-        begin_bench_cycle(car, modules, loadcells, p, cycle, commands[cycle])
+    p = rig.settings[0]
+    start_bench(rig)
+    sample(trace[0], rig)
+    for cycle in range(len(valve_commands)):
+        start_bench_cycle(rig, cycle, valve_commands[cycle])
         for k in range(p.steps_per_cycle):
             n = cycle * p.steps_per_cycle + k
-            car.demand = demand[n]
-            step_bench(car, modules, computed, settings)
-            sample(trace[n + 1], car, modules, computed, loadcells, p)
+            rig.car.demanded_pressure = demanded_pressures[n]
+            step_bench(rig)
+            sample(trace[n + 1], rig)
 
 
-def start_bench(car: Record, modules: Sequence[Record], computed: Sequence[Record], p: Record) -> None:
+def start_bench(rig: BenchRig) -> None:
     """Set the state of zeroed records: the reservoir is full, the brake released, the valves fill."""
-    start_supply(car, p)
+    p = rig.settings[0]
+    start_supply(rig.car, p)
     for i in range(2):
-        modules[i].has_caliper = 1.0 - i
-        modules[i].filling_cycles = _LONG_AGO
-        modules[i].fill_opening = 1.0
-        modules[i].pressure = p.atmospheric_pressure
+        module = rig.modules[i]
+        module.has_caliper = 1.0 - i
+        module.filling_cycles = LONG_AGO
+        module.fill_opening = 1.0
+        module.pressure = p.atmospheric_pressure
     for i in range(4):
-        computed[i].pressure = p.atmospheric_pressure
+        rig.computed[i].pressure = p.atmospheric_pressure
 
 
-def begin_bench_cycle(
-    car: Record, modules: Sequence[Record], loadcells: Any, p: Record, cycle: int, command: int
-) -> None:
+def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
     """Read the sensors and pass one command to the valves of both modules."""
+    p = rig.settings[0]
     for i in range(2):
-        read_sensors(modules[i], p, cycle, i)
-        modules[i].command = command
-        command_valve(modules[i], p)
+        module = rig.modules[i]
+        read_module_sensors(module, p, cycle, i)
+        module.valve_command = valve_command
+        command_valve(module, p)
     share = p.loadcell_noise / sqrt(3.0)
-    modules[0].loadcell_error = 0.0
+    caliper = rig.modules[0]
+    caliper.loadcell_error = 0.0
     for k in range(3):
-        loadcells[k] = share * sensor_noise(p, cycle, _LOADCELL + k)
-        modules[0].loadcell_error += loadcells[k]
-    car.substep = 0.0
+        rig.loadcell_errors[k] = share * sensor_noise(p, cycle, _LOADCELL + k)
+        caliper.loadcell_error += rig.loadcell_errors[k]
+    rig.car.substep = 0.0
 
 
-def step_bench(
-    car: Record, modules: Sequence[Record], computed: Sequence[Record], settings: Sequence[Record]
-) -> None:
+def step_bench(rig: BenchRig) -> None:
     """Advance air, caliper and the four computed forces by one base step."""
-    p = settings[0]
-    drawn = step_tank(modules[0], car, p)
-    drawn += step_tank(modules[1], car, p)
-    follow_demand(car, drawn, p)
-    step_clamping(modules[0], p)
-    step_clamping(modules[1], p)
+    p = rig.settings[0]
+    caliper, tank = rig.modules[0], rig.modules[1]
+    drawn = step_tank(caliper, rig.car, p)
+    drawn += step_tank(tank, rig.car, p)
+    follow_demanded_pressure(rig.car, drawn, p)
+    step_clamping(caliper, p)
+    step_clamping(tank, p)
     for i in range(4):
-        computed[i].pressure = modules[1].pressure
-        computed[i].pressure_error = modules[1].pressure_error
-        computed[i].wsp_acting = modules[1].wsp_acting
-        step_clamping(computed[i], settings[i])
-    car.steps += 1.0
-    car.substep += 1.0
-    car.time = car.steps * p.step
+        computed = rig.computed[i]
+        computed.pressure = tank.pressure
+        computed.pressure_error = tank.pressure_error
+        computed.wsp_acting = tank.wsp_acting
+        step_clamping(computed, rig.settings[i])
+    rig.car.steps += 1.0
+    rig.car.substep += 1.0
+    rig.car.time = rig.car.steps * p.step

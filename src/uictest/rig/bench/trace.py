@@ -1,72 +1,85 @@
 """Channels of a bench recording and how a sample of them is taken."""
 
-from collections.abc import Sequence
-from typing import Any
-
 from uictest.physics import analogue_reading
+from uictest.record import Record, channel, layout_of, units_of
+from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, NONE, BenchRig
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Wheelset
 
-Record = Any
 
-BENCH_CHANNELS = (
-    ("time", "s"),
-    ("demanded_pressure", "Pa"),
-    ("brake_line_pressure", "Pa"),
-    ("valve_command_1", "1"),  # 0 fill, 1 hold, 2 vent; the same for both modules
-    ("wsp_acting", "1"),
-    ("tank_pressure_1", "Pa"),
-    ("tank_pressure_2", "Pa"),
-    ("measured_pressure_1", "Pa"),  # as the sensor reads it
-    ("measured_pressure_2", "Pa"),
-    ("cylinder_pressure_1", "Pa"),  # measured
-    ("cylinder_pressure_2", "Pa"),  # computed by the cylinder dynamics
-    ("stroke_1", "m"),
-    ("caliper_force_1", "N"),
-    ("loadcell_1", "N"),
-    ("loadcell_2", "N"),
-    ("loadcell_3", "N"),
-    ("clamping_force_1", "N"),  # sum of the loadcells
-    ("computed_force_1", "N"),  # by the four-phase hysteresis from the pressure of module 1
-    ("computed_force_none_2", "N"),
-    ("computed_force_hysteresis_2", "N"),
-    ("computed_force_cylinder_2", "N"),
-    ("computed_force_full_2", "N"),
-)
-"""Channels of a bench test; pressures are gauge, the number at the end is that of the module."""
+class BenchSample(Record):
+    """Channels of a bench test; pressures are gauge, the number at the end is that of the module."""
 
-ROW = len(BENCH_CHANNELS)
+    time: float = channel("s")
+    demanded_pressure: float = channel("Pa")
+    brake_line_pressure: float = channel("Pa")
+    valve_command_1: float = channel("1")  # 0 fill, 1 hold, 2 vent; the same for both modules
+    wsp_acting: float = channel("1")
+    tank_pressure_1: float = channel("Pa")
+    tank_pressure_2: float = channel("Pa")
+    measured_pressure_1: float = channel("Pa")  # as the sensor reads it
+    measured_pressure_2: float = channel("Pa")
+    cylinder_pressure_1: float = channel("Pa")  # measured
+    cylinder_pressure_2: float = channel("Pa")  # computed by the cylinder dynamics
+    stroke_1: float = channel("m")
+    caliper_force_1: float = channel("N")
+    loadcell_1: float = channel("N")
+    loadcell_2: float = channel("N")
+    loadcell_3: float = channel("N")
+    clamping_force_1: float = channel("N")  # sum of the loadcells
+    computed_force_1: float = channel("N")  # by the four-phase hysteresis from the pressure of module 1
+    computed_force_none_2: float = channel("N")
+    computed_force_hysteresis_2: float = channel("N")
+    computed_force_cylinder_2: float = channel("N")
+    computed_force_full_2: float = channel("N")
+
+
+BENCH_CHANNELS = units_of(BenchSample)
+"""Channels of a bench test and their units."""
+BENCH_SAMPLE = layout_of(BenchSample)
+"""Layout of :class:`BenchSample`."""
 LOADCELL_SHARES = (0.36, 0.31, 0.33)
 """Shares of the clamping force that the three loadcells between pad and disc carry (chosen)."""
 
 
-def sample(
-    row: Any, car: Record, modules: Sequence[Record], computed: Sequence[Record], loadcells: Any, p: Record
-) -> None:
-    """Write the present state into ``row``, an array of :data:`ROW` numbers."""
-    caliper = modules[0]
-    tank = modules[1]
-    row[0] = car.time
-    row[1] = car.demand
-    row[2] = car.line_pressure - p.atmospheric_pressure
-    row[3] = caliper.command
-    row[4] = caliper.wsp_acting
-    row[5] = caliper.pressure - p.atmospheric_pressure
-    row[6] = tank.pressure - p.atmospheric_pressure
-    row[7] = _measured_pressure(caliper, p)
-    row[8] = _measured_pressure(tank, p)
-    row[9] = row[7]
-    row[10] = computed[3].compensated_pressure
-    row[11] = caliper.stroke
-    row[12] = caliper.caliper_force
-    row[16] = 0.0
-    for k in range(3):
-        row[13 + k] = _loadcell(caliper.caliper_force * LOADCELL_SHARES[k], loadcells[k], p)
-        row[16] += row[13 + k]
-    row[17] = caliper.computed_force
-    for i in range(4):
-        row[18 + i] = computed[i].computed_force
+def sample(row: BenchSample, rig: BenchRig) -> None:
+    """Write the present state into one record of a trace."""
+    p = rig.settings[0]
+    _sample_pressures(row, rig, p)
+    _sample_forces(row, rig, p)
 
 
-def _measured_pressure(module: Record, p: Record) -> float:
+def _sample_pressures(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
+    caliper, tank = rig.modules[0], rig.modules[1]
+    row.time = rig.car.time
+    row.demanded_pressure = rig.car.demanded_pressure
+    row.brake_line_pressure = rig.car.line_pressure - p.atmospheric_pressure
+    row.valve_command_1 = caliper.valve_command
+    row.wsp_acting = caliper.wsp_acting
+    row.tank_pressure_1 = caliper.pressure - p.atmospheric_pressure
+    row.tank_pressure_2 = tank.pressure - p.atmospheric_pressure
+    row.measured_pressure_1 = _measured_pressure(caliper, p)
+    row.measured_pressure_2 = _measured_pressure(tank, p)
+    row.cylinder_pressure_1 = row.measured_pressure_1
+    row.cylinder_pressure_2 = rig.computed[FULL].compensated_pressure
+
+
+def _sample_forces(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
+    caliper = rig.modules[0]
+    row.stroke_1 = caliper.stroke
+    row.caliper_force_1 = caliper.caliper_force
+    row.loadcell_1 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[0], rig.loadcell_errors[0], p)
+    row.loadcell_2 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[1], rig.loadcell_errors[1], p)
+    row.loadcell_3 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[2], rig.loadcell_errors[2], p)
+    row.clamping_force_1 = row.loadcell_1 + row.loadcell_2 + row.loadcell_3
+    row.computed_force_1 = caliper.computed_force
+    row.computed_force_none_2 = rig.computed[NONE].computed_force
+    row.computed_force_hysteresis_2 = rig.computed[HYSTERESIS].computed_force
+    row.computed_force_cylinder_2 = rig.computed[CYLINDER].computed_force
+    row.computed_force_full_2 = rig.computed[FULL].computed_force
+
+
+def _measured_pressure(module: Wheelset, p: Parameters) -> float:
     gauge = module.pressure - p.atmospheric_pressure
     return analogue_reading(
         gauge,
@@ -79,8 +92,8 @@ def _measured_pressure(module: Record, p: Record) -> float:
     )
 
 
-def _loadcell(force: float, error: float, p: Record) -> float:
-    """Reading of one of three loadcells; offset and noise of the force channel are spread over them."""
+def _loadcell(force: float, error: float, p: Parameters) -> float:
+    """Return the reading of one of three loadcells; they share offset and noise of the force channel."""
     return analogue_reading(
         force,
         p.loadcell_gain_error,

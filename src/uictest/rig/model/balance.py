@@ -1,14 +1,13 @@
 """Balances of energy and air: what came in, what is left, what was turned into heat or let out."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from uictest.physics import kinetic_energy, longitudinal, spring_energy, vertical
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 
-Record = Any
 
-
-def stored_energy(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> float:
+def stored_energy(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
     """Kinetic energy, energy of the springs and of the height gained on the gradient, J."""
     energy: float = _frame_energy(car, p.body_mass, p.body_inertia, p)
     for j in range(2):
@@ -20,26 +19,26 @@ def stored_energy(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Rec
     return energy
 
 
-def _frame_energy(frame: Record, mass: float, inertia: float, p: Record) -> float:
+def _frame_energy(frame: Frame, mass: float, inertia: float, p: Parameters) -> float:
     motion = kinetic_energy(mass, frame.speed) + kinetic_energy(mass, frame.vertical_speed)
     height: float = p.gradient * frame.position
     return motion + kinetic_energy(inertia, frame.pitch_rate) + mass * float(p.gravity) * height
 
 
-def _secondary_energy(car: Record, bogie: Record, p: Record) -> float:
+def _secondary_energy(car: Car, bogie: Bogie, p: Parameters) -> float:
     rise = vertical(car.height, car.pitch, bogie.ahead) - bogie.height
     energy = spring_energy(p.secondary_vertical_stiffness, rise)
     energy += spring_energy(p.secondary_longitudinal_stiffness, _shift(car, bogie, p.secondary_height, p))
     return energy + spring_energy(p.link_stiffness, _shift(car, bogie, p.link_height, p))
 
 
-def _shift(car: Record, bogie: Record, height: float, p: Record) -> float:
+def _shift(car: Car, bogie: Bogie, height: float, p: Parameters) -> float:
     return longitudinal(car.position, car.pitch, height - p.body_height) - longitudinal(
         bogie.position, bogie.pitch, height - p.bogie_height
     )
 
 
-def _wheelset_energy(wheelset: Record, bogie: Record, p: Record) -> float:
+def _wheelset_energy(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> float:
     shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, p.wheel_radius - p.bogie_height)
     rise = vertical(bogie.height, bogie.pitch, wheelset.ahead)
     springs = spring_energy(p.primary_longitudinal_stiffness, shift) + spring_energy(
@@ -52,7 +51,7 @@ def _wheelset_energy(wheelset: Record, bogie: Record, p: Record) -> float:
     return springs + motion + float(p.wheelset_mass * p.gravity) * height
 
 
-def energy_residual(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> float:
+def energy_residual(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
     """Energy that is not accounted for, as a share of the energy at the start.
 
     kinetic + springs + height = initial - (disc heat + contact loss + dampers + running resistance)
@@ -64,7 +63,7 @@ def energy_residual(car: Record, bogies: Sequence[Record], wheelsets: Sequence[R
     return residual / float(car.initial_energy)
 
 
-def stored_air(car: Record, wheelsets: Sequence[Record]) -> float:
+def stored_air(car: Car, wheelsets: Sequence[Wheelset]) -> float:
     """Air in the reservoir, the brake line and the tanks, kg."""
     air: float = car.reservoir_mass + car.line_mass
     for i in range(4):
@@ -72,7 +71,7 @@ def stored_air(car: Record, wheelsets: Sequence[Record]) -> float:
     return air
 
 
-def air_residual(car: Record, wheelsets: Sequence[Record]) -> float:
+def air_residual(car: Car, wheelsets: Sequence[Wheelset]) -> float:
     """Air that is not accounted for, as a share of what was taken from the reservoir."""
     released = car.exhausted_air
     for i in range(4):

@@ -1,7 +1,5 @@
 """From the pressure of a module to its clamping force: the real caliper, or what replaces it."""
 
-from typing import Any
-
 from uictest.physics import (
     analogue_reading,
     clamping_force,
@@ -14,11 +12,11 @@ from uictest.physics import (
     select,
     stroke_after,
 )
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Wheelset
 
-Record = Any
 
-
-def step_clamping(wheelset: Record, p: Record) -> None:
+def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
     """Advance caliper and compensation of one module and choose the force that the vehicle receives.
 
     A module with a caliper gives what its loadcells read. A module without one gives the force computed
@@ -50,7 +48,7 @@ def step_clamping(wheelset: Record, p: Record) -> None:
     wheelset.clamping_force = select(wheelset.has_caliper > 0.0, loadcells, wheelset.computed_force)
 
 
-def _step_caliper(wheelset: Record, gauge: float, p: Record) -> None:
+def _step_caliper(wheelset: Wheelset, gauge: float, p: Parameters) -> None:
     stroke = stroke_after(
         wheelset.stroke,
         gauge,
@@ -70,7 +68,7 @@ def _step_caliper(wheelset: Record, gauge: float, p: Record) -> None:
     wheelset.caliper_force = clamping_force(stroke, p.clearance, p.contact_stiffness, p.lever_ratio)
 
 
-def _step_cylinder(wheelset: Record, reading: float, p: Record) -> None:
+def _step_cylinder(wheelset: Wheelset, reading: float, p: Parameters) -> None:
     """Turn the reading of a tank into cylinder pressure; a caliper's own cylinder needs no such model."""
     filtered = output(reading, wheelset.memory_1, p.b0)
     wheelset.memory_1 = memory(reading, filtered, p.b1, p.a1, wheelset.memory_2)
@@ -80,7 +78,7 @@ def _step_cylinder(wheelset: Record, reading: float, p: Record) -> None:
     wheelset.compensated_pressure = select(modelled > 0.0, filtered, reading)
 
 
-def _step_hysteresis(wheelset: Record, p: Record) -> None:
+def _step_hysteresis(wheelset: Wheelset, p: Parameters) -> None:
     """Turn cylinder pressure into force, by the four lines or by a single one."""
     pressure = wheelset.compensated_pressure
     share = phase_share(wheelset.wsp_share, wheelset.wsp_acting, p.phase_change_per_step)

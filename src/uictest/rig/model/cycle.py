@@ -7,7 +7,6 @@ branch and look up tables. Between two cycles :func:`uictest.rig.model.step.step
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.controllers import decide
 from uictest.physics import (
     FILL,
     VENT,
@@ -19,39 +18,42 @@ from uictest.physics import (
     speed_reading,
     threefry,
 )
+from uictest.rig.model.controller import decide
+from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Car, Wheelset
 
-Record = Any
 _CHANNELS = 16
 """Noise channels set aside for each wheelset."""
 _SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
 
 
-def sense(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Read the sensors of all wheelsets for cycle ``car.cycle``."""
-    read_sensors(wheelsets[0], p, car.cycle, 0)
-    read_sensors(wheelsets[1], p, car.cycle, 1)
-    read_sensors(wheelsets[2], p, car.cycle, 2)
-    read_sensors(wheelsets[3], p, car.cycle, 3)
+    read_module_sensors(wheelsets[0], p, car.cycle, 0)
+    read_module_sensors(wheelsets[1], p, car.cycle, 1)
+    read_module_sensors(wheelsets[2], p, car.cycle, 2)
+    read_module_sensors(wheelsets[3], p, car.cycle, 3)
 
 
-def begin_cycle(car: Record, wheelsets: Sequence[Record], p: Record, rail: Any) -> None:
+def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
     """Find the friction under each wheelset and let the controller decide on what was sensed.
 
     Args:
         car: car record.
         wheelsets: four wheelset records.
         p: parameter record.
-        rail: array of shape (4, n): places in m, friction coefficients there, times in s, factors then.
+        rail: array of shape (4, n), see :mod:`uictest.rig.model.friction_law`.
     """
-    factor = interpolated(car.time, rail[2], rail[3], p.friction_times)
+    factor = interpolated(car.time, rail[TIMES], rail[FACTORS], p.friction_times)
     for i in range(4):
         wheelset = wheelsets[i]
-        along = interpolated(car.position - wheelset.behind, rail[0], rail[1], p.friction_points)
+        along = interpolated(car.position - wheelset.behind, rail[PLACES], rail[FRICTIONS], p.friction_points)
         wheelset.friction = along * factor
     decide(car, wheelsets, p)
 
 
-def command_valves(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
+def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Set the valve targets for the steps of the cycle, which begins now."""
     command_valve(wheelsets[0], p)
     command_valve(wheelsets[1], p)
@@ -61,7 +63,7 @@ def command_valves(car: Record, wheelsets: Sequence[Record], p: Record) -> None:
     car.cycle += 1
 
 
-def read_sensors(wheelset: Record, p: Record, cycle: int, number: int) -> None:
+def read_module_sensors(wheelset: Wheelset, p: Parameters, cycle: int, number: int) -> None:
     """Read the speed sensor and draw the momentary errors of the pressure sensor and the loadcells."""
     channel = number * _CHANNELS
     wheelset.pressure_error = p.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
@@ -76,17 +78,17 @@ def read_sensors(wheelset: Record, p: Record, cycle: int, number: int) -> None:
     )
 
 
-def sensor_noise(p: Record, cycle: int, channel: int) -> float:
+def sensor_noise(p: Parameters, cycle: int, channel: int) -> float:
     """Number of mean 0 and variance 1 for one cycle and one noise channel."""
     word_0, word_1 = threefry(p.seed, p.case_key, cycle, channel)
     return bell(word_0, word_1)
 
 
-def command_valve(wheelset: Record, p: Record) -> None:
+def command_valve(wheelset: Wheelset, p: Parameters) -> None:
     """Put the newest command into the register and find what the delay lets through in this cycle."""
-    command = select(p.wsp_active == 0, FILL, wheelset.command)
+    command = select(p.wsp_active == 0, FILL, wheelset.valve_command)
     register = remember(wheelset.command_register, command)
-    wheelset.command = command
+    wheelset.valve_command = command
     wheelset.command_register = register
     before = command_before(register, p.valve_delay_cycles + 1)
     after = command_before(register, p.valve_delay_cycles)

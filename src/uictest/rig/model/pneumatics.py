@@ -1,10 +1,8 @@
 """Air of the rig: reservoir, relay valve and brake line; WSP valve and tank of one module."""
 
-from typing import Any
-
 from uictest.physics import (
     compressor_running,
-    demand,
+    demanded_pressure,
     fma,
     isothermal_pressure,
     mass_flow,
@@ -14,20 +12,20 @@ from uictest.physics import (
     select,
     travel,
 )
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Car, Wheelset
 
-Record = Any
 
-
-def step_supply(car: Record, drawn: float, p: Record) -> None:
+def step_supply(car: Car, drawn: float, p: Parameters) -> None:
     """Advance compressor, reservoir, relay valve and the brake line, which lost ``drawn`` kg to the tanks."""
-    car.demand = demand(car.time, p.demanded_pressure, p.dead_time, p.filling_rate)
-    follow_demand(car, drawn, p)
+    car.demanded_pressure = demanded_pressure(car.time, p.commanded_pressure, p.dead_time, p.filling_rate)
+    follow_demanded_pressure(car, drawn, p)
 
 
-def follow_demand(car: Record, drawn: float, p: Record) -> None:
-    """Let the relay valve bring the brake line towards ``car.demand``, whoever demands it."""
+def follow_demanded_pressure(car: Car, drawn: float, p: Parameters) -> None:
+    """Let the relay valve bring the brake line towards ``car.demanded_pressure``, whatever sets that."""
     gauge = car.line_pressure - p.atmospheric_pressure
-    opening = relay_opening(car.demand, gauge, p.relay_gain)
+    opening = relay_opening(car.demanded_pressure, gauge, p.relay_gain)
     filled, exhausted = _through(
         car.reservoir_pressure,
         car.line_pressure,
@@ -49,7 +47,7 @@ def follow_demand(car: Record, drawn: float, p: Record) -> None:
     car.exhausted_air += exhausted
 
 
-def step_tank(wheelset: Record, car: Record, p: Record) -> float:
+def step_tank(wheelset: Wheelset, car: Car, p: Parameters) -> float:
     """Advance the WSP valve and the tank of one module; return the air drawn from the brake line, kg."""
     switched = car.substep >= p.valve_delay_steps
     fill_target = select(switched, wheelset.fill_after, wheelset.fill_before)
@@ -74,14 +72,14 @@ def step_tank(wheelset: Record, car: Record, p: Record) -> float:
 
 
 def _through(
-    source: float, vessel: float, conductance_in: float, conductance_out: float, p: Record
+    source: float, vessel: float, conductance_in: float, conductance_out: float, p: Parameters
 ) -> tuple[float, float]:
     """Air that flows in a step from a source into a vessel and from there to the atmosphere, kg."""
     gained = p.step * _orifice(source, vessel, conductance_in, p)
     return gained, p.step * _orifice(vessel, p.atmospheric_pressure, conductance_out, p)
 
 
-def _orifice(pressure_1: float, pressure_2: float, conductance: float, p: Record) -> float:
+def _orifice(pressure_1: float, pressure_2: float, conductance: float, p: Parameters) -> float:
     return mass_flow(
         pressure_1,
         pressure_2,

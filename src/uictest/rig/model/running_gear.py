@@ -5,8 +5,6 @@ with the new speeds (semi-implicit Euler), which keeps the energy of the suspens
 damping of its own. Only the creep force is implicit, for it alone is stiff.
 """
 
-from typing import Any
-
 from uictest.physics import (
     SLOWEST_CREEP,
     contact_stiffness,
@@ -28,22 +26,23 @@ from uictest.physics import (
     turning_direction,
     vertical,
 )
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 
-Record = Any
 LOWEST_LOAD = 0.2
 """Share of the reference load below which a wheel's load is not followed: far beyond what braking unloads."""
 HIGHEST_LOAD = 2.5
 """Share of the reference load beyond which the contact ellipse grows no more."""
 
 
-def clear_forces(frame: Record) -> None:
+def clear_forces(frame: Frame) -> None:
     """Forget the forces on a bogie or the car body before they are summed anew."""
     frame.longitudinal_force = 0.0
     frame.vertical_force = 0.0
     frame.moment = 0.0
 
 
-def couple_body(car: Record, bogie: Record, p: Record) -> None:
+def couple_body(car: Car, bogie: Bogie, p: Parameters) -> None:
     """Add the forces of the secondary suspension and the traction link between a bogie and the body."""
     _couple_longitudinally(
         car,
@@ -64,7 +63,7 @@ def couple_body(car: Record, bogie: Record, p: Record) -> None:
 
 
 def _couple_longitudinally(
-    car: Record, bogie: Record, stiffness: float, damping: float, height: float, p: Record
+    car: Car, bogie: Bogie, stiffness: float, damping: float, height: float, p: Parameters
 ) -> None:
     above_body = height - p.body_height
     above_bogie = height - p.bogie_height
@@ -82,7 +81,7 @@ def _couple_longitudinally(
     car.damper_loss += p.step * damping * rate * rate
 
 
-def couple_wheelset(wheelset: Record, bogie: Record, car: Record, p: Record) -> None:
+def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -> None:
     """Add the forces of a primary suspension to the bogie; find the wheelset's load, thrust and torque."""
     above = p.wheel_radius - p.bogie_height
     shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, above)
@@ -104,7 +103,7 @@ def couple_wheelset(wheelset: Record, bogie: Record, car: Record, p: Record) -> 
     )
 
 
-def begin_slip(wheelset: Record, p: Record) -> None:
+def bracket_slip(wheelset: Wheelset, p: Parameters) -> None:
     """Bracket the slip speed at the end of the step and begin from the last one.
 
     The brake is taken to turn the wheelset with its full torque; a lock is found when the step is done.
@@ -125,18 +124,18 @@ def begin_slip(wheelset: Record, p: Record) -> None:
     wheelset.slip_estimate = maximum(direction * slip, 0.0)
 
 
-def find_limit(wheelset: Record, p: Record) -> None:
+def find_friction_limit(wheelset: Wheelset, p: Parameters) -> None:
     """Find the friction limit at the estimated slip speed, and how it changes."""
     wheelset.friction_limit, wheelset.limit_slope = friction_limit(
         wheelset.slip_estimate, wheelset.wheel_load, wheelset.friction, p.friction_ratio, p.friction_decay
     )
 
 
-def find_gradient(wheelset: Record, p: Record) -> None:
+def find_stress_gradient(wheelset: Wheelset, p: Parameters) -> None:
     """Find the gradient of the tangential stress at the estimated slip speed."""
     (
-        wheelset.stress_pull,
-        wheelset.stress_hold,
+        wheelset.stress_numerator,
+        wheelset.stress_denominator,
         wheelset.inverse_adhesion,
         wheelset.inverse_slip,
         wheelset.stress_angle,
@@ -151,11 +150,11 @@ def find_gradient(wheelset: Record, p: Record) -> None:
     )
 
 
-def refine_slip(wheelset: Record, p: Record) -> float:
+def refine_slip(wheelset: Wheelset, p: Parameters) -> float:
     """Take one Newton step towards the slip speed; return the creep force of both wheels before it, N."""
     gradient = (
-        wheelset.stress_pull,
-        wheelset.stress_hold,
+        wheelset.stress_numerator,
+        wheelset.stress_denominator,
         wheelset.inverse_adhesion,
         wheelset.inverse_slip,
         wheelset.stress_angle,
@@ -182,7 +181,7 @@ def refine_slip(wheelset: Record, p: Record) -> float:
     return 2.0 * force
 
 
-def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
+def step_wheelset(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
     """Advance speed and rotation under rail and brake; the brake torque reacts on the bogie.
 
     Where the full brake torque would turn the wheelset against its sense of rotation the brake holds it: it
@@ -192,17 +191,17 @@ def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
     """
     speed = wheelset.speed
     rotation = wheelset.rotation
-    sense = turning_direction(rotation, speed)
+    direction = turning_direction(rotation, speed)
     slip_change = wheelset.free_slip - wheelset.slip_estimate
     turning_creep = wheelset.slip_direction * slip_change * p.slip_stiffness
-    moment = fma(p.wheel_radius, turning_creep, -sense * wheelset.torque)
+    moment = fma(p.wheel_radius, turning_creep, -direction * wheelset.torque)
     turned = fma(p.inertia_response, moment, rotation)
-    locked = turned * sense <= 0.0
+    locked = turned * direction <= 0.0
     free_speed = fma(p.mass_response, wheelset.thrust, speed)
     sliding_creep = locked_force(speed, free_speed, wheelset.sliding_force, p.mass_response)
     holding = fma(p.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
     creep = select(locked, sliding_creep, turning_creep)
-    braking = select(locked, holding, sense * wheelset.torque)
+    braking = select(locked, holding, direction * wheelset.torque)
     wheelset.creep_force = creep
     wheelset.speed = fma(-p.mass_response, creep, free_speed)
     wheelset.rotation = select(locked, 0.0, turned)
@@ -215,7 +214,7 @@ def step_wheelset(wheelset: Record, bogie: Record, p: Record) -> None:
 
 
 def step_frame(
-    frame: Record, mass: float, mass_response: float, pitch_response: float, resistance: float, p: Record
+    frame: Frame, mass: float, mass_response: float, pitch_response: float, resistance: float, p: Parameters
 ) -> None:
     """Advance the three motions of a bogie or the car body under the forces summed on it."""
     drag = resistance + gradient_force(mass, p.gradient, p.gravity)
@@ -227,7 +226,7 @@ def step_frame(
     frame.pitch += p.step * frame.pitch_rate
 
 
-def step_body(car: Record, p: Record) -> None:
+def step_body(car: Car, p: Parameters) -> None:
     """Advance the car body and note the instant and place of standstill."""
     speed = car.speed
     position = car.position

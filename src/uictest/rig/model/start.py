@@ -1,17 +1,17 @@
 """State of the rig at the instant of the brake command: the train rolls, the brakes are released."""
 
 from collections.abc import Sequence
-from typing import Any
 
-from uictest.controllers import begin
 from uictest.rig.model.balance import stored_air, stored_energy
+from uictest.rig.model.controller import begin
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Bogie, Car, Wheelset
 
-Record = Any
-_LONG_AGO = 1_000_000
+LONG_AGO = 1_000_000
 """Cycles of uninterrupted filling that stand for "the WSP has not acted yet"."""
 
 
-def start(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> None:
+def start(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Set the state of zeroed records for a stop from ``p.initial_speed``."""
     car.speed = p.initial_speed
     start_supply(car, p)
@@ -31,7 +31,7 @@ def start(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p:
     car.initial_air = stored_air(car, wheelsets)
 
 
-def start_supply(car: Record, p: Record) -> None:
+def start_supply(car: Car, p: Parameters) -> None:
     """Fill the reservoir; the brake line is empty."""
     car.reservoir_pressure = p.reservoir_pressure
     car.line_pressure = p.atmospheric_pressure
@@ -39,16 +39,16 @@ def start_supply(car: Record, p: Record) -> None:
     car.line_mass = p.atmospheric_pressure * p.line_volume / (p.gas_constant * p.air_temperature)
 
 
-def _start_wheelset(wheelset: Record, p: Record) -> None:
+def _start_wheelset(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.speed = p.initial_speed
     wheelset.rotation = p.initial_speed / p.wheel_radius
     wheelset.wheel_load = p.static_wheel_load
-    wheelset.filling_cycles = _LONG_AGO
+    wheelset.filling_cycles = LONG_AGO
     wheelset.fill_opening = 1.0
     wheelset.pressure = p.atmospheric_pressure
 
 
-def _start_air(wheelsets: Sequence[Record], p: Record) -> None:
+def _start_air(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     for i in range(4):
         volume = p.caliper_tank_volume if i < p.calipers else p.tank_volume
         wheelsets[i].air_mass = p.atmospheric_pressure * volume / (p.gas_constant * p.air_temperature)

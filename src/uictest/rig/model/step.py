@@ -1,27 +1,26 @@
 """One base step of the whole rig."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from uictest.rig.model.clamping import step_clamping
+from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import step_supply, step_tank
 from uictest.rig.model.running_gear import (
-    begin_slip,
+    bracket_slip,
     clear_forces,
     couple_body,
     couple_wheelset,
-    find_gradient,
-    find_limit,
+    find_friction_limit,
+    find_stress_gradient,
     refine_slip,
     step_body,
     step_frame,
     step_wheelset,
 )
+from uictest.rig.model.state import Bogie, Car, Wheelset
 
-Record = Any
 
-
-def step(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> None:
+def step(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Advance everything by ``p.step``: air, clamping forces, wheelsets on the rail, vehicle.
 
     Nothing branches and nothing is looked up: what happens once per controller cycle is in
@@ -42,7 +41,7 @@ def step(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: 
     car.time = car.steps * p.step
 
 
-def _step_vehicle(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Record], p: Record) -> None:
+def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     leading = bogies[0]
     trailing = bogies[1]
     clear_forces(car)
@@ -64,10 +63,10 @@ def _step_vehicle(car: Record, bogies: Sequence[Record], wheelsets: Sequence[Rec
     step_body(car, p)
 
 
-def _solve_slip(wheelsets: Sequence[Record], p: Record) -> None:
+def _solve_slip(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Take two Newton steps for each wheelset; the first finds the force at the last slip speed."""
     for i in range(4):
-        begin_slip(wheelsets[i], p)
+        bracket_slip(wheelsets[i], p)
     _find_creep(wheelsets, p)
     for i in range(4):
         wheelsets[i].sliding_force = refine_slip(wheelsets[i], p)
@@ -76,9 +75,9 @@ def _solve_slip(wheelsets: Sequence[Record], p: Record) -> None:
         refine_slip(wheelsets[i], p)
 
 
-def _find_creep(wheelsets: Sequence[Record], p: Record) -> None:
+def _find_creep(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Find friction limit and stress side by side: the processor then works on all four chains at once."""
     for i in range(4):
-        find_limit(wheelsets[i], p)
+        find_friction_limit(wheelsets[i], p)
     for i in range(4):
-        find_gradient(wheelsets[i], p)
+        find_stress_gradient(wheelsets[i], p)

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from uictest.measures import (
+    StopMeasures,
+    WheelsetMeasures,
     begin,
     begin_slides,
     begin_wheelset,
@@ -16,31 +18,30 @@ from uictest.measures import (
 )
 from uictest.physics import select
 from uictest.rig.model.balance import air_residual, energy_residual
-from uictest.rig.model.cycle import begin_cycle, command_valves, sense
+from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.start import start
+from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.step import step
-from uictest.rig.model.trace import sample
-
-Record = Any
+from uictest.rig.model.trace import Trace, sample
 
 
 def run_stop(
-    car: Record,
-    bogies: Sequence[Record],
-    wheelsets: Sequence[Record],
-    p: Record,
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
     rail: Any,
-    measures: Record,
-    wheelset_measures: Sequence[Record],
-    trace: Any,
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    trace: Trace,
     steps_per_sample: int,
 ) -> int:
     """Run one stop on zeroed records, fill the measures and return the number of rows written to ``trace``.
 
     Steps run in whole controller cycles. Standstill is found within the step and the cycle is finished,
-    so that a stop runs the same steps alone or beside others. ``trace`` has
-    :data:`~uictest.rig.model.trace.ROW` columns and a row for every ``steps_per_sample`` steps; with 0
-    nothing is recorded. Recording reads the state and never changes it.
+    so that a stop runs the same steps alone or beside others. ``trace`` has a row for every
+    ``steps_per_sample`` steps; with 0 nothing is recorded. Recording reads the state and never changes it.
     """
     start(car, bogies, wheelsets, p)
     begin_stop_measures(car, measures, wheelset_measures, p)
@@ -48,17 +49,17 @@ def run_stop(
     rows = 0
     steps = 0
     while car.stopped == 0.0 and car.cycle < p.cycles:
-        sense(car, wheelsets, p)
-        begin_cycle(car, wheelsets, p, rail)
+        read_sensors(car, wheelsets, p)
+        start_cycle(car, wheelsets, p, rail)
         command_valves(car, wheelsets, p)
         if steps_per_sample > 0 and rows == 0:
-            sample(trace[0], car, wheelsets, p)
+            sample(trace, 0, car, wheelsets, p)
             rows = 1
         for _ in range(p.steps_per_cycle):
             step(car, bogies, wheelsets, p)
             steps += 1
             if steps_per_sample > 0 and steps % steps_per_sample == 0:
-                sample(trace[rows], car, wheelsets, p)
+                sample(trace, rows, car, wheelsets, p)
                 rows += 1
         observe_cycle(car, wheelsets, measures, wheelset_measures, p)
         keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
@@ -67,7 +68,7 @@ def run_stop(
 
 
 def begin_stop_measures(
-    car: Record, measures: Record, wheelset_measures: Sequence[Record], p: Record
+    car: Car, measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], p: Parameters
 ) -> None:
     """Start the measures of a stop that are one number."""
     begin(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
@@ -75,7 +76,7 @@ def begin_stop_measures(
         begin_wheelset(wheelset_measures[i])
 
 
-def begin_tables(measures: Record, wheelset_measures: Sequence[Record]) -> None:
+def begin_tables(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
     """Start the measures of a stop that are a table."""
     begin_window(measures)
     for i in range(4):
@@ -83,7 +84,11 @@ def begin_tables(measures: Record, wheelset_measures: Sequence[Record]) -> None:
 
 
 def observe_cycle(
-    car: Record, wheelsets: Sequence[Record], measures: Record, wheelset_measures: Sequence[Record], p: Record
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
 ) -> None:
     """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
     stands = car.stopped > 0.0
@@ -109,11 +114,11 @@ def observe_cycle(
 
 
 def keep_tables(
-    measures: Record,
-    wheelset_measures: Sequence[Record],
-    samples: Record,
-    wheelset_samples: Sequence[Record],
-    p: Record,
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    samples: StopMeasures,
+    wheelset_samples: Sequence[WheelsetMeasures],
+    p: Parameters,
 ) -> None:
     """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
     keep_window(measures, samples)
@@ -122,12 +127,12 @@ def keep_tables(
 
 
 def close_stop_measures(
-    car: Record,
-    bogies: Sequence[Record],
-    wheelsets: Sequence[Record],
-    measures: Record,
-    wheelset_measures: Sequence[Record],
-    p: Record,
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
 ) -> None:
     """Add the ledgers and balances of the whole stop."""
     measures.air_consumed = car.consumed_air

@@ -1,73 +1,94 @@
 """Channels of a recording and how a sample of them is taken."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
-from uictest.controllers import reference_speed
+from uictest.record import Record, channel, layout_of, units_of
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Car, Wheelset
 
-Record = Any
 
-CAR_CHANNELS = (
-    ("time", "s"),
-    ("distance", "m"),
-    ("speed", "m/s"),
-    ("reference_speed", "m/s"),
-    ("demanded_pressure", "Pa"),
-    ("brake_line_pressure", "Pa"),
-    ("reservoir_pressure", "Pa"),
-)
-"""Channels of the train; pressures are gauge."""
+class TrainSample(Record):
+    """Channels of the train; pressures are gauge."""
 
-WHEELSET_CHANNELS = (
-    ("wheel_speed", "m/s"),  # circumferential
-    ("measured_speed", "m/s"),
-    ("slide", "1"),  # 0 while the train runs no faster than SLIDE_SPEED
-    ("adhesion", "1"),
-    ("friction", "1"),  # initial friction coefficient under the wheelset
-    ("wheel_load", "N"),  # of one wheel
-    ("valve_command", "1"),  # 0 fill, 1 hold, 2 vent
-    ("tank_pressure", "Pa"),
-    ("cylinder_pressure", "Pa"),  # measured, or computed by the cylinder dynamics
-    ("stroke", "m"),
-    ("caliper_force", "N"),  # that a caliper gives at the tank's pressure
-    ("computed_force", "N"),
-    ("clamping_force", "N"),  # as the vehicle received it
-    ("brake_torque", "N m"),
-)
-"""Channels of each wheelset; pressures are gauge."""
+    time: float = channel("s")
+    distance: float = channel("m")
+    speed: float = channel("m/s")
+    reference_speed: float = channel("m/s")
+    demanded_pressure: float = channel("Pa")
+    brake_line_pressure: float = channel("Pa")
+    reservoir_pressure: float = channel("Pa")
+
+
+class WheelsetSample(Record):
+    """Channels of one wheelset; pressures are gauge."""
+
+    wheel_speed: float = channel("m/s")  # circumferential
+    measured_speed: float = channel("m/s")
+    slide: float = channel("1")  # 0 while the train runs no faster than SLIDE_SPEED
+    adhesion: float = channel("1")
+    friction: float = channel("1")  # initial friction coefficient under the wheelset
+    wheel_load: float = channel("N")  # of one wheel
+    valve_command: float = channel("1")  # 0 fill, 1 hold, 2 vent
+    tank_pressure: float = channel("Pa")
+    cylinder_pressure: float = channel("Pa")  # measured, or computed by the cylinder dynamics
+    stroke: float = channel("m")
+    caliper_force: float = channel("N")  # that a caliper gives at the tank's pressure
+    computed_force: float = channel("N")
+    clamping_force: float = channel("N")  # as the vehicle received it
+    brake_torque: float = channel("N m")
+
+
+CAR_CHANNELS = units_of(TrainSample)
+"""Channels of the train and their units."""
+WHEELSET_CHANNELS = units_of(WheelsetSample)
+"""Channels of each wheelset and their units."""
+TRAIN_SAMPLE = layout_of(TrainSample)
+"""Layout of :class:`TrainSample`."""
+WHEELSET_SAMPLE = layout_of(WheelsetSample)
+"""Layout of :class:`WheelsetSample`."""
 
 SLIDE_SPEED = 1.0
 """m/s; chosen: a slide is relative to the train speed, and below this it magnifies what no brake acts on."""
 
-ROW = len(CAR_CHANNELS) + 4 * len(WHEELSET_CHANNELS)
+
+class Trace(NamedTuple):
+    """Samples of a stop: records of :data:`TRAIN_SAMPLE`, shape (n,), and :data:`WHEELSET_SAMPLE`, (n, 4)."""
+
+    train: Any
+    wheelsets: Any
 
 
-def sample(row: Any, car: Record, wheelsets: Sequence[Record], p: Record) -> None:
-    """Write the present state into ``row``, an array of :data:`ROW` numbers."""
-    row[0] = car.time
-    row[1] = car.position
-    row[2] = car.speed
-    row[3] = reference_speed(car, p)
-    row[4] = car.demand
-    row[5] = car.line_pressure - p.atmospheric_pressure
-    row[6] = car.reservoir_pressure - p.atmospheric_pressure
+def sample(trace: Trace, row: int, car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Write the present state into one row of a trace."""
+    _sample_train(trace.train[row], car, p)
     for i in range(4):
-        _sample_wheelset(row, 7 + 14 * i, wheelsets[i], car, p)
+        _sample_wheelset(trace.wheelsets[row, i], wheelsets[i], car, p)
 
 
-def _sample_wheelset(row: Any, first: int, wheelset: Record, car: Record, p: Record) -> None:
+def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
+    row.time = car.time
+    row.distance = car.position
+    row.speed = car.speed
+    row.reference_speed = car.reference_speed
+    row.demanded_pressure = car.demanded_pressure
+    row.brake_line_pressure = car.line_pressure - p.atmospheric_pressure
+    row.reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
+
+
+def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Parameters) -> None:
     wheel_speed = wheelset.rotation * p.wheel_radius
-    row[first] = wheel_speed
-    row[first + 1] = wheelset.measured_speed
-    row[first + 2] = (car.speed - wheel_speed) / car.speed if car.speed > SLIDE_SPEED else 0.0
-    row[first + 3] = 0.5 * wheelset.creep_force / wheelset.wheel_load
-    row[first + 4] = wheelset.friction
-    row[first + 5] = wheelset.wheel_load
-    row[first + 6] = wheelset.command
-    row[first + 7] = wheelset.pressure - p.atmospheric_pressure
-    row[first + 8] = wheelset.compensated_pressure
-    row[first + 9] = wheelset.stroke
-    row[first + 10] = wheelset.caliper_force
-    row[first + 11] = wheelset.computed_force
-    row[first + 12] = wheelset.clamping_force
-    row[first + 13] = wheelset.torque
+    row.wheel_speed = wheel_speed
+    row.measured_speed = wheelset.measured_speed
+    row.slide = (car.speed - wheel_speed) / car.speed if car.speed > SLIDE_SPEED else 0.0
+    row.adhesion = 0.5 * wheelset.creep_force / wheelset.wheel_load
+    row.friction = wheelset.friction
+    row.wheel_load = wheelset.wheel_load
+    row.valve_command = wheelset.valve_command
+    row.tank_pressure = wheelset.pressure - p.atmospheric_pressure
+    row.cylinder_pressure = wheelset.compensated_pressure
+    row.stroke = wheelset.stroke
+    row.caliper_force = wheelset.caliper_force
+    row.computed_force = wheelset.computed_force
+    row.clamping_force = wheelset.clamping_force
+    row.brake_torque = wheelset.torque

@@ -1,119 +1,70 @@
-"""The WSP controller under test: its algorithm and every threshold."""
+"""The WSP controller under test: a model for each controller that there is, made from its declaration."""
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, create_model
 
+from uictest.controllers import CONTROLLERS, DEFAULT, Controller as Declaration, ControllerParameters
+from uictest.record import fields_of
 from uictest.scenario.yaml import Inconsistency, Part, Quantity, of_kind
-
-Duration = Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="60 s")]
-Deceleration = Annotated[Quantity, of_kind("acceleration", at_least="0.001 m/s2", at_most="100 m/s2")]
-Slide = Annotated[Quantity, of_kind("share", at_least="0 %", at_most="100 %")]
-WalkingPace = Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 
 
 class ControllerPart(Part):
     """What every controller has."""
 
     folder: ClassVar[str] = "controllers"
+    declaration: ClassVar[Declaration]
 
     schema_id: Literal["uictest/controller/1"] = Field(
         default="uictest/controller/1",
         alias="schema",
         description="What the file holds: uictest/controller/1.",
     )
-    cycle_time: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="1 s")] = Field(
-        description="Time between two decisions."
-    )
-    reference_deceleration: Deceleration = Field(
-        description="Fastest fall of the estimate of the train's speed (positive number)."
-    )
-    minimum_speed: WalkingPace = Field(
-        description="Estimated train speed below which the controller leaves the brake alone."
-    )
-
-
-class ThresholdController(ControllerPart):
-    """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
-
-    algorithm: Literal["threshold"] = Field(description="The algorithm that reads these numbers.")
-    slip_threshold: Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")] = Field(
-        description="Slip speed from which a wheelset counts as sliding."
-    )
-    slide_threshold: Slide = Field(
-        description="Share of the estimated train speed that is added to the slip threshold."
-    )
-    deep_slide: Slide = Field(
-        description="Relative slide beyond which a vent goes on until the wheelset gains speed."
-    )
-    vent_deceleration: Deceleration = Field(
-        description="Deceleration of a wheelset (positive number) beyond which its tank is vented."
-    )
-    hold_deceleration: Deceleration = Field(
-        description="Deceleration of a wheelset (positive number) below which a vent turns into a hold."
-    )
-    reacceleration_threshold: Deceleration = Field(
-        description="Acceleration of a wheelset from which it counts as regaining speed."
-    )
-    acceleration_filter_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="1 s")] = Field(
-        description="Time constant of the filter of wheelset acceleration."
-    )
-    holding_deceleration: Deceleration = Field(
-        description="Fall of the estimate of the train's speed while every wheelset slides (positive number)."
-    )
-    rolling_time: Duration = Field(
-        description="Time in which a wheelset must not have slid to show the train's speed."
-    )
-    sounding_interval: Duration = Field(
-        description="Time without a rolling wheelset after which one is released to find the train's speed."
-    )
-    sounding_time: Duration = Field(
-        description="Shortest vent of a wheelset that is released to find the train's speed."
-    )
-    recovery_share: Slide = Field(
-        description="Share of the slide threshold below which a wheelset has caught up."
-    )
-    vent_watchdog: Duration = Field(description="Longest vent; then the tank is filled again.")
-    hold_limit: Duration = Field(description="Longest hold; then the tank is vented or filled.")
-    fill_pulse_on: Duration = Field(
-        description="Filling time of one pulse while the pressure is restored in steps."
-    )
-    fill_pulse_off: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
-        description="Pause after such a pulse."
-    )
-    refill_time: Duration = Field(description="Time of filling in pulses after which the tank fills freely.")
+    if TYPE_CHECKING:  # fields that every model gets from its declaration
+        algorithm: str
+        cycle_time: Quantity
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield durations too short for the controller to see, and thresholds in the wrong order."""
+        """Yield parameters that are impossible together."""
         yield from super().inconsistencies()
-        for name in ("vent_watchdog", "hold_limit", "fill_pulse_on"):
-            duration: Quantity = getattr(self, name)
-            if duration < self.cycle_time:
-                yield Inconsistency(
-                    (name,), f"{duration.text} is shorter than one controller cycle ({self.cycle_time.text})"
-                )
-        if self.holding_deceleration > self.reference_deceleration:
-            yield Inconsistency(("holding_deceleration",), "it must not exceed reference_deceleration")
-        if self.hold_deceleration >= self.vent_deceleration:
-            yield Inconsistency(
-                ("hold_deceleration",), "a vent would end at once: it must be below vent_deceleration"
-            )
+        texts = {name: getattr(self, name).text for name in self.declaration.declared_parameters()}
+        for conflict in self.declaration.conflicts(self):
+            yield Inconsistency((conflict.parameter,), conflict.message.format(**texts))
 
 
-class SlipBandController(ControllerPart):
-    """Fill below a lower slide, vent above an upper one, hold between them."""
+def _model(controller: Declaration) -> type[ControllerPart]:
+    """Return the model of a controller's parameters; those that every controller has come first."""
+    fields: dict[str, Any] = {
+        name: (
+            Annotated[Quantity, of_kind(declared.kind, at_least=declared.at_least, at_most=declared.at_most)],
+            Field(description=declared.description),
+        )
+        for name, declared in controller.declared_parameters().items()
+    }
+    algorithm = (Literal[controller.name], Field(description="The algorithm that reads these numbers."))
+    common = {name: fields.pop(name) for name in fields_of(ControllerParameters)}
+    model: type[ControllerPart] = create_model(
+        "".join(word.capitalize() for word in controller.name.split("-")) + "Controller",
+        __base__=ControllerPart,
+        __doc__=controller.parameters.__doc__,
+        __module__=__name__,
+        **{**common, "algorithm": algorithm, **fields},
+    )
+    model.declaration = controller
+    return model
 
-    algorithm: Literal["slip-band"] = Field(description="The algorithm that reads these numbers.")
-    lower_slide: Slide = Field(description="Slide below which the tank is filled.")
-    upper_slide: Slide = Field(description="Slide above which the tank is vented.")
 
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a band that is upside down."""
-        yield from super().inconsistencies()
-        if self.lower_slide >= self.upper_slide:
-            yield Inconsistency(("lower_slide",), "it must be below upper_slide")
+CONTROLLER_MODELS = {
+    name: _model(CONTROLLERS[name]) for name in sorted(CONTROLLERS, key=lambda name: (name != DEFAULT, name))
+}
+"""Models by the names of the controllers, the default one first."""
+globals().update({model.__name__: model for model in CONTROLLER_MODELS.values()})  # where pickle looks
 
-
-Controller = Annotated[ThresholdController | SlipBandController, Field(discriminator="algorithm")]
-"""A controller of any algorithm."""
+if TYPE_CHECKING:
+    Controller = ControllerPart
+else:
+    Controller = Annotated[reduce(or_, CONTROLLER_MODELS.values()), Field(discriminator="algorithm")]
+    """A controller of any algorithm."""

@@ -10,8 +10,17 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.controllers import Controller
 from uictest.evaluation import JUDGED_KEYS
-from uictest.rig import FRICTION_KEYS, SECTIONS, assemble, friction_laws
+from uictest.rig import (
+    ASSIGNMENTS,
+    FRICTION_KEYS,
+    Assignment,
+    assemble,
+    assigned,
+    controller_of,
+    friction_laws,
+)
 from uictest.scenario import Case, Scenario
 from uictest.scenario.yaml import dotted
 from uictest.sweep.plan.plan import ParameterValue, Plan
@@ -79,6 +88,7 @@ class CaseBlock:
     settings: Settings
     parameters: NDArray[Any]
     rail: NDArray[np.float64]
+    controllers: list[Controller]
     judged_as: list[Scenario]
     rejections: list[str]
 
@@ -88,11 +98,12 @@ class BlockAssembler:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        self._record = assemble(plan.base)[0]
-        swept = [(section, _related_keys(plan.keys, keys)) for section, keys in SECTIONS.items()]
-        self._sections = [
-            CachedFunction(_section_or_reason(section), keys) for section, keys in swept if keys
+        self._record = assemble(plan.base).parameters
+        self._parameters = [
+            CachedFunction(_values_or_reason(assignments), keys)
+            for keys, assignments in _by_swept_keys(plan.keys).items()
         ]
+        self._controllers = CachedFunction(controller_of, _related_keys(plan.keys, ("controller.algorithm",)))
         self._rail = CachedFunction(friction_laws, _related_keys(plan.keys, FRICTION_KEYS))
         self._judged = CachedFunction(_scenario_itself, _related_keys(plan.keys, JUDGED_KEYS))
         self._rejection = CachedFunction(_rejection_of(plan.keys), plan.keys)
@@ -107,12 +118,13 @@ class BlockAssembler:
         variants = ScenarioVariants(self._plan.base.scenario, settings, indices.size)
         rejections: list[str] = self._rejection.per_case(variants)
         parameters = np.repeat(self._record[None], indices.size)
-        for section in self._sections:
-            rejections = _fill(parameters, section.per_case(variants), rejections)
+        for values in self._parameters:
+            rejections = _fill(parameters, values.per_case(variants), rejections)
         parameters["case_key"] = [zlib.crc32(name.encode()) for name in ids]
         rail = _stacked(self._rail.per_case(variants))
+        controllers = self._controllers.per_case(variants)
         judged_as = self._judged.per_case(variants)
-        return CaseBlock(indices, ids, settings, parameters, rail, judged_as, rejections)
+        return CaseBlock(indices, ids, settings, parameters, rail, controllers, judged_as, rejections)
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
@@ -130,10 +142,19 @@ def _related(one: str, other: str) -> bool:
     return one == other or one.startswith(f"{other}.") or other.startswith(f"{one}.")
 
 
-def _section_or_reason(section: Callable[[Scenario], Any]) -> Callable[[Scenario], dict[str, float] | str]:
+def _by_swept_keys(swept: Iterable[str]) -> dict[tuple[str, ...], list[Assignment]]:
+    """Group what sets parameters by the swept keys that it depends on, leaving out what depends on none."""
+    groups: dict[tuple[str, ...], list[Assignment]] = {}
+    for assignment in ASSIGNMENTS:
+        if keys := _related_keys(swept, assignment.keys):
+            groups.setdefault(keys, []).append(assignment)
+    return groups
+
+
+def _values_or_reason(assignments: Sequence[Assignment]) -> Callable[[Scenario], dict[str, float] | str]:
     def fields_or_reason(scenario: Scenario) -> dict[str, float] | str:
         try:
-            return {name: float(value) for name, value in section(scenario)}
+            return {name: float(value) for name, value in assigned(assignments, scenario).items()}
         except (ValueError, ArithmeticError) as error:
             return f"{type(error).__name__}: {error}"
 
@@ -157,7 +178,7 @@ def _scenario_itself(scenario: Scenario) -> Scenario:
 def _fill(
     parameters: NDArray[Any], results: Sequence[dict[str, float] | str], rejections: Sequence[str]
 ) -> list[str]:
-    """Write the fields of a section into the records, and return the rejections including its own."""
+    """Write the fields of a group into the records, and return the rejections including its own."""
     reasons = [
         rejection or (result if isinstance(result, str) else "")
         for rejection, result in zip(rejections, results, strict=True)

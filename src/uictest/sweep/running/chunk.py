@@ -50,7 +50,7 @@ class ChunkRunner:
         """Compile the rig before several threads need it at once."""
         block = self.assembler.block(np.zeros(1, np.int64))
         block.parameters["cycles"] = 1
-        self.simulate(block.parameters, block.rail)
+        self.simulate(block.parameters, block.rail, block.controllers)
 
     def results(self, block: CaseBlock) -> list[CaseResult]:
         """Return the results of a block; an error in a case is its result."""
@@ -58,7 +58,8 @@ class ChunkRunner:
         if not places:
             return self._judge(block, [], _no_measures())
         try:
-            measures = self.simulate(block.parameters[places], block.rail[places])
+            controllers = [block.controllers[place] for place in places]
+            measures = self.simulate(block.parameters[places], block.rail[places], controllers)
         except Exception as error:
             return self._run_one_by_one(block, error)
         return self._judge(block, places, measures)
@@ -118,6 +119,7 @@ def _single(block: CaseBlock, place: int) -> CaseBlock:
         {key: [values[place]] for key, values in block.settings.items()},
         block.parameters[at],
         block.rail[at],
+        [block.controllers[place]],
         [block.judged_as[place]],
         [block.rejections[place]],
     )

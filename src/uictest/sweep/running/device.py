@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import rig
+from uictest.controllers import Controller
 
 Device = Literal["cpu", "cuda"]
 Measures = tuple[NDArray[Any], NDArray[Any]]
-Simulate = Callable[[NDArray[Any], NDArray[np.float64]], Measures]
-"""Records and friction laws of some cases to the measures of their stops, shapes (cases,) and (cases, 4)."""
+Simulate = Callable[[NDArray[Any], NDArray[np.float64], Sequence[Controller]], Measures]
+"""Simulates cases: records, friction laws and controllers to measures, shapes (cases,) and (cases, 4)."""
 
 
 class NoDeviceError(Exception):

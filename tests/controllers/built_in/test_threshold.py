@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from uictest.controllers.threshold import SOUNDING
+from uictest.controllers.built_in.threshold import PROBING
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 
 Benches = Callable[..., Any]
@@ -166,7 +166,7 @@ def test_no_wheelset_is_released_while_one_rolls(threshold_bench: Benches) -> No
     for k in range(400):
         slow = max(20.0 - 12.0 * k * CYCLE, 2.0)
         controller.commands(20.0, slow, slow, slow)
-        assert not any(wheelset.mode == SOUNDING for wheelset in controller.wheelsets)
+        assert not any(wheelset.mode == PROBING for wheelset in controller.wheelsets)
 
 
 def test_wheelsets_take_turns_to_sound(threshold_bench: Benches) -> None:
@@ -178,7 +178,7 @@ def test_wheelsets_take_turns_to_sound(threshold_bench: Benches) -> None:
     slid(controller, 1)
     for _ in range(800):
         commands = controller.commands(2.0, 2.0, 2.0, 2.0)
-        sounding = [i for i in range(4) if controller.wheelsets[i].mode == SOUNDING]
+        sounding = [i for i in range(4) if controller.wheelsets[i].mode == PROBING]
         assert len(sounding) <= 1
         assert all(commands[i] == VENT for i in sounding)
         turns += sounding

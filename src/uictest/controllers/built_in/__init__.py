@@ -1,0 +1,1 @@
+"""The controllers of this package: every module here declares one as ``CONTROLLER``."""

@@ -1,0 +1,69 @@
+"""Slip-band controller: fill below a lower slide, vent above an upper one, hold between them.
+
+The simplest controller that protects a wheelset: two thresholds of relative slide against the fastest
+wheelset, whose estimate may fall at a bounded rate. On a rail so slippery that all wheelsets slide
+together its reference sinks with them.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from uictest.controllers.contract import (
+    Conflict,
+    ControlledWheelset,
+    Controller,
+    ControllerParameters,
+    TrainMemory,
+    parameter,
+)
+from uictest.physics import FILL, HOLD, VENT, maximum
+
+
+class Parameters(ControllerParameters):
+    """Fill below a lower slide, vent above an upper one, hold between them."""
+
+    lower_slide: float = parameter(
+        "share", "Slide below which the tank is filled.", at_least="0 %", at_most="100 %"
+    )
+    upper_slide: float = parameter(
+        "share", "Slide above which the tank is vented.", at_least="0 %", at_most="100 %"
+    )
+
+
+def conflicts(parameters: Parameters) -> Iterator[Conflict]:
+    """Yield a band that is upside down."""
+    if parameters.lower_slide >= parameters.upper_slide:
+        yield Conflict("lower_slide", "it must be below upper_slide")
+
+
+def begin(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], speed: float) -> None:
+    """Start from rolling at ``speed`` m/s."""
+    train.reference_speed = speed
+
+
+def decide(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], parameters: Parameters) -> None:
+    """Set the command of each wheelset; see the contract in :mod:`uictest.controllers`."""
+    reference = train.reference_speed - parameters.reference_deceleration * parameters.cycle_time
+    for i in range(4):
+        reference = maximum(reference, wheelsets[i].measured_speed)
+    train.reference_speed = reference
+    for i in range(4):
+        slide = (reference - wheelsets[i].measured_speed) / maximum(reference, parameters.minimum_speed)
+        wheelsets[i].valve_command = _command(slide, reference, parameters)
+
+
+def _command(slide: float, reference: float, parameters: Parameters) -> int:
+    """Return the valve command for a relative slide; there is no protection below the lowest speed."""
+    if reference < parameters.minimum_speed or slide < parameters.lower_slide:
+        return FILL
+    return VENT if slide > parameters.upper_slide else HOLD
+
+
+CONTROLLER = Controller(
+    name="slip-band",
+    parameters=Parameters,
+    train_memory=TrainMemory,
+    wheelset_memory=ControlledWheelset,
+    begin=begin,
+    decide=decide,
+    conflicts=conflicts,
+)

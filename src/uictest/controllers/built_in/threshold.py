@@ -1,0 +1,349 @@
+"""Threshold controller: slip speed, relative slide and wheel acceleration choose fill, hold or vent.
+
+Each wheelset runs through modes. FREE fills. When its slip exceeds the threshold or its deceleration is
+more than any wheel on a good rail can have, it VENTs until the wheel has stopped losing speed, then
+HOLDs while the wheel catches up, and REFILLs in pulses until the brake is back at the demand. While all
+four slide nothing shows the train's speed; after a while one of them is PROBING: vented until it rolls
+and shows that speed. No WSP maker publishes thresholds: all of them are parameters.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from uictest.controllers.contract import (
+    Conflict,
+    ControlledWheelset,
+    Controller,
+    ControllerParameters,
+    TrainMemory,
+    parameter,
+)
+from uictest.physics import FILL, HOLD, VENT, maximum, minimum
+
+
+class Parameters(ControllerParameters):
+    """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
+
+    slip_threshold: float = parameter(
+        "speed",
+        "Slip speed from which a wheelset counts as sliding.",
+        at_least="0.001 km/h",
+        at_most="100 km/h",
+    )
+    slide_threshold: float = parameter(
+        "share",
+        "Share of the estimated train speed that is added to the slip threshold.",
+        at_least="0 %",
+        at_most="100 %",
+    )
+    deep_slide: float = parameter(
+        "share",
+        "Relative slide beyond which a vent goes on until the wheelset gains speed.",
+        at_least="0 %",
+        at_most="100 %",
+    )
+    vent_deceleration: float = parameter(
+        "acceleration",
+        "Deceleration of a wheelset (positive number) beyond which its tank is vented.",
+        at_least="0.001 m/s2",
+        at_most="100 m/s2",
+    )
+    hold_deceleration: float = parameter(
+        "acceleration",
+        "Deceleration of a wheelset (positive number) below which a vent turns into a hold.",
+        at_least="0.001 m/s2",
+        at_most="100 m/s2",
+    )
+    reacceleration_threshold: float = parameter(
+        "acceleration",
+        "Acceleration of a wheelset from which it counts as regaining speed.",
+        at_least="0.001 m/s2",
+        at_most="100 m/s2",
+    )
+    acceleration_filter_time: float = parameter(
+        "time",
+        "Time constant of the filter of wheelset acceleration.",
+        at_least="0 s",
+        at_most="1 s",
+    )
+    holding_deceleration: float = parameter(
+        "acceleration",
+        "Fall of the estimate of the train's speed while every wheelset slides (positive number).",
+        at_least="0.001 m/s2",
+        at_most="100 m/s2",
+    )
+    rolling_time: float = parameter(
+        "time",
+        "Time in which a wheelset must not have slid to show the train's speed.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    sounding_interval: float = parameter(
+        "time",
+        "Time without a rolling wheelset after which one is released to find the train's speed.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    sounding_time: float = parameter(
+        "time",
+        "Shortest vent of a wheelset that is released to find the train's speed.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    recovery_share: float = parameter(
+        "share",
+        "Share of the slide threshold below which a wheelset has caught up.",
+        at_least="0 %",
+        at_most="100 %",
+    )
+    vent_watchdog: float = parameter(
+        "time",
+        "Longest vent; then the tank is filled again.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    hold_limit: float = parameter(
+        "time",
+        "Longest hold; then the tank is vented or filled.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    fill_pulse_on: float = parameter(
+        "time",
+        "Filling time of one pulse while the pressure is restored in steps.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+    fill_pulse_off: float = parameter(
+        "time",
+        "Pause after such a pulse.",
+        at_least="0 s",
+        at_most="60 s",
+    )
+    refill_time: float = parameter(
+        "time",
+        "Time of filling in pulses after which the tank fills freely.",
+        at_least="1 ms",
+        at_most="60 s",
+    )
+
+
+class Train(TrainMemory):
+    """What the controller remembers about the train."""
+
+    blind_cycles: int  # since a wheelset last showed the train's speed
+    probed: int  # wheelset that was probed last, 0..3
+
+
+class Wheelset(ControlledWheelset):
+    """What the controller reads, sets and remembers of a wheelset."""
+
+    previous_speed: float  # measured in the cycle before, m/s
+    measured_acceleration: float  # low-pass filtered, m/s2
+    mode: int  # FREE, VENTING, HOLDING, REFILLING or PROBING
+    mode_cycles: int  # since the mode began
+
+
+FREE = 0
+VENTING = 1
+HOLDING = 2
+REFILLING = 3
+PROBING = 4
+
+
+def conflicts(parameters: Parameters) -> Iterator[Conflict]:
+    """Yield durations too short for the controller to see, and thresholds in the wrong order."""
+    durations = (
+        ("vent_watchdog", parameters.vent_watchdog),
+        ("hold_limit", parameters.hold_limit),
+        ("fill_pulse_on", parameters.fill_pulse_on),
+    )
+    for name, duration in durations:
+        if duration < parameters.cycle_time:
+            yield Conflict(name, f"{{{name}}} is shorter than one controller cycle ({{cycle_time}})")
+    if parameters.holding_deceleration > parameters.reference_deceleration:
+        yield Conflict("holding_deceleration", "it must not exceed reference_deceleration")
+    if parameters.hold_deceleration >= parameters.vent_deceleration:
+        yield Conflict("hold_deceleration", "a vent would end at once: it must be below vent_deceleration")
+
+
+def begin(train: Train, wheelsets: Sequence[Wheelset], speed: float) -> None:
+    """Start from rolling at ``speed`` m/s."""
+    train.reference_speed = speed
+    train.blind_cycles = 0
+    train.probed = 3
+    for i in range(4):
+        wheelset = wheelsets[i]
+        wheelset.previous_speed = speed
+        wheelset.measured_acceleration = 0.0
+        wheelset.mode = FREE
+        wheelset.mode_cycles = 0
+
+
+def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
+    """Set the command of each wheelset; see the contract in :mod:`uictest.controllers`."""
+    for i in range(4):
+        _differentiate(wheelsets[i], parameters)
+    _estimate_speed(train, wheelsets, parameters)
+    for i in range(4):
+        _enter(wheelsets[i], _next_mode(wheelsets[i], train.reference_speed, parameters))
+    _probe(train, wheelsets, parameters)
+    for i in range(4):
+        wheelsets[i].valve_command = _command(wheelsets[i], parameters)
+
+
+def _differentiate(wheelset: Wheelset, parameters: Parameters) -> None:
+    """Differentiate the measured speed and filter the acceleration (first order)."""
+    change = (wheelset.measured_speed - wheelset.previous_speed) / parameters.cycle_time
+    share = parameters.cycle_time / (parameters.cycle_time + parameters.acceleration_filter_time)
+    wheelset.measured_acceleration += share * (change - wheelset.measured_acceleration)
+    wheelset.previous_speed = wheelset.measured_speed
+
+
+def _estimate_speed(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
+    """Estimate the train's speed from the fastest wheelset.
+
+    While some wheelset rolls the estimate follows the fastest one, falling at most at the deceleration
+    that a train can have. While all of them slide it falls more slowly, so that it does not sink with
+    them; a probed wheelset then lowers it, at most to the speed that the train can have reached by then.
+    Only a wheelset that rolls shows that the train is too slow for protection.
+    """
+    fastest = 0.0
+    rolling = False
+    probed = False
+    for i in range(4):
+        wheelset = wheelsets[i]
+        fastest = maximum(fastest, wheelset.measured_speed)
+        rolling = rolling or _rolls(wheelset, parameters)
+        probed = probed or _shows_speed(wheelset, parameters)
+    fall = parameters.reference_deceleration if rolling else parameters.holding_deceleration
+    estimate = train.reference_speed - fall * parameters.cycle_time
+    if probed:
+        blind_time = train.blind_cycles * parameters.cycle_time
+        estimate -= (parameters.reference_deceleration - parameters.holding_deceleration) * blind_time
+    if rolling or probed:
+        train.blind_cycles = 0
+    else:
+        train.blind_cycles += 1
+        estimate = maximum(estimate, minimum(train.reference_speed, parameters.minimum_speed))
+    train.reference_speed = maximum(fastest, estimate)
+
+
+def _probe(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
+    """Start probing the next wheelset when none has shown the train's speed for too long."""
+    for i in range(4):
+        if wheelsets[i].mode == PROBING:
+            return
+    if train.blind_cycles * parameters.cycle_time > parameters.sounding_interval:
+        train.probed = (train.probed + 1) % 4
+        _enter(wheelsets[train.probed], PROBING)
+
+
+def _rolls(wheelset: Wheelset, parameters: Parameters) -> bool:
+    """Return True once a wheelset has been free for so long that it must roll."""
+    time_in_mode = wheelset.mode_cycles * parameters.cycle_time
+    return bool(wheelset.mode == FREE and time_in_mode > parameters.rolling_time)
+
+
+def _shows_speed(wheelset: Wheelset, parameters: Parameters) -> bool:
+    """Return True once a probed wheelset rolls: it gains no speed and loses no more than a train can."""
+    time_in_mode = wheelset.mode_cycles * parameters.cycle_time
+    if wheelset.mode != PROBING or time_in_mode < parameters.sounding_time:
+        return False
+    gains = wheelset.measured_acceleration > parameters.reacceleration_threshold
+    loses = wheelset.measured_acceleration < -parameters.reference_deceleration
+    return not (gains or loses)
+
+
+def _enter(wheelset: Wheelset, mode: int) -> None:
+    """Continue in the same mode or enter another."""
+    if mode == wheelset.mode:
+        wheelset.mode_cycles += 1
+    else:
+        wheelset.mode = mode
+        wheelset.mode_cycles = 0
+
+
+def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> int:
+    """Return the mode of the wheelset for the coming cycle."""
+    slip = reference - wheelset.measured_speed
+    threshold = parameters.slip_threshold + parameters.slide_threshold * reference
+    time_in_mode = (wheelset.mode_cycles + 1) * parameters.cycle_time
+    if reference < parameters.minimum_speed:
+        return FREE
+    if wheelset.mode == PROBING:
+        spent = _shows_speed(wheelset, parameters) or time_in_mode > parameters.vent_watchdog
+        return REFILLING if spent else PROBING
+    if wheelset.mode == VENTING:
+        return _after_venting(wheelset, slip, reference, time_in_mode, parameters)
+    if wheelset.mode == HOLDING:
+        return _after_holding(wheelset, slip, reference, threshold, time_in_mode, parameters)
+    if _slides(wheelset, slip, threshold, parameters):
+        return VENTING
+    if wheelset.mode == REFILLING and time_in_mode <= parameters.refill_time:
+        return REFILLING
+    return FREE
+
+
+def _slides(wheelset: Wheelset, slip: float, threshold: float, parameters: Parameters) -> bool:
+    """Return True when the wheel slides: slip above the threshold without recovery, or an impossible fall."""
+    losing = wheelset.measured_acceleration < parameters.reacceleration_threshold
+    falling = wheelset.measured_acceleration < -parameters.vent_deceleration
+    return bool((slip > threshold and losing) or falling)
+
+
+def _after_venting(
+    wheelset: Wheelset, slip: float, reference: float, time_in_mode: float, parameters: Parameters
+) -> int:
+    """Return the mode that follows a vent: hold once the wheel loses no more speed.
+
+    In a deep slide it must gain speed first. A locked wheel loses no speed either, and only goes on turning
+    when it is vented further.
+    """
+    deep = slip > parameters.deep_slide * reference
+    enough = parameters.reacceleration_threshold if deep else -parameters.hold_deceleration
+    if wheelset.measured_acceleration > enough:
+        return HOLDING
+    return REFILLING if time_in_mode > parameters.vent_watchdog else VENTING
+
+
+def _after_holding(
+    wheelset: Wheelset,
+    slip: float,
+    reference: float,
+    threshold: float,
+    time_in_mode: float,
+    parameters: Parameters,
+) -> int:
+    """Return the mode that follows a hold: refill once the wheel has caught up, else vent again."""
+    if slip < parameters.recovery_share * threshold:
+        return REFILLING
+    deep = slip > parameters.deep_slide * reference
+    if wheelset.measured_acceleration < (0.0 if deep else -parameters.vent_deceleration):
+        return VENTING
+    if time_in_mode > parameters.hold_limit:
+        return VENTING if wheelset.measured_acceleration < parameters.reacceleration_threshold else HOLDING
+    return HOLDING
+
+
+def _command(wheelset: Wheelset, parameters: Parameters) -> int:
+    """Return the valve command of a mode; refilling alternates fill and hold."""
+    if wheelset.mode == VENTING or wheelset.mode == PROBING:
+        return VENT
+    if wheelset.mode == HOLDING:
+        return HOLD
+    if wheelset.mode == REFILLING:
+        on = round(parameters.fill_pulse_on / parameters.cycle_time)
+        off = round(parameters.fill_pulse_off / parameters.cycle_time)
+        return FILL if wheelset.mode_cycles % (on + off) < on else HOLD
+    return FILL
+
+
+CONTROLLER = Controller(
+    name="threshold",
+    parameters=Parameters,
+    train_memory=Train,
+    wheelset_memory=Wheelset,
+    begin=begin,
+    decide=decide,
+    conflicts=conflicts,
+)

@@ -1,0 +1,107 @@
+"""Records: the numbers that compiled code steps, declared once as a class with annotated fields.
+
+``class Car(Record): speed: float`` declares the fields for the type checker, and :func:`layout_of` derives
+the layout in memory from it. A function annotated with ``Car`` is passed a numpy record, a lane of a block,
+a record of compiled code or any object with these attributes: annotations are not evaluated.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from inspect import get_annotations
+from typing import Any, get_args, get_origin, get_type_hints
+
+Conversion = Callable[[float], float]
+_KINDS = {float: "f8", int: "i8"}
+
+
+class Record:
+    """Base of the classes that declare records.
+
+    A field is a ``float``, an ``int``, or ``Annotated[MutableSequence[float], n]`` for a table of n numbers.
+    """
+
+
+@dataclass(frozen=True, slots=True)
+class ScenarioValue:
+    """A field that holds the value at a key of the scenario.
+
+    Attributes:
+        key: dotted key, such as ``vehicle.body.height``.
+        convert: what turns that value, in SI units, into the field's; None leaves it as it is.
+    """
+
+    key: str
+    convert: Conversion | None = None
+
+
+def from_scenario(key: str, convert: Conversion | None = None) -> Any:
+    """Declare that a field of a record holds the value at ``key`` of the scenario."""
+    return ScenarioValue(key, convert)
+
+
+def derived() -> Any:
+    """Declare that a field of a record is computed from several values of the scenario."""
+    return None
+
+
+def scenario_values(record: type[Record]) -> dict[str, ScenarioValue]:
+    """Return the fields of a record that are declared by :func:`from_scenario`."""
+    declared = {name: getattr(record, name, None) for name in fields_of(record)}
+    return {name: value for name, value in declared.items() if isinstance(value, ScenarioValue)}
+
+
+def channel(unit: str) -> Any:
+    """Declare that a field of a record is a channel of a recording, in ``unit``."""
+    return unit
+
+
+def units_of(record: type[Record]) -> tuple[tuple[str, str], ...]:
+    """Return the names of a record's channels and their units."""
+    return tuple((name, getattr(record, name)) for name in fields_of(record))
+
+
+def fields_of(record: type[Record]) -> dict[str, Any]:
+    """Return the annotated fields of a record in the order of their declaration, those of its bases first."""
+    return get_type_hints(record, include_extras=True)
+
+
+def layout_of(record: type[Record], *additions: type[Record]) -> Any:
+    """Return the structured dtype (numpy) of a record with the fields of others added.
+
+    What several additions declare is one field. A field of ``record`` itself can only be in an addition when
+    both inherit it.
+
+    Raises:
+        TypeError: when an addition declares a field that is there already, or a field is not of a known kind.
+    """
+    import numpy as np  # what only declares records must not pay for it: `uictest check`, `uictest --help`
+
+    fields = {name: (name, *_kind(name, annotation)) for name, annotation in fields_of(record).items()}
+    own = {name: _owner(record, name) for name in fields}
+    for addition in additions:
+        for name, annotation in fields_of(addition).items():
+            field = (name, *_kind(name, annotation))
+            if (
+                own.get(name, owner := _owner(addition, name)) is not owner
+                or fields.get(name, field) != field
+            ):
+                raise TypeError(
+                    f"{addition.__module__}.{addition.__qualname__}: {name} is declared elsewhere"
+                )
+            fields[name] = field
+    return np.dtype((np.record, list(fields.values())))
+
+
+def _owner(record: type[Record], field: str) -> type:
+    """Return the class that declares a field of a record."""
+    return next(each for each in record.__mro__ if field in get_annotations(each))
+
+
+def _kind(name: str, annotation: Any) -> tuple[Any, ...]:
+    """Kind of number of a field and, for a table, its shape."""
+    if annotation in _KINDS:
+        return (_KINDS[annotation],)
+    values, *lengths = get_args(annotation) or (None,)
+    if get_args(values) != (float,) or len(lengths) != 1 or get_origin(annotation) is None:
+        raise TypeError(f"{name}: a field is a float, an int or a table of floats, not {annotation}")
+    return ("f8", (lengths[0],))

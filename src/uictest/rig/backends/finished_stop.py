@@ -1,0 +1,65 @@
+"""Run one stop on fresh records and keep what it leaves."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.assembly import StopInputs
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+
+RunStop = Callable[..., int]
+""":func:`uictest.rig.model.stop.run_stop` made for one controller, plain or compiled."""
+
+
+@dataclass(frozen=True)
+class FinishedStop:
+    """What a stop leaves: its measures, the final state and, if requested, the trace."""
+
+    measures: Any
+    wheelset_measures: Any
+    car: Any
+    wheelsets: Any
+    trace: Trace
+
+
+def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
+    """Run a stop on fresh records.
+
+    Args:
+        run_stop: what runs the stop, made for the controller of ``inputs``.
+        inputs: parameters, rail and controller.
+        steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
+    """
+    parameters = inputs.parameters
+    car = np.zeros(1, CAR)
+    bogies = np.zeros(2, BOGIE)
+    wheelsets = np.zeros(4, WHEELSET)
+    measures = np.zeros(1, STOP_MEASURES)
+    wheelset_measures = np.zeros(4, WHEELSET_MEASURES)
+    trace = empty_trace(_rows(parameters, steps_per_sample))
+    rows = run_stop(
+        *(car[0], bogies, wheelsets, parameters, inputs.rail),
+        *(measures[0], wheelset_measures, trace, steps_per_sample),
+    )
+    return FinishedStop(
+        measures[0],
+        wheelset_measures.view(np.recarray),
+        car[0],
+        wheelsets.view(np.recarray),
+        Trace(trace.train[:rows], trace.wheelsets[:rows]),
+    )
+
+
+def empty_trace(rows: int) -> Trace:
+    """Return a trace with so many rows, not yet filled."""
+    return Trace(np.empty(rows, TRAIN_SAMPLE), np.empty((rows, 4), WHEELSET_SAMPLE))
+
+
+def _rows(parameters: Any, steps_per_sample: int) -> int:
+    if steps_per_sample == 0:
+        return 0
+    return int(parameters.cycles * parameters.steps_per_cycle) // steps_per_sample + 1

@@ -1,0 +1,74 @@
+"""The bench in machine code: compiled once by numba, kept in the cache, called by address."""
+
+from typing import Any
+
+from numpy.typing import NDArray
+
+from uictest.rig.backends.compiled import OPTIONS, callback, compiled_operations, compiler, translate
+from uictest.rig.backends.machine_code import address, is_kept, native_function
+from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, BenchRig
+from uictest.rig.bench.step import run_bench_test
+from uictest.rig.bench.trace import BENCH_SAMPLE
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import CAR, WHEELSET
+
+_NAME = "uictest_bench"
+_ARGUMENTS = (CAR, WHEELSET, WHEELSET, PARAMETERS, "f8", "f8", "i8", BENCH_SAMPLE, int, int)
+_COUNT = len(SETTINGS)
+
+
+def is_compiled() -> bool:
+    """Return whether the bench lies compiled in the cache, so that a test starts at once."""
+    return is_kept(_NAME)
+
+
+def run_compiled(
+    rig: BenchRig, demanded_pressures: NDArray[Any], valve_commands: NDArray[Any], trace: NDArray[Any]
+) -> None:
+    """Run :func:`uictest.rig.bench.step.run_bench_test` compiled; the first call compiles it.
+
+    Raises TypeError where a record or an array does not have the compiled layout.
+    """
+    native_function(_NAME, _compile, len(_ARGUMENTS))(
+        address(rig.car, CAR),
+        address(rig.modules, WHEELSET, (MODULES,)),
+        address(rig.computed, WHEELSET, (_COUNT,)),
+        address(rig.settings, PARAMETERS, (_COUNT,)),
+        address(rig.loadcell_errors, "f8", (LOADCELLS,)),
+        address(demanded_pressures, "f8", (len(trace) - 1,)),
+        address(valve_commands, "i8", (len(valve_commands),)),
+        address(trace, BENCH_SAMPLE, (len(trace),)),
+        len(valve_commands),
+        len(trace),
+    )
+
+
+def _compile() -> Any:
+    """Return the bench compiled by numba, as a function of addresses and the lengths behind them."""
+    numba = compiler()
+    carray = numba.carray
+    entry = translate(run_bench_test, numba.njit(**OPTIONS), compiled_operations())
+
+    def on_addresses(
+        car: Any,
+        modules: Any,
+        computed: Any,
+        settings: Any,
+        loadcell_errors: Any,
+        pressures: Any,
+        commands: Any,
+        trace: Any,
+        cycles: int,
+        rows: int,
+    ) -> int:
+        rig = BenchRig(
+            carray(car, 1)[0],
+            carray(modules, MODULES),
+            carray(computed, _COUNT),
+            carray(settings, _COUNT),
+            carray(loadcell_errors, LOADCELLS),
+        )
+        entry(rig, carray(pressures, rows - 1), carray(commands, cycles), carray(trace, rows))
+        return 0
+
+    return callback(on_addresses, *_ARGUMENTS)

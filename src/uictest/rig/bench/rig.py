@@ -1,0 +1,54 @@
+"""The rig on the bench: one module with a caliper, one that is a tank, and one brake line for both."""
+
+from collections.abc import MutableSequence, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from uictest.rig.assembly import assemble
+from uictest.rig.model.parameters import PARAMETERS, Parameters
+from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
+from uictest.scenario import Case
+
+SETTINGS = ("none", "hysteresis", "cylinder", "full")
+"""Settings of the compensation, in the order of the records that compute them."""
+NONE, HYSTERESIS, CYLINDER, FULL = range(4)
+MODULES = 2
+LOADCELLS = 3
+
+
+class BenchRig(NamedTuple):
+    """Records of the rig on the bench.
+
+    Attributes:
+        car: record whose air supply feeds the modules.
+        modules: with caliper, and without.
+        computed: four modules, which compute the force of the second module under the four settings.
+        settings: four parameter records that differ in the setting of the compensation alone.
+        loadcell_errors: momentary errors of the three loadcells, N.
+    """
+
+    car: Car
+    modules: Sequence[Wheelset]
+    computed: Sequence[Wheelset]
+    settings: Sequence[Parameters]
+    loadcell_errors: MutableSequence[float]
+
+
+def bench_rig(case: Case) -> BenchRig:
+    """Return the rig of a case, its state zeroed."""
+    car: Any = np.zeros(1, CAR)[0]
+    modules: Any = np.zeros(MODULES, WHEELSET)
+    computed: Any = np.zeros(len(SETTINGS), WHEELSET)
+    loadcell_errors: Any = np.zeros(LOADCELLS)
+    return BenchRig(car, modules, computed, _settings(case), loadcell_errors)
+
+
+def _settings(case: Case) -> Any:
+    """Return the parameters once for each setting of the compensation; the valves obey the commands."""
+    settings: Any = np.zeros(len(SETTINGS), PARAMETERS)
+    settings[:] = assemble(case).parameters
+    settings["wsp_active"] = 1
+    settings["uses_hysteresis"] = [name in ("hysteresis", "full") for name in SETTINGS]
+    settings["uses_cylinder_dynamics"] = [name in ("cylinder", "full") for name in SETTINGS]
+    return settings

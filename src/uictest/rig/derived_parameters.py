@@ -1,0 +1,224 @@
+"""Parameters that follow from several values of a scenario, or from one and a formula.
+
+Each function states the keys of the scenario at or below which it reads; where none of them differs between
+two cases, neither does what it sets. It sets fields of the parameters and reads only those it has set.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+from uictest.physics import orifice_law, stiffnesses
+from uictest.rig.cylinder_sampling import resampled
+from uictest.rig.model.parameters import Parameters
+from uictest.scenario import Scenario
+from uictest.units import STANDARD_GRAVITY
+
+_ALWAYS = 1.0
+_WHEELS = 8.0
+
+Set = Callable[[Parameters, Scenario], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """What sets some fields of the parameters, and the keys of the scenario that it reads."""
+
+    apply: Set
+    keys: tuple[str, ...]
+
+
+DERIVED: list[Assignment] = []
+"""What sets the derived parameters: the functions of this module."""
+
+
+def _reads(*keys: str) -> Callable[[Set], Set]:
+    """Register a function and the keys at or below which it reads."""
+
+    def register(function: Set) -> Set:
+        DERIVED.append(Assignment(function, keys))
+        return function
+
+    return register
+
+
+@_reads("simulation.time_step", "simulation.maximum_duration", "controller.cycle_time")
+def _cycles(p: Parameters, scenario: Scenario) -> None:
+    cycle = float(scenario.controller.cycle_time)
+    p.steps_per_cycle = round(cycle / float(scenario.simulation.time_step))
+    p.cycles = math.ceil(scenario.simulation.maximum_duration / cycle - 1e-9)
+
+
+@_reads("rig.topology", "rig.compensation", "rig.wsp")
+def _topology(p: Parameters, scenario: Scenario) -> None:
+    rig = scenario.rig
+    p.calipers = 4 if rig.topology == "four-caliper" else 1
+    p.uses_cylinder_dynamics = float(rig.compensation in ("cylinder", "full"))
+    p.uses_hysteresis = float(rig.compensation in ("hysteresis", "full"))
+    p.wsp_active = int(rig.wsp == "active")
+
+
+@_reads("brake.command", "brake.position", "brake.system.positions")
+def _command(p: Parameters, scenario: Scenario) -> None:
+    position = scenario.brake.system.positions[scenario.brake.position]
+    p.commanded_pressure = scenario.brake.command * position.maximum_pressure
+    p.dead_time = position.dead_time
+    p.filling_rate = 1.0 / position.fill_time
+
+
+@_reads("brake.system")
+def _supply(p: Parameters, scenario: Scenario) -> None:
+    system = scenario.brake.system
+    atmosphere = system.air.atmospheric_pressure
+    p.air = float(system.air.gas_constant) * float(system.air.temperature)
+    p.line_stiffness = system.tank.polytropic_exponent / system.brake_line.volume
+    p.reservoir_stiffness = p.air / system.reservoir.volume
+    p.reservoir_pressure = system.reservoir.initial_pressure + atmosphere
+    p.compressor_cut_in = system.compressor.cut_in_pressure + atmosphere
+    p.compressor_cut_out = system.compressor.cut_out_pressure + atmosphere
+
+
+@_reads(
+    "brake.system.critical_pressure_ratio",
+    "brake.system.laminar_pressure_ratio",
+    "brake.system.air.temperature",
+)
+def _orifices(p: Parameters, scenario: Scenario) -> None:
+    system = scenario.brake.system
+    p.flow_density, p.critical_ratio, p.subsonic_scale, p.laminar_slope = orifice_law(
+        float(system.critical_pressure_ratio),
+        float(system.laminar_pressure_ratio),
+        float(system.air.temperature),
+    )
+
+
+@_reads("brake.system.wsp_valve", "simulation.time_step", "controller.cycle_time")
+def _wsp_valve(p: Parameters, scenario: Scenario) -> None:
+    """Travel per step; switching delay in whole controller cycles and the steps that remain."""
+    valve = scenario.brake.system.wsp_valve
+    step = float(scenario.simulation.time_step)
+    steps_per_cycle = round(float(scenario.controller.cycle_time) / step)
+    p.valve_travel_per_step = min(step / max(float(valve.travel_time), step), 1.0)
+    p.valve_delay_cycles, p.valve_delay_steps = divmod(
+        round(float(valve.switching_delay) / step), steps_per_cycle
+    )
+
+
+@_reads("brake.system.caliper_tank", "brake.system.tank")
+def _caliper_tank(p: Parameters, scenario: Scenario) -> None:
+    system = scenario.brake.system
+    dead = system.caliper_tank.hose_and_dead_volume - system.caliper_tank.ball_volume
+    p.caliper_tank_volume = system.tank.volume + dead
+
+
+@_reads("rig.caliper", "simulation.time_step")
+def _caliper(p: Parameters, scenario: Scenario) -> None:
+    caliper = scenario.rig.caliper
+    (
+        p.piston_damping,
+        p.squeezing_stiffness,
+        p.releasing_stiffness,
+        p.free_compliance,
+        p.squeezing_compliance,
+        p.releasing_compliance,
+    ) = stiffnesses(
+        float(caliper.spring_rate),
+        float(caliper.load_friction),
+        float(caliper.viscous_friction),
+        float(caliper.contact_stiffness),
+        float(scenario.simulation.time_step),
+    )
+
+
+@_reads("rig.compensation_model.cylinder", "rig.compensation_model.sampling_time", "simulation.time_step")
+def _cylinder(p: Parameters, scenario: Scenario) -> None:
+    model = scenario.rig.compensation_model
+    numerator, denominator = resampled(
+        [float(b) for b in model.cylinder.numerator],
+        [float(a) for a in model.cylinder.denominator],
+        float(model.sampling_time),
+        float(scenario.simulation.time_step),
+    )
+    p.b0, p.b1, p.b2, p.b3 = numerator
+    p.a1, p.a2, p.a3 = denominator
+
+
+@_reads("rig.compensation_model.hysteresis", "simulation.time_step", "controller.cycle_time")
+def _hysteresis(p: Parameters, scenario: Scenario) -> None:
+    hysteresis = scenario.rig.compensation_model.hysteresis
+    step = float(scenario.simulation.time_step)
+    p.phase_change_per_step = min(step / max(float(hysteresis.transition_time), step), 1.0)
+    p.wsp_acting_cycles = round(hysteresis.wsp_acting_time / scenario.controller.cycle_time)
+
+
+@_reads("vehicle.body", "vehicle.bogie", "simulation.time_step")
+def _frames(p: Parameters, scenario: Scenario) -> None:
+    """What a force or moment on the car body or a bogie changes within one step."""
+    body, bogie = scenario.vehicle.body, scenario.vehicle.bogie
+    step = float(scenario.simulation.time_step)
+    p.body_mass_response = step / body.mass
+    p.body_pitch_response = step / body.pitch_inertia
+    p.bogie_mass_response = step / bogie.mass
+    p.bogie_pitch_response = step / bogie.pitch_inertia
+
+
+@_reads("vehicle.wheelset", "simulation.time_step")
+def _wheelset(p: Parameters, scenario: Scenario) -> None:
+    """What a force or moment on a wheelset changes within one step, and the inverses."""
+    wheelset = scenario.vehicle.wheelset
+    step = float(scenario.simulation.time_step)
+    by_mass = step / wheelset.mass
+    by_inertia = step / wheelset.rotational_inertia
+    slip_response = by_mass + wheelset.radius * wheelset.radius * by_inertia
+    p.mass_response = by_mass
+    p.inertia_response = by_inertia
+    p.inertia_stiffness = 1.0 / by_inertia
+    p.slip_response = slip_response
+    p.slip_stiffness = 1.0 / slip_response
+
+
+@_reads("vehicle")
+def _weight(p: Parameters, scenario: Scenario) -> None:
+    p.gravity = STANDARD_GRAVITY
+    p.static_wheel_load = scenario.vehicle.total_mass * STANDARD_GRAVITY / _WHEELS
+
+
+@_reads("rail.condition.contact")
+def _contact(p: Parameters, scenario: Scenario) -> None:
+    contact = scenario.rail.condition.contact
+    area = math.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
+    p.creep_stiffness = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
+
+
+@_reads("rail")
+def _friction(p: Parameters, scenario: Scenario) -> None:
+    p.friction_points = len(friction_along_track(scenario))
+    p.friction_times = len(friction_factor_over_time(scenario))
+
+
+@_reads("rig.sensors.speed", "vehicle.wheelset")
+def _speed_sensor(p: Parameters, scenario: Scenario) -> None:
+    p.tooth_pitch = 2.0 * math.pi * scenario.vehicle.wheelset.radius / scenario.rig.sensors.speed.teeth
+
+
+def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:
+    """Return places in m and friction coefficients, linear between them; a step is two points there."""
+    friction = scenario.rail.friction
+    if friction is None:
+        return [(0.0, float(scenario.rail.condition.friction))]
+    if isinstance(friction, float):
+        return [(0.0, float(friction))]
+    points = [(float(point.position), float(point.friction)) for point in friction.points]
+    if friction.interpolation == "linear":
+        return points
+    steps = points[:1]
+    for (_, before), (place, after) in pairwise(points):
+        steps += [(place, before), (place, after)]
+    return steps
+
+
+def friction_factor_over_time(scenario: Scenario) -> list[tuple[float, float]]:
+    """Return times in s and factors of the friction, linear between them."""
+    law = scenario.rail.friction_over_time
+    return [(0.0, _ALWAYS)] if law is None else [(float(p.time), float(p.factor)) for p in law.points]

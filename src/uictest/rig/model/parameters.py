@@ -1,0 +1,194 @@
+"""Parameters: the numbers that a case fixes, each declared once.
+
+:func:`~uictest.record.from_scenario` names the key of the scenario whose value the field holds; what is
+:func:`~uictest.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. SI units; pressures are
+absolute unless named gauge. The order of fields carries no meaning.
+"""
+
+from uictest.controllers import CONTROLLERS, ControllerCycle
+from uictest.measures import MeasureDefinition
+from uictest.record import derived, from_scenario, layout_of
+
+
+def inverse(value: float) -> float:
+    """Return 1 / ``value``: the step multiplies, for a division takes as long as dozens of products."""
+    return 1.0 / value
+
+
+def of_both_sides(value: float) -> float:
+    """Return the sum over the two axle boxes of a wheelset or the two sides of a bogie."""
+    return 2.0 * value
+
+
+class Parameters(ControllerCycle, MeasureDefinition):
+    """Everything that a case fixes, but for the parameters of its controller."""
+
+    # time
+    step: float = from_scenario("simulation.time_step")  # base step, s
+    steps_per_cycle: int = derived()
+    cycles: int = derived()  # longest stop, in controller cycles
+    # keys of the noise
+    seed: int = from_scenario("seed")
+    case_key: int = derived()  # CRC-32 of the case's id
+    # command and topology
+    initial_speed: float = from_scenario("initial_speed")  # m/s
+    calipers: int = derived()  # modules with a real caliper: 1 or 4
+    uses_cylinder_dynamics: float = derived()  # 0 or 1, in modules without a caliper
+    uses_hysteresis: float = derived()  # 0 or 1, in modules without a caliper
+    wsp_active: int = derived()  # 0: the valves always fill
+    # brake operating unit, reservoir, compressor, brake line
+    commanded_pressure: float = derived()  # demanded once the brake is fully applied, gauge, Pa
+    dead_time: float = derived()  # from the command to the first demand, s
+    filling_rate: float = derived()  # share of the commanded pressure per second
+    relay_conductance: float = from_scenario("brake.system.relay_valve.conductance")  # m3/(s Pa)
+    relay_gain: float = from_scenario(
+        "brake.system.relay_valve.proportional_band", inverse
+    )  # opening per missing Pa
+    line_volume: float = from_scenario("brake.system.brake_line.volume")  # m3
+    line_stiffness: float = derived()  # polytropic exponent over its volume, 1/m3
+    reservoir_volume: float = from_scenario("brake.system.reservoir.volume")  # m3
+    reservoir_stiffness: float = derived()  # pressure per mass of air, Pa/kg
+    reservoir_pressure: float = derived()  # at the start, Pa
+    compressor_cut_in: float = derived()  # Pa
+    compressor_cut_out: float = derived()  # Pa
+    compressor_delivery: float = from_scenario("brake.system.compressor.delivery")  # kg/s
+    # air and orifices
+    atmospheric_pressure: float = from_scenario("brake.system.air.atmospheric_pressure")  # Pa
+    gas_constant: float = from_scenario("brake.system.air.gas_constant")  # J/(kg K)
+    air_temperature: float = from_scenario("brake.system.air.temperature")  # K
+    air: float = derived()  # gas constant times temperature, J/kg
+    polytropic_exponent: float = from_scenario("brake.system.tank.polytropic_exponent")
+    flow_density: float = derived()  # this and the next three: physics.flow.orifice_law
+    critical_ratio: float = derived()
+    subsonic_scale: float = derived()
+    laminar_slope: float = derived()
+    # WSP valve and tanks
+    fill_conductance: float = from_scenario("brake.system.wsp_valve.fill_conductance")  # m3/(s Pa)
+    vent_conductance: float = from_scenario("brake.system.wsp_valve.vent_conductance")  # m3/(s Pa)
+    valve_travel_per_step: float = derived()  # share of full opening
+    valve_delay_cycles: int = derived()  # whole controller cycles of the switching delay
+    valve_delay_steps: float = derived()  # and the steps that remain of it
+    tank_volume: float = from_scenario("brake.system.tank.volume")  # module without a caliper, m3
+    caliper_tank_volume: float = derived()  # module with a caliper, piston at rest, m3
+    # caliper
+    piston_area: float = from_scenario("rig.caliper.piston_area")  # m2
+    preload: float = from_scenario("rig.caliper.preload")  # N
+    coulomb_friction: float = from_scenario("rig.caliper.coulomb_friction")  # N
+    clearance: float = from_scenario("rig.caliper.clearance")  # m
+    piston_damping: float = derived()  # this and the next five: physics.caliper.stiffnesses
+    squeezing_stiffness: float = derived()
+    releasing_stiffness: float = derived()
+    free_compliance: float = derived()
+    squeezing_compliance: float = derived()
+    releasing_compliance: float = derived()
+    contact_stiffness: float = from_scenario("rig.caliper.contact_stiffness")  # N/m
+    lever_ratio: float = from_scenario("rig.caliper.lever_ratio")
+    # compensation: coefficients of the cylinder's transfer function at this step
+    b0: float = derived()
+    b1: float = derived()
+    b2: float = derived()
+    b3: float = derived()
+    a1: float = derived()
+    a2: float = derived()
+    a3: float = derived()
+    # compensation: lines of force over pressure, N/Pa and N
+    linear_slope: float = from_scenario("rig.compensation_model.linear.slope")
+    linear_intercept: float = from_scenario("rig.compensation_model.linear.intercept")
+    bc_squeezing_slope: float = from_scenario("rig.compensation_model.hysteresis.bc_squeezing.slope")
+    bc_squeezing_intercept: float = from_scenario("rig.compensation_model.hysteresis.bc_squeezing.intercept")
+    bc_releasing_slope: float = from_scenario("rig.compensation_model.hysteresis.bc_releasing.slope")
+    bc_releasing_intercept: float = from_scenario("rig.compensation_model.hysteresis.bc_releasing.intercept")
+    wsp_squeezing_slope: float = from_scenario("rig.compensation_model.hysteresis.wsp_squeezing.slope")
+    wsp_squeezing_intercept: float = from_scenario(
+        "rig.compensation_model.hysteresis.wsp_squeezing.intercept"
+    )
+    wsp_releasing_slope: float = from_scenario("rig.compensation_model.hysteresis.wsp_releasing.slope")
+    wsp_releasing_intercept: float = from_scenario(
+        "rig.compensation_model.hysteresis.wsp_releasing.intercept"
+    )
+    phase_change_per_step: float = derived()  # share of the way between the two pairs of lines
+    wsp_acting_cycles: int = derived()  # cycles of filling after which the WSP no longer counts as acting
+    # disc brake
+    calipers_per_wheelset: float = from_scenario("brake.system.disc.calipers_per_wheelset")
+    pads_per_caliper: float = from_scenario("brake.system.disc.pads_per_caliper")
+    pad_friction: float = from_scenario("brake.system.disc.pad_friction")
+    disc_radius: float = from_scenario("brake.system.disc.mean_radius")  # m
+    # car body and bogies
+    body_mass: float = from_scenario("vehicle.body.mass")  # kg
+    body_inertia: float = from_scenario("vehicle.body.pitch_inertia")  # kg m2
+    body_mass_response: float = derived()  # step over mass, s/kg
+    body_pitch_response: float = derived()  # step over inertia, s/(kg m2)
+    body_height: float = from_scenario("vehicle.body.height")  # m
+    bogie_mass: float = from_scenario("vehicle.bogie.mass")  # kg
+    bogie_inertia: float = from_scenario("vehicle.bogie.pitch_inertia")  # kg m2
+    bogie_mass_response: float = derived()  # s/kg
+    bogie_pitch_response: float = derived()  # s/(kg m2)
+    bogie_height: float = from_scenario("vehicle.bogie.height")  # m
+    half_wheelbase: float = from_scenario("vehicle.bogie.half_wheelbase")  # m
+    half_pivot_distance: float = from_scenario("vehicle.half_pivot_distance")  # m
+    # wheelset
+    wheelset_mass: float = from_scenario("vehicle.wheelset.mass")  # kg
+    wheelset_inertia: float = from_scenario("vehicle.wheelset.rotational_inertia")  # kg m2
+    wheel_radius: float = from_scenario("vehicle.wheelset.radius")  # m
+    mass_response: float = derived()  # step over wheelset mass, s/kg
+    inertia_response: float = derived()  # step over wheelset inertia, s/(kg m2)
+    inertia_stiffness: float = derived()  # its inverse
+    slip_response: float = derived()  # change of slip speed in a step per creep force, m/(s N)
+    slip_stiffness: float = derived()  # its inverse
+    # suspensions: primary per wheelset, secondary per bogie, N/m and N s/m
+    primary_longitudinal_stiffness: float = from_scenario(
+        "vehicle.primary.longitudinal_stiffness", of_both_sides
+    )
+    primary_longitudinal_damping: float = from_scenario("vehicle.primary.longitudinal_damping", of_both_sides)
+    primary_vertical_stiffness: float = from_scenario("vehicle.primary.vertical_stiffness", of_both_sides)
+    primary_vertical_damping: float = from_scenario("vehicle.primary.vertical_damping", of_both_sides)
+    secondary_longitudinal_stiffness: float = from_scenario(
+        "vehicle.secondary.longitudinal_stiffness", of_both_sides
+    )
+    secondary_longitudinal_damping: float = from_scenario(
+        "vehicle.secondary.longitudinal_damping", of_both_sides
+    )
+    secondary_vertical_stiffness: float = from_scenario("vehicle.secondary.vertical_stiffness", of_both_sides)
+    secondary_vertical_damping: float = from_scenario("vehicle.secondary.vertical_damping", of_both_sides)
+    secondary_height: float = from_scenario("vehicle.secondary.height")  # m
+    link_stiffness: float = from_scenario("vehicle.traction_link.stiffness")  # per bogie
+    link_damping: float = from_scenario("vehicle.traction_link.damping")
+    link_height: float = from_scenario("vehicle.traction_link.height")  # m
+    # running resistance and weight
+    resistance_constant: float = from_scenario("vehicle.running_resistance.constant")  # N
+    resistance_linear: float = from_scenario("vehicle.running_resistance.linear")  # N s/m
+    resistance_quadratic: float = from_scenario("vehicle.running_resistance.quadratic")  # N s2/m2
+    gravity: float = derived()  # m/s2
+    static_wheel_load: float = derived()  # of one wheel, N
+    # wheel and rail
+    gradient: float = from_scenario("rail.gradient")  # positive uphill
+    friction_ratio: float = from_scenario("rail.condition.friction_ratio")
+    friction_decay: float = from_scenario("rail.condition.friction_decay")  # s/m
+    reduction_adhesion: float = from_scenario("rail.condition.reduction_adhesion")
+    reduction_slip: float = from_scenario("rail.condition.reduction_slip")
+    creep_stiffness: float = derived()  # (1/4) G pi a b c11 at the reference load, N
+    reference_load: float = from_scenario("rail.condition.contact.reference_wheel_load")  # N
+    load_scale: float = from_scenario("rail.condition.contact.reference_wheel_load", inverse)  # 1/N
+    friction_points: int = derived()  # points of the friction along the track
+    friction_times: int = derived()  # points of its factor over time
+    # sensors
+    tooth_pitch: float = derived()  # at the tread, m
+    timer_resolution: float = from_scenario("rig.sensors.speed.timer_resolution")  # s
+    slowest_measured_speed: float = from_scenario("rig.sensors.speed.minimum_speed")  # m/s
+    speed_noise: float = from_scenario("rig.sensors.speed.noise")  # share of the reading
+    pressure_range: float = from_scenario("rig.sensors.pressure.range")  # Pa
+    pressure_gain_error: float = from_scenario("rig.sensors.pressure.gain_error")
+    pressure_offset: float = from_scenario("rig.sensors.pressure.offset")  # Pa
+    pressure_noise: float = from_scenario("rig.sensors.pressure.noise")  # Pa
+    pressure_resolution: float = from_scenario("rig.sensors.pressure.resolution")  # Pa
+    pressure_steps: float = from_scenario("rig.sensors.pressure.resolution", inverse)  # per Pa
+    loadcell_range: float = from_scenario("rig.sensors.loadcell.range")  # N
+    loadcell_gain_error: float = from_scenario("rig.sensors.loadcell.gain_error")
+    loadcell_offset: float = from_scenario("rig.sensors.loadcell.offset")  # N
+    loadcell_noise: float = from_scenario("rig.sensors.loadcell.noise")  # N
+    loadcell_resolution: float = from_scenario("rig.sensors.loadcell.resolution")  # N
+    loadcell_steps: float = from_scenario("rig.sensors.loadcell.resolution", inverse)  # per N
+
+
+PARAMETERS = layout_of(Parameters, *(controller.parameters for controller in CONTROLLERS.values()))
+"""Layout of :class:`Parameters` and of the parameters of every controller."""

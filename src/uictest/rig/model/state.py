@@ -1,0 +1,132 @@
+"""State of the rig: car, bogies and wheelsets.
+
+SI units; pressures are absolute unless named gauge. The order of fields carries no meaning.
+"""
+
+from uictest.controllers import CONTROLLERS, ControlledWheelset, TrainMemory
+from uictest.record import Record, layout_of
+
+
+class Frame(Record):
+    """Motion of a rigid frame in the plane, and the forces summed on it."""
+
+    position: float  # m
+    speed: float  # m/s
+    height: float  # above the position at rest, m
+    vertical_speed: float  # m/s
+    pitch: float  # rad
+    pitch_rate: float  # rad/s
+    longitudinal_force: float  # N
+    vertical_force: float  # N
+    moment: float  # N m
+
+
+class Car(Frame, TrainMemory):
+    """State of the car body, the air supply and the ledgers."""
+
+    steps: float  # done so far
+    substep: float  # within the controller cycle
+    cycle: int  # of the controller, begun so far
+    time: float  # steps x step, never accumulated
+    # air
+    reservoir_mass: float
+    reservoir_pressure: float
+    compressor_running: float
+    line_pressure: float
+    line_mass: float
+    demanded_pressure: float  # at present, gauge, Pa
+    # ledgers
+    compressor_air: float  # delivered, kg
+    consumed_air: float  # taken from the reservoir, kg
+    exhausted_air: float  # let out by the relay valve, kg
+    damper_loss: float  # J
+    resistance_loss: float  # J
+    initial_energy: float  # J
+    initial_air: float  # kg
+    # standstill, interpolated within the step
+    stopped: float
+    stop_time: float
+    stop_position: float
+
+
+class Bogie(Frame):
+    """State of one bogie frame; two of them."""
+
+    ahead: float  # of the car body's centre, m
+
+
+class Wheelset(ControlledWheelset):
+    """State of one wheelset and its module; four of them, numbered from the leading end."""
+
+    has_caliper: float  # 1 when its module has a real caliper, 0 when it is a tank
+    ahead: float  # of its bogie's centre, m
+    behind: float  # the leading wheelset, m
+    # valve
+    command_register: int  # the commands before the newest
+    filling_cycles: int  # since the last command other than fill
+    fill_before: float  # target openings before and after the switching instant of this cycle
+    fill_after: float
+    vent_before: float
+    vent_after: float
+    fill_opening: float
+    vent_opening: float
+    venting: float  # 1 while the newest command is to vent
+    wsp_acting: float
+    # air
+    pressure: float
+    air_mass: float
+    vented_air: float
+    # caliper
+    stroke: float
+    stroke_change: float
+    caliper_force: float
+    # compensation
+    memory_1: float
+    memory_2: float
+    memory_3: float
+    wsp_share: float
+    compensated_pressure: float  # gauge, after the cylinder dynamics
+    computed_force: float
+    # sensors, held for a controller cycle
+    pressure_error: float  # momentary noise, Pa
+    loadcell_error: float  # N
+    # brake and rail
+    clamping_force: float  # as the vehicle simulation receives it
+    torque: float
+    friction: float
+    wheel_load: float
+    thrust: float  # of suspension and gradient on the wheelset
+    contact_stiffness: float
+    creep_force: float  # of both wheels, against the motion
+    # search for the slip speed within a step: sizes, m/s
+    slip_direction: float
+    free_slip: float
+    lowest_slip: float
+    highest_slip: float
+    slip_estimate: float
+    sliding_force: float  # creep force at the last slip speed, N
+    # creep at the estimated slip speed: physics.polach.stress_gradient
+    friction_limit: float  # of one wheel, N
+    limit_slope: float  # N s/m
+    stress_numerator: float
+    stress_denominator: float
+    inverse_adhesion: float
+    inverse_slip: float
+    stress_angle: float
+    stress_tangent: float
+    # motion
+    position: float
+    speed: float
+    rotation: float
+    slip_speed: float
+    # ledgers
+    brake_heat: float  # J
+    contact_loss: float  # J
+
+
+CAR = layout_of(Car, *(controller.train_memory for controller in CONTROLLERS.values()))
+"""Layout of :class:`Car` and of what every controller remembers about the train."""
+BOGIE = layout_of(Bogie)
+"""Layout of :class:`Bogie`."""
+WHEELSET = layout_of(Wheelset, *(controller.wheelset_memory for controller in CONTROLLERS.values()))
+"""Layout of :class:`Wheelset` and of what every controller remembers about a wheelset."""
