@@ -114,6 +114,15 @@ Output = Annotated[
     Path,
     typer.Option("-o", "--output", metavar="DIR", help="Folder in which each run gets a folder of its own."),
 ]
+ExitFirst = Annotated[bool, typer.Option("-x", help="Stop at the first case that is not met.")]
+MaxFail = Annotated[
+    int | None,
+    typer.Option("--maxfail", metavar="N", min=1, help="Stop at the Nth case that is not met."),
+]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="List what would run, and run nothing.")]
+JUnitFile = Annotated[
+    Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
+]
 Jobs = Annotated[
     int, typer.Option("-n", "--jobs", metavar="N|auto", parser=_jobs, help="Threads to simulate on.")
 ]

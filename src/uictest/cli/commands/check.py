@@ -10,11 +10,11 @@ from typing import Annotated
 import typer
 
 from uictest import scenario, sweep
+from uictest.cli import sweep as sweeping
 from uictest.cli.cases import scenario_paths
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.streams import data, message
-from uictest.cli.sweep_files import is_sweep, sweep_files
 from uictest.report import annotation, counted
 from uictest.scenario import yaml
 
@@ -32,8 +32,8 @@ def check(
 ) -> ExitCode:
     """Validate scenario and sweep files and what they refer to. Every error is shown with its place."""
     given = scenario_paths(paths)
-    found, sound = _scenarios([path for path in given if not is_sweep(path)], trusted or ())
-    sweeps = list(sweep_files(given))
+    found, sound = _scenarios([path for path in given if not sweeping.is_sweep(path)], trusted or ())
+    sweeps = list(sweeping.sweep_files(given))
     for path in sweeps:
         found.extend(_errors_of_sweep(path, given, trusted or ()))
     if found:

@@ -6,11 +6,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from uictest.cli import sweep as sweeping
 from uictest.cli.cases import case_lines, case_table, cases_json, load_cases, nothing_selected, select_cases
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
 from uictest.cli.streams import data, message, terminal_width
-from uictest.cli.sweep_files import is_sweep
 
 
 def list_cases(
@@ -23,7 +23,7 @@ def list_cases(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """List the ids of all cases, one per line. With -v, their titles and tags. A sweep must be named."""
-    if paths and all(map(is_sweep, paths)):
+    if paths and all(map(sweeping.is_sweep, paths)):
         return _list_sweeps(paths, expression, overrides, trusted)
     cases = load_cases(paths, overrides, None, trusted)
     selected = select_cases(cases, expression, tag)
@@ -46,11 +46,12 @@ def _list_sweeps(
     overrides: Sequence[str] | None,
     trusted: Sequence[Path] | None,
 ) -> ExitCode:
-    from uictest.cli.commands.sweep import load_plan, selected_cases, show_ids
-
-    selections = [selected_cases(load_plan(path, overrides, None, trusted), expression) for path in paths]
+    selections = [
+        sweeping.selected_cases(sweeping.load_plan(path, overrides, None, trusted), expression)
+        for path in paths
+    ]
     for selection in selections:
-        if not show_ids(selection):
+        if not sweeping.show_ids(selection):
             break
     if any(selection.size for selection in selections):
         return ExitCode.MET

@@ -22,9 +22,13 @@ from uictest.cli.exit_codes import ExitCode, of_campaign, worst
 from uictest.cli.options import (
     Colour,
     Colouring,
+    DryRun,
+    ExitFirst,
     Expression,
     Format,
     Jobs,
+    JUnitFile,
+    MaxFail,
     Output,
     Overrides,
     Paths,
@@ -55,17 +59,12 @@ def run(
     overrides: Overrides = None,
     seed: Seed = None,
     trusted: Trusted = None,
-    exit_first: Annotated[bool, typer.Option("-x", help="Stop at the first case that is not met.")] = False,
-    maxfail: Annotated[
-        int | None,
-        typer.Option("--maxfail", metavar="N", min=1, help="Stop at the Nth case that is not met."),
-    ] = None,
+    exit_first: ExitFirst = False,
+    maxfail: MaxFail = None,
     jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="List what would run, and run nothing.")] = False,
+    dry_run: DryRun = False,
     output: Output = Path("reports"),
-    junit: Annotated[
-        Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
-    ] = None,
+    junit: JUnitFile = None,
     recorded: Recording = Recorded.FAILED,
     record_rate: RecordRate = 100.0,
     shown: RunFormat = Format.TEXT,

@@ -1,13 +1,51 @@
-"""The result of a sweep as text on the terminal."""
+"""Show the cases and the result of a sweep on stdout."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 
-from uictest import report
-from uictest.report import circumstances_words, flip_words, not_judged_words
+from uictest import report, sweep
+from uictest.cli.options import Format
+from uictest.cli.streams import data, terminal_width
+from uictest.report import printable
 
 _MOST_ROWS = 30
+_IDS_AT_ONCE = 4096
+
+
+def show_ids(selection: sweep.CaseSelection) -> bool:
+    """Write the ids of the selected cases to stdout, one per line; return whether somebody read them all."""
+    for first in range(0, selection.size, _IDS_AT_ONCE):
+        indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
+        if not data("\n".join(map(printable, selection.plan.ids(indices)))):
+            return False
+    return True
+
+
+def show_result(result: report.SweepResult, document: str, shown: Format, *, quiet: bool) -> None:
+    """Write the result document, or maps, rates and the frontier as text, to stdout.
+
+    If `quiet`, write only the cases that missed their expectation; annotations list these already.
+    """
+    if shown is Format.JSON:
+        data(document.rstrip("\n"))
+        return
+    if quiet and shown is Format.GITHUB:
+        return
+    width = terminal_width(sys.stdout)
+    for line in missed_lines(result) if quiet else result_lines(result, width):
+        text = printable(line) if line else line
+        if shown is Format.GITHUB:
+            data(report.no_command(text))
+        else:
+            data(text if width is None else "\n".join(report.wrapped_name(text, width)))
+
+
+def show_annotations(content: report.SweepContent) -> None:
+    """Write the worst missed cases and the counts of the sweep as annotations to stdout."""
+    for line in report.sweep_annotations(content):
+        data(line)
 
 
 def result_lines(result: report.SweepResult, width: int | None = None) -> Iterator[str]:
@@ -55,7 +93,7 @@ def _share(count: report.OutcomeCount) -> str:
     share = count.share_met
     if share is None:
         return "-"
-    words = not_judged_words(count.outcomes)
+    words = report.not_judged_words(count.outcomes)
     return f"{count.met} of {count.cases}  {100.0 * share:.1f} %{words}"
 
 
@@ -75,7 +113,9 @@ def _sensitivities(result: report.SweepResult) -> Iterator[str]:
 
 
 def _parameter(each: report.SobolSensitivity) -> str:
-    return f"{each.key} at {circumstances_words(each.circumstances)}" if each.circumstances else each.key
+    return (
+        f"{each.key} at {report.circumstances_words(each.circumstances)}" if each.circumstances else each.key
+    )
 
 
 def _most_important(scans: Sequence[report.FrontierScan]) -> Sequence[report.FrontierScan]:
@@ -88,9 +128,9 @@ def _most_important(scans: Sequence[report.FrontierScan]) -> Sequence[report.Fro
 def _frontier(frontier: report.Frontier) -> Iterator[str]:
     yield f"frontier along {frontier.parameter}"
     for scan in _most_important(frontier.scans):
-        flips = "; ".join(map(flip_words, scan.flips))
+        flips = "; ".join(map(report.flip_words, scan.flips))
         text = "; ".join(part for part in (flips, scan.note) if part)
-        yield f"  {circumstances_words(scan.circumstances)}: {text}"
+        yield f"  {report.circumstances_words(scan.circumstances)}: {text}"
     if len(frontier.scans) > _MOST_ROWS:
         yield f"  {len(frontier.scans) - _MOST_ROWS} more in frontier.csv"
     yield ""

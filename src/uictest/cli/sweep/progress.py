@@ -1,4 +1,4 @@
-"""How far a sweep has come: a bar with rate and time left on a terminal, a line now and then elsewhere."""
+"""Progress of a sweep: a bar with rate and remaining time on a terminal, else a line now and then."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Advance = Callable[[int], None]
 
 @contextlib.contextmanager
 def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
-    """Lend a function to call with the number of cases finished since; `done` of `total` were before."""
+    """Lend a function that counts finished cases; `done` of `total` were finished before."""
     if quiet:
         yield lambda cases: None
     elif interactive(sys.stderr):
@@ -50,22 +50,22 @@ def _bar(total: int, done: int) -> Iterator[Advance]:
 
 
 class _Heartbeat:
-    """A line when a part is finished, unless the last one is fresh."""
+    """A line when a chunk is finished, unless the last line is recent."""
 
     def __init__(self, total: int, done: int) -> None:
         self._total, self._before, self._done = total, done, 0
-        self._started = self._said = monotonic()
+        self._started = self._last_line = monotonic()
 
     def advance(self, cases: int) -> None:
-        """Count finished cases, and say so where nothing was said for a while."""
+        """Count finished cases, and print a line if the last one is old enough."""
         self._done += cases
         now = monotonic()
-        if now - self._said >= steps.HEARTBEAT:
-            self._said = now
+        if now - self._last_line >= steps.HEARTBEAT:
+            self._last_line = now
             message(self._line(now - self._started))
 
     def _line(self, seconds: float) -> str:
         rate = self._done / seconds
         finished = self._before + self._done
-        left = (self._total - finished) / rate
-        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {left:.0f} s left"
+        remaining = (self._total - finished) / rate
+        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"

@@ -2,7 +2,8 @@
 
 import pytest
 
-from uictest.cli import progress, sweep_progress
+from uictest.cli import progress
+from uictest.cli.sweep import progress as sweep_progress
 
 
 def test_a_line_now_and_then_with_rate_and_time_left(

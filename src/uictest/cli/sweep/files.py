@@ -1,4 +1,4 @@
-"""Sweep files among paths: they are listed and checked in their own way."""
+"""Find the sweep files among paths."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def is_sweep(path: Path) -> bool:
 
 
 def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
-    """Yield the sweep files named, and those below folders, hidden ones left out."""
+    """Yield the sweep files among the paths, and those below folders that are not hidden."""
     for path in paths:
         if path.is_dir():
             below = sorted(path.rglob("*.sweep.y*ml"), key=Path.as_posix)

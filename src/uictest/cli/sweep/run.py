@@ -1,23 +1,19 @@
-"""Run a sweep: its chunks, then its findings."""
+"""Run the chunks of a sweep."""
 
 from __future__ import annotations
 
 import io
-import shutil
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
-from uictest import campaign, recording, report, rig, sweep
+from uictest import rig, sweep
 from uictest.cli.compilation import announce_compilation
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import message
-from uictest.cli.sweep_display import reason_missed
-from uictest.cli.sweep_progress import sweep_progress
-from uictest.evaluation import CaseResult
+from uictest.cli.sweep.display import reason_missed
+from uictest.cli.sweep.progress import sweep_progress
 from uictest.report import counted
 from uictest.sweep import (
     CaseSelection,
@@ -200,81 +196,3 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
     columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
     rows = zip(*(columns[name] for name in names), strict=True)
     return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
-
-
-def publish(run: SweepRun, store: ChunkStore) -> tuple[report.SweepResult, str, report.SweepContent]:
-    """Write the result of a finished sweep; return it, its document, and what reports show.
-
-    Raises OSError, and MissingChunksError.
-    """
-    summary = sweep.summarize(run.selection, store, run.pair, run.measures)
-    frontier = None if run.search is None else _frontier(run, summary, run.search)
-    worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
-    result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
-    file = run.selection.plan.file
-    document = report.write_sweep_result(store.folder, result, file)
-    content = _write_reports(run, store.folder)
-    if run.junit is not None:
-        recording.write_text_atomic(run.junit, report.sweep_junit_xml(result, file))
-    store.remove_partial_files()
-    return result, document, content
-
-
-def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
-    content = report.read_sweep(folder, traces=report.draws_stops(run.formats))
-    report.write_sweep_formats(folder, content, run.formats)
-    # The results are written already: a step summary that cannot be written is no reason to fail.
-    try:
-        report.append_sweep_step_summary(content)
-    except OSError as error:
-        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
-    return content
-
-
-def _run_worst(
-    run: SweepRun, indices: Sequence[int], folder: Path
-) -> tuple[tuple[CaseResult, ...], Mapping[str, report.CaseDescription]]:
-    """Run the worst cases again, with explanations and recordings, which go beside the tables.
-
-    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt where it is
-    interrupted.
-    """
-    cases = sweep.cases_of(run.selection.plan, indices)
-    shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
-
-    def write_recording(case_run: campaign.CaseRun) -> None:
-        if case_run.recording is not None:
-            report.write_recording(folder, case_run.result.id, case_run.recording)
-
-    request = campaign.RecordingRequest("all")
-    request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
-    parts = campaign.parts_of_cases(cases)
-    batch = campaign.run_cases(
-        cases, jobs=run.jobs, recording=request, parts=parts, on_result=write_recording
-    )
-    if batch.interrupted:
-        raise KeyboardInterrupt
-    return tuple(batch.results), campaign.subjects_of(cases)
-
-
-def _frontier(run: SweepRun, summary: sweep.SweepSummary, search: FrontierSearch) -> report.Frontier:
-    if not run.quiet:
-        message(f"uictest: searching the frontier along {search.key}")
-    simulate = prepared_runner(run).simulate
-    scans = search.run(
-        summary.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
-    )
-    return report.Frontier(search.key, tuple(scans))
-
-
-def exit_code(result: report.SweepResult) -> ExitCode:
-    """Return the exit code of a complete sweep: an error takes precedence over a missed case."""
-    if result.outcomes["error"]:
-        return ExitCode.ERROR
-    return ExitCode.MET if result.met == result.cases else ExitCode.MISSED
-
-
-def sum_up(run: SweepRun, result: report.SweepResult, started: float) -> None:
-    """Report on stderr the counts of the sweep and the folder of its files."""
-    seconds = perf_counter() - started
-    message(f"uictest: {report.sweep_tally(result)} in {seconds:.1f} s; results in {run.folder}")
