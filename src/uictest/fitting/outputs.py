@@ -9,6 +9,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
+import yaml
+
 from uictest import library
 from uictest.fitting.estimate import Fit
 from uictest.fitting.overlay import Agreement
@@ -33,8 +35,6 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
     Raises ValueError where a value cannot be written below a part that the scenario only refers to.
 
     """
-    import yaml
-
     content: dict[str, Any] = {
         "schema": "uictest/scenario/1",
         "name": f"{case.scenario.name[:_LONGEST_NAME]}-fitted",

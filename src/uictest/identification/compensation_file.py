@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import yaml
+
 from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
 from uictest.scenario import Compensation, Files, Parts, Roots
 from uictest.scenario.yaml import Quantity, Scalar, whole_file
+from uictest.units import BAR, KILONEWTON
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
@@ -98,7 +101,7 @@ def with_hysteresis(
     }
     fit = (
         f"force error on held-out parts: largest {100.0 * result.largest_error:.2f} %,"
-        f" rms {100.0 * result.rms_error:.2f} % of {result.largest_force / 1e3:.2f} kN"
+        f" rms {100.0 * result.rms_error:.2f} % of {result.largest_force / KILONEWTON:.2f} kN"
     )
     sources = {
         source: _identified("Four-phase hysteresis", provenance, fit),
@@ -126,7 +129,7 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
     }
     fit = (
         f"pressure error on held-out parts: largest {100.0 * result.largest_after:.2f} %"
-        f" ({100.0 * result.largest_before:.2f} % without) of {result.largest_pressure / 1e5:.3f} bar,"
+        f" ({100.0 * result.largest_before:.2f} % without) of {result.largest_pressure / BAR:.3f} bar,"
         f" fit {result.fit:.2f} %"
     )
     sources = {source: _identified("Cylinder dynamics", provenance, fit)}
@@ -193,8 +196,6 @@ def _text(
     facts: Mapping[str, str],
 ) -> str:
     """The file as YAML."""
-    import yaml
-
     described = {**{key: each.model_dump() for key, each in base.sources.items()}, **sources}
     used = set(_sources_of(numbers))
     document = {
@@ -209,7 +210,7 @@ def _text(
         "# What stands in for a caliper: equations (4)-(7) and (8) of the source, with identified numbers.\n"
     )
     return heading + yaml.dump(
-        document, Dumper=_dumper(), sort_keys=False, width=118, allow_unicode=True, default_flow_style=False
+        document, Dumper=_Dumper, sort_keys=False, width=118, allow_unicode=True, default_flow_style=False
     )
 
 
@@ -233,25 +234,24 @@ class _Number(dict[str, str]):
     """A value with its source, written on one line."""
 
 
-def _dumper() -> Any:
-    import yaml
+class _Dumper(yaml.SafeDumper):
+    """Writes numbers with their source on one line and values of numbers without quotes."""
 
-    class Dumper(yaml.SafeDumper):
-        """Writes numbers with their source in one line and values of numbers without quotes."""
 
-    def write(dumper: Any, number: Mapping[str, str]) -> Any:
-        nodes = [
-            (dumper.represent_str("value"), _plain(dumper, number["value"])),
-            (dumper.represent_str("source"), dumper.represent_str(number["source"])),
-        ]
-        return yaml.MappingNode("tag:yaml.org,2002:map", nodes, flow_style=True)
+def _represent_number(dumper: Any, number: Mapping[str, str]) -> Any:
+    nodes = [
+        (dumper.represent_str("value"), _represent_value(dumper, number["value"])),
+        (dumper.represent_str("source"), dumper.represent_str(number["source"])),
+    ]
+    return yaml.MappingNode("tag:yaml.org,2002:map", nodes, flow_style=True)
 
-    def _plain(dumper: Any, text: str) -> Any:
-        try:
-            float(text)
-        except ValueError:
-            return dumper.represent_str(text)
-        return yaml.ScalarNode("tag:yaml.org,2002:float", text)
 
-    Dumper.add_representer(_Number, write)
-    return Dumper
+def _represent_value(dumper: Any, text: str) -> Any:
+    try:
+        float(text)
+    except ValueError:
+        return dumper.represent_str(text)
+    return yaml.ScalarNode("tag:yaml.org,2002:float", text)
+
+
+_Dumper.add_representer(_Number, _represent_number)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.identification.phases import runs
+from uictest.units import BAR
 
 Samples = NDArray[np.float64]
 EVENNESS = 0.01
@@ -59,7 +60,7 @@ def require_excitation(name: str, pressure: Samples, step: float) -> None:
     """
     span = float(np.ptp(pressure))
     if span < _SMALLEST_SPAN:
-        raise UnsuitableRecordError(f"no excitation: {name!r} varies by {span / 1e5:.3g} bar only")
+        raise UnsuitableRecordError(f"no excitation: {name!r} varies by {span / BAR:.3g} bar only")
     every = max(round(_SPACING / step), 1)
     swings = len(runs(pressure[::every], _SWING * span))
     if swings < _FEWEST_SWINGS:
@@ -69,7 +70,8 @@ def require_excitation(name: str, pressure: Samples, step: float) -> None:
         )
 
 
-_SMALLEST_SPAN = 0.2e5
+_SMALLEST_SPAN = 0.2 * BAR
+"""Pa; chosen."""
 _FEWEST_SWINGS = 4
 _SWING = 0.1
 _SPACING = 0.01

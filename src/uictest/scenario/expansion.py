@@ -45,13 +45,13 @@ def expand(tree: Map) -> list[Variant]:
     Raises ScenarioErrors with every error of the four sections.
     """
     diagnostics: list[Diagnostic] = []
-    variants = expand_sound(tree, diagnostics)
+    variants = expand_valid(tree, diagnostics)
     if diagnostics:
         raise ScenarioErrors(diagnostics)
     return variants
 
 
-def expand_sound(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
+def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
     """As :func:`expand`, but append errors to ``diagnostics`` and return the cases of the valid values.
 
     If there are too many, every value occurs in at least one case.
@@ -104,7 +104,7 @@ def _axis(section: str, key: str, entry: Entry, diagnostics: list[Diagnostic]) -
                 entry.node.place,
                 message,
                 f"{section}.{key}",
-                short_example(f"write [{as_written(entry.node)}]"),
+                short_example(f"write `[{as_written(entry.node)}]`"),
             )
         )
         return (Setting(key, entry, 1),)
@@ -156,7 +156,8 @@ def _malformed(node: Node, section: str, message: str) -> Diagnostic:
 def _unequal(zipped: list[Axis]) -> Iterator[Diagnostic]:
     for axis in zipped[1:]:
         if len(axis) != len(zipped[0]):
-            message = f"{len(axis)} values where {quoted(zipped[0][0].key)} has {len(zipped[0])}"
+            count = "1 value" if len(axis) == 1 else f"{len(axis)} values"
+            message = f"{count}, but {quoted(zipped[0][0].key)} has {len(zipped[0])}"
             hint = "lists under zip must be equally long; matrix combines lists of any length"
             yield diagnose(axis[0].value.key, message, f"zip.{axis[0].key}", hint)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from uictest.scenario.discovery import scenario_trees
-from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_sound
+from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.scenario.identifiers import LONGEST, case_id, short_keys
 from uictest.scenario.model import SCENARIO_SCHEMA, Case
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
@@ -63,8 +63,8 @@ def load(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Stem:
-    """What the cases of one file have in common."""
+class _ScenarioFile:
+    """One scenario file: what its cases share, and the case of every id."""
 
     path: Path
     tree: Map
@@ -81,22 +81,22 @@ class _Loader:
         self.parts = Parts(files)
         self.overrides = overrides
         self.diagnostics: list[Diagnostic] = []
-        self.stems: dict[str, _Stem] = {}
+        self.file_of_id: dict[str, _ScenarioFile] = {}
 
     def cases(self, path: Path, tree: Map) -> Iterator[Case]:
         """Yield the cases of one file, as far as they are without errors."""
         try:
-            stem, variants = self._stem(path, tree)
+            file, variants = self._read(path, tree)
         except ScenarioErrors as errors:
             self.diagnostics.extend(errors.diagnostics)
             return
         for variant in variants:
             try:
-                yield self._case(stem, variant)
+                yield self._case(file, variant)
             except ScenarioErrors as errors:
                 self.diagnostics.extend(errors.diagnostics)
 
-    def _stem(self, path: Path, tree: Map) -> tuple[_Stem, list[Variant]]:
+    def _read(self, path: Path, tree: Map) -> tuple[_ScenarioFile, list[Variant]]:
         _require_scenario_schema(tree)
         own_name = tree.entries.get("name")
         merged, documents = inherit(
@@ -109,27 +109,27 @@ class _Loader:
         merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
         base = merged.without(*EXPANSION_KEYS)
         # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
-        variants = expand_sound(merged, self.diagnostics)
+        variants = expand_valid(merged, self.diagnostics)
         if self.overrides:
             variants = distinct(
                 variants
             )  # cases that differed in a key that the command line fixes are one now
         short = short_keys(list(dict.fromkeys(setting.key for variant in variants for setting in variant)))
-        return _Stem(path, base, documents, short), variants
+        return _ScenarioFile(path, base, documents, short), variants
 
     def _parent(self, reference: Scalar) -> Map:
         tree = self.files.beside(reference, "extends")
         _require_scenario_schema(tree)
         return tree
 
-    def _case(self, stem: _Stem, variant: Variant) -> Case:
-        scenario, documents = resolve(self._varied(stem.tree, variant), self.parts)
+    def _case(self, file: _ScenarioFile, variant: Variant) -> Case:
+        scenario, documents = resolve(self._varied(file.tree, variant), self.parts)
         return Case(
-            id=self._claimed(case_id(scenario.name, variant, stem.short), stem, variant),
+            id=self._claimed(case_id(scenario.name, variant, file.short), file, variant),
             scenario=scenario,
-            path=Path(display_name(stem.path)),
+            path=Path(display_name(file.path)),
             parameters={setting.key: as_written(setting.value.node) for setting in variant},
-            inputs=_inputs((*stem.documents, *documents)),
+            inputs=_inputs((*file.documents, *documents)),
         )
 
     def _varied(self, base: Map, variant: Variant) -> Map:
@@ -144,21 +144,21 @@ class _Loader:
         self.diagnostics.extend(changed_alone(base, tree))
         return tree
 
-    def _claimed(self, identifier: str, stem: _Stem, variant: Variant) -> str:
+    def _claimed(self, identifier: str, file: _ScenarioFile, variant: Variant) -> str:
         """The id. Raises ScenarioErrors if it is too long or another case has it."""
-        name = stem.tree.entries["name"].node.place
+        name = file.tree.entries["name"].node.place
         place = variant[-1].value.node.place if variant else name
         if len(identifier) > LONGEST:
             raise single_error(
                 place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
             )
-        other = self.stems.setdefault(identifier, stem)
-        if other is not stem:
+        other = self.file_of_id.setdefault(identifier, file)
+        if other is not file:
             message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
             raise single_error(name, message, "name", "give every scenario a name of its own")
-        if identifier in stem.ids:
-            raise _duplicate_id(identifier, variant, stem.ids[identifier])
-        stem.ids[identifier] = variant
+        if identifier in file.ids:
+            raise _duplicate_id(identifier, variant, file.ids[identifier])
+        file.ids[identifier] = variant
         return identifier
 
 

@@ -77,7 +77,7 @@ def real(path: Path) -> Path:
 
 
 @dataclass(frozen=True, slots=True)
-class Resolved:
+class ResolvedPart:
     """A part and the documents it was made of."""
 
     part: Any
@@ -154,12 +154,12 @@ class Parts:
 
     def __init__(self, files: Files) -> None:
         self._files = files
-        self._by_name: dict[tuple[str, str], Resolved] = {}
+        self._by_name: dict[tuple[str, str], ResolvedPart] = {}
         # Keyed by identity; keeping the node keeps its identity unique.
-        self._inline: dict[int, tuple[Node, Resolved]] = {}
+        self._inline: dict[int, tuple[Node, ResolvedPart]] = {}
         self._originals: dict[int, tuple[Map, Any]] = {}
 
-    def resolve(self, node: Node, model: Any, key: Key) -> Resolved:
+    def resolve(self, node: Node, model: Any, key: Key) -> ResolvedPart:
         """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
         dotted = ".".join(map(str, key))
         if isinstance(node, Map):
@@ -174,12 +174,12 @@ class Parts:
             self._by_name[name] = self._built(self._fetch(node, model, dotted), model, (), dotted)
         return self._by_name[name]
 
-    def _resolve_inline(self, node: Map, model: Any, key: Key) -> Resolved:
+    def _resolve_inline(self, node: Map, model: Any, key: Key) -> ResolvedPart:
         if id(node) not in self._inline:
             self._inline[id(node)] = (node, self._built(node, model, key, ".".join(map(str, key))))
         return self._inline[id(node)][1]
 
-    def _built(self, tree: Map, model: Any, key: Key, dotted: str) -> Resolved:
+    def _built(self, tree: Map, model: Any, key: Key, dotted: str) -> ResolvedPart:
         generations = [tree]
 
         def fetch(reference: Scalar) -> Map:
@@ -188,7 +188,7 @@ class Parts:
 
         merged, documents = inherit(tree, fetch)
         part = validated(model, plain(merged), merged, key)
-        return Resolved(self._with_origin(part, generations, model), documents)
+        return ResolvedPart(self._with_origin(part, generations, model), documents)
 
     def _with_origin(self, part: Any, generations: Sequence[Map], model: Any) -> Any:
         root = generations[-1]

@@ -5,7 +5,7 @@ from typing import Any
 
 from uictest.scenario.model import Scenario
 from uictest.scenario.part_keys import PART_KEYS, part_nodes
-from uictest.scenario.references import Parts, Resolved
+from uictest.scenario.references import Parts, ResolvedPart
 from uictest.scenario.yaml import (
     Diagnostic,
     Document,
@@ -58,9 +58,9 @@ def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
     return tuple(each.part for each in resolved) if reference.several else resolved[0].part
 
 
-def _each(parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool) -> list[Resolved]:
+def _each(parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool) -> list[ResolvedPart]:
     """Resolve every reference, or raise the errors of all of them."""
-    resolved: list[Resolved] = []
+    resolved: list[ResolvedPart] = []
     diagnostics: list[Diagnostic] = []
     for number, node in enumerate(nodes):
         try:

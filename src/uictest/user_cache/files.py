@@ -12,8 +12,7 @@ from functools import cache
 from pathlib import Path
 
 from uictest.recording import atomic_path
-from uictest.user_cache.ownership import is_trusted, why_unsafe
-from uictest.user_cache.places import make_private, roots
+from uictest.user_cache.folders import is_trusted, make_private, roots, why_unsafe
 
 _DIGEST_SIZE = hashlib.sha256().digest_size
 # A FIFO must not block the reader until somebody writes; Windows has neither it nor links that need care.

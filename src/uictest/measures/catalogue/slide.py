@@ -15,8 +15,9 @@ from uictest.measures.measure import (
     unavailable,
     value_per_wheelset,
 )
+from uictest.units import KILOMETRE_PER_HOUR
 
-SLIDE_CLASS: Final = 10.0 / 3.6
+SLIDE_CLASS: Final = 10.0 * KILOMETRE_PER_HOUR
 """m/s: `maximum_slide_above[k]` counts while the train runs faster than k of these (10 km/h each)."""
 
 _WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))

@@ -84,13 +84,13 @@ def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
     if value and len(value) <= EXAMPLE_LENGTH:
         for each in models_at(model, key):
             for inner, field in each.model_fields.items():
-                if _takes(field, node):
+                if _accepts(field, node):
                     return visible(f"write `{name}: {{{inner}: {value}}}`")
     keys = accepted_keys(model, key)
     return "a mapping of " + ", ".join(sorted(keys)) if keys else ""
 
 
-def _takes(field: Any, node: Node) -> bool:
+def _accepts(field: Any, node: Node) -> bool:
     """Whether a field accepts a value; free text, which accepts everything, does not count."""
     references = [mark for mark in field.metadata if isinstance(mark, PartReference)]
     if references:
@@ -116,7 +116,7 @@ def hint_for_item(key: Key, node: Node) -> str:
     return (short_example(f"write `{key[-1]}: [{as_written(node)}]`") or "write a list") if key else ""
 
 
-def switched(text: str, choices: list[str]) -> str:
+def meant_choice(text: str, choices: list[str]) -> str:
     """The choice that a word like `on`, a beginning or a digit means, empty where there is none."""
     word = text.lower().replace("_", "-").replace("1", "one").replace("4", "four")
     meant = _SWITCHES.get(_SWITCHED.get(word, word), ())

@@ -7,7 +7,13 @@ from typing import Any, get_args
 from pydantic import TypeAdapter, ValidationError
 
 from uictest.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose
-from uictest.scenario.yaml.hints import hint_for_item, hint_for_key, hint_for_list, hint_for_mapping, switched
+from uictest.scenario.yaml.hints import (
+    hint_for_item,
+    hint_for_key,
+    hint_for_list,
+    hint_for_mapping,
+    meant_choice,
+)
 from uictest.scenario.yaml.model import Key
 from uictest.scenario.yaml.model_keys import accepted_keys, fields_named
 from uictest.scenario.yaml.tree import Node, Scalar, Sequence, describe, entry_at
@@ -157,7 +163,7 @@ def _did_you_mean(text: str, choices: list[str]) -> str:
 
 
 def _meant(text: str, choices: list[str]) -> str:
-    choice = switched(text, choices)
+    choice = meant_choice(text, choices)
     return f"did you mean {quoted(choice)}?" if choice else ""
 
 

@@ -1,14 +1,33 @@
-"""Checks that only this user can write or replace a folder."""
+"""The folders of the cache, and checks that only this user can write or replace them."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import stat
+import sys
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 _BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _SYSTEM = 0
 """User id of the system's administrator."""
+
+
+def roots() -> Iterator[Path]:
+    """Yield the folders of the cache, the best first; they need not exist."""
+    with contextlib.suppress(RuntimeError):  # a user without a home
+        yield _user_cache().absolute()
+    user = os.getuid() if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
+    with contextlib.suppress(FileNotFoundError):  # no temporary folder is writable
+        yield Path(tempfile.gettempdir(), f"uictest-{user}").absolute()
+
+
+def make_private(folder: Path) -> None:
+    """Create a folder and its missing parents for this user alone. Raises OSError."""
+    for place in reversed([place for place in (folder, *folder.parents) if not place.exists()]):
+        place.mkdir(mode=0o700, exist_ok=True)
 
 
 def why_unsafe(folder: Path) -> str:
@@ -43,3 +62,13 @@ def _why_unsafe_place(place: Path, *, above: bool) -> str:
     if status.st_mode & _BY_OTHERS and not is_protected:
         return f"others can write {str(place)!r}, and what is cached is executed; `chmod go-w` it"
     return ""
+
+
+def _user_cache() -> Path:
+    if override := os.environ.get("UICTEST_CACHE"):
+        return Path(override)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", "~")).expanduser() / "uictest" / "cache"
+    if sys.platform == "darwin":
+        return Path("~/Library/Caches/uictest").expanduser()
+    return Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "uictest"
