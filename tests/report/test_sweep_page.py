@@ -39,9 +39,9 @@ def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
         "Mean braking distance, m",
         "Frontier along 90 %",
         "Cases met by parameter",
-        "Figures by parameter",
+        "Measures by parameter",
         "Distributions",
-        "What the figures depend on",
+        "What the measures depend on",
         "Cases most worth looking at",
         "Provenance",
     ):

@@ -1,57 +1,57 @@
-"""One case from scenario to result: simulated, judged, and where it is worth it recorded."""
+"""Run one case: simulate it, judge it, and record it if requested."""
 
 from __future__ import annotations
 
 import traceback
 from dataclasses import dataclass
 from time import perf_counter
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from uictest import evaluation, rig, scenario
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
+from uictest.recording import Recording
 
 
 @dataclass(frozen=True, slots=True)
 class RecordingRequest:
-    """Which cases are recorded (`failed`: those that miss their expectation), and every how many seconds."""
+    """Which cases to record (`failed`: those that miss their expectation), a sample every so many seconds."""
 
     cases: Literal["all", "failed", "none"] = "failed"
     every: float = 0.01
 
     def wants(self, result: evaluation.CaseResult) -> bool:
-        """Return whether a case that came out like this is to be recorded."""
+        """Return whether to record a case with this result."""
         return self.cases == "all" or (self.cases == "failed" and not result.met)
 
 
 @dataclass(frozen=True, slots=True)
 class CaseRun:
-    """A case's result, the recording of its stop where it was wanted, and the traceback of a crash."""
+    """A case's result, the recording of its stop if there is one, and the traceback of a crash."""
 
     result: evaluation.CaseResult
     recording: Recording | None = None
     traceback: str = ""
 
 
-def run_case(case: scenario.Case, wish: RecordingRequest) -> CaseRun:
-    """Simulate and judge one case. Whatever goes wrong inside becomes a result with the outcome `error`."""
+def run_case(case: scenario.Case, request: RecordingRequest) -> CaseRun:
+    """Simulate and judge one case. An exception becomes a result with the outcome `error`."""
     started = perf_counter()
     try:
-        return _examine(case, wish, started)
+        return _simulate_and_judge(case, request, started)
     except Exception as error:
         result = evaluation.error_result(case, _reason(error), perf_counter() - started)
         return CaseRun(result, traceback=traceback.format_exc())
 
 
-def _examine(case: scenario.Case, wish: RecordingRequest, started: float) -> CaseRun:
-    stop: rig.SimulatedStop = rig.simulate(case, record_every=wish.every if wish.cases == "all" else None)
+def _simulate_and_judge(case: scenario.Case, request: RecordingRequest, started: float) -> CaseRun:
+    stop: rig.SimulatedStop = rig.simulate(
+        case, record_every=request.every if request.cases == "all" else None
+    )
     result = evaluation.evaluate_simulated(
         case, stop.measures, stop.wheelset_measures, perf_counter() - started
     )
-    if wish.cases == "failed" and not result.met:
-        # A stop repeats itself exactly, so a recording can be taken once the case has proved worth one.
-        stop = rig.simulate(case, record_every=wish.every)
+    if request.cases == "failed" and not result.met:
+        # A stop repeats itself exactly, so it can be recorded once the case is known to have missed.
+        stop = rig.simulate(case, record_every=request.every)
     return CaseRun(result, stop.recording)
 
 

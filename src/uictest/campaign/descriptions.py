@@ -1,24 +1,20 @@
-"""What cases are about, taken from their scenarios."""
+"""Describe cases by their scenarios."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from uictest import report
-from uictest.scenario import yaml
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case, Scenario
+from uictest.scenario import Case, Scenario, is_changed, yaml
 
 
 def subjects_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
-    """Return the subject of every case by its id."""
+    """Return the description of every case by its id."""
     return {case.id: subject_of(case.scenario) for case in cases}
 
 
 def subject_of(scenario: Scenario) -> report.CaseDescription:
-    """Return title, tags and the settings that tell one stop from another."""
+    """Return title, tags and the main settings of a scenario."""
     return report.CaseDescription(scenario.title, tuple(scenario.tags), _settings(scenario))
 
 
@@ -36,9 +32,7 @@ def _settings(scenario: Scenario) -> dict[str, str]:
 
 
 def _named(part: yaml.Part) -> str:
-    """Return the name of a part, and whether it is another than the part of that name in the library."""
-    from uictest.scenario import is_changed
-
+    """Return the name of a part, and whether it differs from the library part of that name."""
     return f"{part.name} (changed)" if is_changed(part) else part.name
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 Matches = Callable[[str], bool]
-"""Whether a case answers to one word."""
+"""Whether a case matches one word."""
 
 Expression = Callable[[Matches], bool]
 
@@ -19,7 +19,7 @@ class ExpressionError(ValueError):
 
 
 def parse(text: str) -> Expression:
-    """Return the predicate that an expression stands for; an empty expression holds for everything.
+    """Return the predicate that an expression stands for; an empty expression matches everything.
 
     `not` binds closer than `and`, `and` closer than `or`. Raises ExpressionError.
     """
@@ -86,9 +86,9 @@ class _Reader:
         return self._tokens[self._next][0] if self._next < len(self._tokens) else None
 
     def _accept(self, token: str) -> bool:
-        found = self._peek() == token
-        self._next += found
-        return found
+        accepted = self._peek() == token
+        self._next += accepted
+        return accepted
 
     def _unexpected(self, expected: str) -> ExpressionError:
         if self._next == len(self._tokens):

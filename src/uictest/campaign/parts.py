@@ -19,12 +19,12 @@ def parts_of_cases(cases: Sequence[scenario.Case]) -> PartsOfCases:
 
 
 def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:
-    """Return what recorded stops are judged under: conditions, measures and criteria, nothing of a rig."""
+    """Return the parts that recorded stops are judged with: conditions, measures and criteria, no rig."""
     effective = evaluation.EffectiveParts()
     return {case.id: effective.of_recorded(case.scenario) for case in cases}
 
 
-def with_parts(examined: CaseRun, parts: PartsOfCases) -> CaseRun:
-    """Return an examined case whose result carries its parts."""
-    result = examined.result
-    return replace(examined, result=replace(result, parts=parts.get(result.id, {})))
+def with_parts(case_run: CaseRun, parts: PartsOfCases) -> CaseRun:
+    """Return the run of a case with the parts of the case in its result."""
+    result = case_run.result
+    return replace(case_run, result=replace(result, parts=parts.get(result.id, {})))

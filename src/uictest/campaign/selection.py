@@ -1,4 +1,4 @@
-"""Which cases of the scenarios are meant: by expression, by tag, by what failed last."""
+"""Select cases by expression, by tag or by id."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from uictest.campaign.expression import parse
 
 
 def by_expression(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
-    """Return the cases an expression holds for: a word matches inside the id, the file name or a tag.
+    """Return the cases that match an expression: a word matches inside the id, the file name or a tag.
 
-    Upper and lower case are alike. Raises ExpressionError.
+    Case is ignored. Raises ExpressionError.
     """
     holds = parse(expression)
     return [case for case in cases if holds(lambda word, case=case: _mentions(case, word))]  # type: ignore[misc]
 
 
 def by_tag(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
-    """Return the cases an expression over whole tags holds for, e.g. `slip` or `slip and not long`.
+    """Return the cases that match an expression over whole tags, e.g. `slip` or `slip and not long`.
 
     Raises ExpressionError.
     """

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from uictest.studies.quantity import PaperComparison, StudyQuantity
-    from uictest.studies.study import Study, StudyResult, Table
+from uictest.studies.quantity import PaperComparison, StudyQuantity
+from uictest.studies.study import Study, StudyResult, Table
 
 
 def ours_text(comparison: PaperComparison) -> str:

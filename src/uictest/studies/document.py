@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from uictest.studies.quantity import PaperComparison
-    from uictest.studies.study import StudyResult
+from uictest.studies.quantity import PaperComparison
+from uictest.studies.study import StudyResult
 
 SCHEMA = "uictest/studies/1"
 

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from uictest import scenario
+from uictest.recording import Recording
 from uictest.studies.neighbourhood import SETTINGS, WITHOUT_CALIPER, Point
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
-from uictest.studies.stop_runner import seeded
+from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.units import PERCENT
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 REPLAYED_SEEDS = range(2)
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from uictest import rig
 from uictest.scenario import Case
-
-if TYPE_CHECKING:
-    from uictest.studies.stop_runner import StopRunner
+from uictest.studies.stop_runner import StopRunner
 
 SETTINGS = ("none", "hysteresis", "cylinder", "full")
 """Settings of the compensation."""

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import identification
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
+from uictest.recording import Recording
 
 TITLES = {
     "bc_squeezing": "BC squeezing",

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from uictest import identification, scenario
+from uictest.recording import Recording
 from uictest.studies.phases import TITLES, lines_of
 from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.stop_runner import StopRunner
+from uictest.studies.study import Table
 from uictest.units import KILONEWTON, KILONEWTON_PER_BAR
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
-    from uictest.studies.study import Table
 
 _NAN = float("nan")
 

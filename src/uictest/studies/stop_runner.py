@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from uictest import campaign, rig
+from uictest.recording import Recording
 from uictest.scenario import Case, load
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
 
 _SCENARIOS = Path(__file__).parent / "scenarios"
 

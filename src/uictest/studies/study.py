@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.studies.quantity import BandStatus, PaperComparison, StudyQuantity, StudyValue
+from uictest.studies.stop_runner import StopRunner
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from uictest.studies.stop_runner import StopRunner
 
 Table = Mapping[str, Sequence[Any]]
 """Columns of equal length; a name ends in the unit, as in `pressure_bar`."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from uictest.studies.comparison import band_text, ours_text, paper_text
+from uictest.studies.study import StudyResult
 
 if TYPE_CHECKING:
     from rich.console import Group
-
-    from uictest.studies.study import StudyResult
 
 _STYLES = {"holds": "green", "misses": "bold red", "shown": "dim"}
 

@@ -6,14 +6,12 @@ import csv
 import io
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from uictest.recording import atomic_path, write_text_atomic
 from uictest.studies.comparison import comparison_table
 from uictest.studies.document import document
-
-if TYPE_CHECKING:
-    from uictest.studies.study import Drawing, StudyResult, Table
+from uictest.studies.figures.style import RC
+from uictest.studies.study import Drawing, StudyResult, Table
 
 
 def write_tables(folder: Path, result: StudyResult) -> list[Path]:
@@ -40,8 +38,6 @@ def write_figures(folder: Path, result: StudyResult) -> list[Path]:
     Raises ImportError where matplotlib is not installed, OSError where a file cannot be written.
     """
     import matplotlib as mpl
-
-    from uictest.studies.figures.style import RC
 
     place = _place(folder, result)
     with mpl.rc_context(RC):

@@ -33,7 +33,7 @@ def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: Mak
         "Cases met by value of each parameter",
         "Frontier along `90 %`",
         "Share of the variance that each parameter explains",
-        "Figures",
+        "Measures",
         "Notes",
     ]
     assert "| `brake.90 %` ↓ `rail.friction` → | 0.10 | 0.12 |" in text

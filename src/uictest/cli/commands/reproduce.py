@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from uictest import controllers, rig
+from uictest import controllers, rig, studies
 from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import interactive
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Colour, Colouring, Jobs, PlainFormat, Quiet, Verbosity
 from uictest.cli.problems import InvalidInputError
 from uictest.cli.streams import coloured, data, message
-from uictest.report import counted
 from uictest.scenario import yaml
-
-if TYPE_CHECKING:
-    from uictest.studies import Study, StudyResult
 
 _FIGURES = "pip install 'uictest[figures]'"
 
@@ -47,92 +44,83 @@ def reproduce(
 
     Exit 0 when every band holds, else 1.
     """
-    studies = _selected(names or ())
+    selected = _selected(names or ())
     if listed:
-        _list(studies, shown)
+        _list(selected, shown)
         return ExitCode.MET
-
-    from uictest.studies import document
-
-    results = _run(studies, jobs, output, quiet=quiet)
+    results = _run(selected, jobs, output, quiet=quiet)
     if shown is PlainFormat.JSON:
-        data(document(results))
+        data(studies.document(results))
     else:
         _show(results, colour, quiet=quiet)
     missed = sum(each.status == "misses" for each in results)
     if not quiet:
-        verdict = f"{missed} of them with a value outside its band" if missed else "every band holds"
-        message(
-            f"uictest: {counted(len(results), 'study').replace('studys', 'studies')}, {verdict}; in {output}"
-        )
+        _sum_up(len(results), missed, output)
     return ExitCode.MISSED if missed else ExitCode.MET
 
 
-def _selected(names: Sequence[str]) -> list[Study]:
+def _sum_up(count: int, missed: int, output: Path) -> None:
+    noun = "1 study" if count == 1 else f"{count} studies"
+    bands = f"{missed} of them with a value outside its band" if missed else "every band holds"
+    message(f"uictest: {noun}, {bands}; in {output}")
+
+
+def _selected(names: Sequence[str]) -> list[studies.Study]:
     """Return the studies of these names in the order of the catalogue; all where there is no name."""
-    from uictest.studies import STUDIES
-
     for name in names:
-        if name not in STUDIES:
-            raise InvalidInputError(f"uictest: no study {name!r}; {yaml.suggestion(name, STUDIES)}")
-    return [study for name, study in STUDIES.items() if not names or name in names]
+        if name not in studies.STUDIES:
+            hint = yaml.suggestion(name, studies.STUDIES)
+            raise InvalidInputError(f"uictest: no study {name!r}; {hint}")
+    return [study for name, study in studies.STUDIES.items() if not names or name in names]
 
 
-def _list(studies: Sequence[Study], shown: PlainFormat) -> None:
+def _list(selected: Sequence[studies.Study], shown: PlainFormat) -> None:
     if shown is PlainFormat.JSON:
-        import json
-
-        data(json.dumps([{"name": study.name, "title": study.title} for study in studies], indent=2))
+        data(json.dumps([{"name": study.name, "title": study.title} for study in selected], indent=2))
         return
-    width = max(len(study.name) for study in studies)
-    data("\n".join(f"{study.name.ljust(width)}  {study.title}" for study in studies))
+    width = max(len(study.name) for study in selected)
+    data("\n".join(f"{study.name.ljust(width)}  {study.title}" for study in selected))
 
 
-def _run(studies: Sequence[Study], jobs: int, output: Path, *, quiet: bool) -> list[StudyResult]:
+def _run(
+    selected: Sequence[studies.Study], jobs: int, output: Path, *, quiet: bool
+) -> list[studies.StudyResult]:
     """Run the studies one after the other, and write the tables of each as soon as it has ended."""
-    from uictest.studies import StopRunner, run_study, write_comparison, write_tables
-
     announce_compilation(
         warm=rig.stops_are_compiled([controllers.CONTROLLERS[controllers.DEFAULT]]), quiet=quiet
     )
-    stop_runner = StopRunner(jobs)
-    results: list[StudyResult] = []
-    for study in studies:
+    stop_runner = studies.StopRunner(jobs)
+    results: list[studies.StudyResult] = []
+    for study in selected:
         if not quiet:
             message(f"uictest: {study.name}...")
-        results.append(run_study(study, stop_runner))
-        write_tables(output, results[-1])
-    write_comparison(output, results)
+        results.append(studies.run_study(study, stop_runner))
+        studies.write_tables(output, results[-1])
+    studies.write_comparison(output, results)
     _draw(results, output)
     return results
 
 
-def _draw(results: Sequence[StudyResult], output: Path) -> None:
-    from uictest.studies import write_figures
-
+def _draw(results: Sequence[studies.StudyResult], output: Path) -> None:
     try:
         for result in results:
-            write_figures(output, result)
+            studies.write_figures(output, result)
     except ImportError as error:
         message(
             f"uictest: no figures, since {error.name or 'matplotlib'} is not installed: {_FIGURES} draws them"
         )
 
 
-def _show(results: Sequence[StudyResult], colour: Colour, *, quiet: bool) -> None:
+def _show(results: Sequence[studies.StudyResult], colour: Colour, *, quiet: bool) -> None:
     shown = [each for each in results if not quiet or each.status == "misses"]
     if not interactive(sys.stdout):
-        from uictest.studies import lines
-
         for each in shown:
-            data("\n".join(lines(each)))
+            data("\n".join(studies.lines(each)))
         return
 
     from rich.console import Console
 
-    from uictest.studies import study_table
-
     in_colour = coloured(colour, sys.stdout)
     console = Console(color_system="auto" if in_colour else None, force_terminal=in_colour, highlight=False)
     for each in shown:
-        console.print(study_table(each))
+        console.print(studies.study_table(each))

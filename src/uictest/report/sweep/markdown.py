@@ -68,7 +68,7 @@ def _findings(result: SweepResult) -> Iterator[Finding]:
     if result.sensitivities:
         yield "Share of the variance that each parameter explains", _sensitivities(result.sensitivities)
     if result.distributions:
-        yield "Figures", _measures(result.distributions)
+        yield "Measures", _measures(result.distributions)
     if result.notes:
         yield "Notes", MarkdownTable(("note",), "l", [row([prose(note)]) for note in result.notes])
 
@@ -155,7 +155,7 @@ def _frontier(frontier: Frontier) -> Finding:
 
 
 def _sensitivities(sensitivities: Sequence[SobolSensitivity]) -> MarkdownTable:
-    columns = ("figure", "parameter", "at", "alone", "95 %", "with the others", "95 %")
+    columns = ("measure", "parameter", "at", "alone", "95 %", "with the others", "95 %")
     rows = [
         row(
             [
@@ -188,5 +188,5 @@ def _measures(histograms: Sequence[MeasureHistogram]) -> MarkdownTable:
         )
         for each in histograms
     ]
-    columns = ("figure", "unit", "cases", "minimum", "mean", "maximum")
-    return MarkdownTable(columns, "llrrrr", rows, "more figures are in `sweep.json`.")
+    columns = ("measure", "unit", "cases", "minimum", "mean", "maximum")
+    return MarkdownTable(columns, "llrrrr", rows, "more measures are in `sweep.json`.")

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from uictest import evaluation, scenario
+from uictest.recording import Recording
 from uictest.studies.figures.appendix_b import draw
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE
-from uictest.studies.stop_runner import seeded
+from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import KILOMETRE_PER_HOUR
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(5)
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
+from uictest.recording import Recording
 from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import lines_of
 from uictest.studies.quantity import StudyQuantity, StudyValue
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 TESTS = ("stepwise", "triangular", "random")
 """Bench recipes of the library: the kinds of pressure are the paper's, levels, rates and times are ours."""

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from uictest.studies.figures.levels import draw
 from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.slopes import loops, slope_spread, slopes_table
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
 from uictest.units import KILONEWTON, PERCENT
-
-if TYPE_CHECKING:
-    from uictest.studies.stop_runner import StopRunner
 
 QUANTITIES = (
     StudyQuantity(

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest.recording import Recording
 from uictest.studies.figures.cylinder_dynamics import draw
 from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
-from uictest.studies.stop_runner import seeded
+from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, PERCENT
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
-
 
 SEEDS = range(5)
 _EVERY = 20

@@ -11,17 +11,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest import rig
+from uictest.recording import Recording
 from uictest.scenario import Case, FrictionProfile
 from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.replay import CYCLE
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 REAL_TRAIN = {
     "braking_time": 17.6,
@@ -174,9 +173,9 @@ def _stop(case: Case) -> rig.SimulatedStop:
 
 
 def _table(
-    tried: list[Profile], stops: list[rig.SimulatedStop], misfits: list[dict[str, float]], kept: list[int]
+    tried: list[Profile], stops: list[rig.SimulatedStop], misfits: list[dict[str, float]], shown: list[int]
 ) -> Table:
-    order = sorted(kept, key=lambda k: max(misfits[k].values()))
+    order = sorted(shown, key=lambda k: max(misfits[k].values()))
     columns: dict[str, list[object]] = {"profile": [str(tried[k]) for k in order]}
     units = {"braking_time": "s", "braking_distance": "m"}
     for name in REAL_TRAIN:

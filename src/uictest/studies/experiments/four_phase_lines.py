@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from uictest import identification
+from uictest.recording import Recording
 from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.phases import TITLES, lines_of, on_phases
 from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 _NAN = float("nan")
 _EVERY = 20

@@ -6,18 +6,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from statistics import median
-from typing import TYPE_CHECKING
 
+from uictest.rig import SimulatedStop
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
 from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT, in_unit, normal_volume
-
-if TYPE_CHECKING:
-    from uictest.rig import SimulatedStop
-    from uictest.studies.stop_runner import StopRunner
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four against itself: what chance alone does."""

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from functools import partial
 from statistics import median
-from typing import TYPE_CHECKING
 
 from uictest import rig
 from uictest.studies.figures.robustness import draw
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, WITHOUT_CALIPER, Point, neighbourhood
 from uictest.studies.quantity import StudyQuantity, StudyValue, spread
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table
-
-if TYPE_CHECKING:
-    from uictest.studies.stop_runner import StopRunner
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 _APART = 1.3

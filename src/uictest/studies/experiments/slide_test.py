@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from uictest import rig
+from uictest.recording import Recording
 from uictest.studies.figures.slide_test import draw
 from uictest.studies.quantity import StudyQuantity, StudyValue, repeats_note, spread
 from uictest.studies.replay import CYCLE
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILOMETRE_PER_HOUR
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(10)
 WHEELSETS = (1, 2, 3, 4)

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from uictest.studies.figures.valve_actuations import ActuationPanel, draw
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
+from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
-
-if TYPE_CHECKING:
-    from uictest.studies.stop_runner import StopRunner
 
 SEEDS = range(10)
 _OURS = "ours, about the paper's"

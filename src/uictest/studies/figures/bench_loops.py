@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from uictest import identification
+from uictest.recording import Recording
 from uictest.studies.figures.style import BLUE, INK, MUTED, WIDTH, from_zero
 from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from uictest.recording import Recording
 
 
 def draw(tests: Mapping[str, Recording], hysteresis: identification.HysteresisResult, figure: Figure) -> None:

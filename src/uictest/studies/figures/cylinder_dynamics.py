@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest.recording import Recording
 from uictest.studies.figures.style import BAND, BLUE, INK, ORANGE, WIDTH, from_zero, title_and_legend
 from uictest.units import BAR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from uictest.recording import Recording
 
 
 def draw(recording: Recording, top: float, limit: float, figure: Figure) -> None:

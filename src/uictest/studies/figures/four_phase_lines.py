@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest import identification
+from uictest.recording import Recording
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from uictest.studies.phases import TITLES, on_phases
 from uictest.units import BAR, KILONEWTON
@@ -14,8 +15,6 @@ from uictest.units import BAR, KILONEWTON
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from uictest.recording import Recording
 
 _EVERY = 10
 

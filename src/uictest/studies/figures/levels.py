@@ -9,12 +9,11 @@ import numpy as np
 
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from uictest.studies.phases import TITLES
+from uictest.studies.slopes import Loop
 from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from uictest.studies.slopes import Loop
 
 _EVERY = 10
 _WIDTHS = {"bc": 2.6, "ws": 1.0}

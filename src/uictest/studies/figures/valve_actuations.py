@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from uictest.recording import Recording
 from uictest.studies.figures.style import BLUE, INK, ORANGE, WIDTH, from_zero
 from uictest.units import BAR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from uictest.recording import Recording
 
 _VENT = 2
 
