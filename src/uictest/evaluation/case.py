@@ -13,8 +13,8 @@ from uictest.evaluation.result import CaseResult, outcome_of
 from uictest.measures import (
     MEASURES,
     STOP_COLUMNS,
-    StopRecord,
-    WheelsetRecords,
+    StopMeasures,
+    Wheelsets,
     stop_column_values,
     wheelset_column_values,
 )
@@ -49,8 +49,8 @@ _DEFAULTS: Final = {
 
 def evaluate(
     case: scenario.Case,
-    measures: StopRecord,
-    wheelset_measures: WheelsetRecords,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
     duration: float = 0.0,
     *,
     explain: bool = True,
@@ -90,8 +90,8 @@ def evaluate(
 
 def evaluate_simulated(
     case: scenario.Case,
-    measures: StopRecord,
-    wheelset_measures: WheelsetRecords,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
     duration: float = 0.0,
     *,
     explain: bool = True,
@@ -146,7 +146,7 @@ def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str,
     return {name: math.nan if name in unknown else value for name, value in columns.items()}
 
 
-def _not_finite(measures: StopRecord, wheelsets: WheelsetRecords) -> Iterator[str]:
+def _not_finite(measures: StopMeasures, wheelsets: Wheelsets) -> Iterator[str]:
     yield from (name for name in _FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
     for number, wheelset in enumerate(wheelsets, start=1):
         for name in _FINITE_IN_WHEELSETS:
@@ -154,7 +154,7 @@ def _not_finite(measures: StopRecord, wheelsets: WheelsetRecords) -> Iterator[st
                 yield f"{name}_{number}"
 
 
-def _why_not_finite(measures: StopRecord, names: list[str]) -> str:
+def _why_not_finite(measures: StopMeasures, names: list[str]) -> str:
     if names == ["air_residual"] and measures.air_consumed == 0.0:
         return (
             f"the stop ended after {measures.end_time:.3g} s, before the brake took any air, so that the air"

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from uictest import scenario
-from uictest.measures import StopRecord, WheelsetRecords
+from uictest.measures import StopMeasures, Wheelsets
 from uictest.units import in_unit, value_text
 
 
@@ -48,8 +48,8 @@ class ObservedStop:
     `cut_off` says why that was not to standstill; empty where it was. `coverage` is None for a simulation.
     """
 
-    measures: StopRecord
-    wheelsets: WheelsetRecords
+    measures: StopMeasures
+    wheelsets: Wheelsets
     cut_off: str = ""
     coverage: Coverage | None = None
 
@@ -65,7 +65,7 @@ class ObservedStop:
         return tuple(gap.and_also(self.cut_off) if gap else end for gap in gaps or (None,) * count)
 
 
-def why_cut_off(resolved: scenario.Scenario, measures: StopRecord, coverage: Coverage | None) -> str:
+def why_cut_off(resolved: scenario.Scenario, measures: StopMeasures, coverage: Coverage | None) -> str:
     """Return why a stop was not observed to standstill; empty where it was."""
     if measures.stopped:
         return ""

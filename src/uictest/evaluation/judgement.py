@@ -14,13 +14,13 @@ from uictest.evaluation.decision import Decision, decide
 from uictest.evaluation.definitions import applied_definitions, definition_texts
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
-from uictest.measures import StopRecord, WheelsetRecords
+from uictest.measures import StopMeasures, Wheelsets
 
 
 def judge(
     resolved: scenario.Scenario,
-    measures: StopRecord,
-    wheelset_measures: WheelsetRecords,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
     *,
     explain: bool = True,
     coverage: Coverage | None = None,

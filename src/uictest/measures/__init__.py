@@ -1,11 +1,11 @@
-"""Streaming measures of a stop: what is kept of every sample.
+"""Measures: the numbers that describe a stop.
 
-The simulator updates them once per controller cycle while it steps, an evaluation of a recording once
-per row, with the same functions: a simulated and a measured stop are judged by the same code. Scalar
-code on records, importing nothing of the package but its arithmetic.
+`catalogue` declares every measure in one row; the registry finds them, and all other rooms read it.
 
-What is one number is taken in without branches, so that many stops can be observed side by side; what is
-a table - speeds after the first sliding, slides above each speed - is kept from that afterwards.
+`train` and `wheelset` update records with every sample: the simulator once per controller cycle, the
+evaluation of a recording once per row. The same functions observe simulated and recorded stops. They are
+scalar code on records. Single numbers are updated without branches, so that many stops can be observed side
+by side; tables (speeds after the first sliding, slides above each speed) are updated afterwards.
 """
 
 import lazy_loader

@@ -1,4 +1,5 @@
 from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS
+from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELSET_MEASURES
 from .measure import (
     Course as Course,
     Definition as Definition,
@@ -6,15 +7,11 @@ from .measure import (
     MeasureValue as MeasureValue,
     RecordedData as RecordedData,
     StopColumn as StopColumn,
-    StopRecord as StopRecord,
     WheelsetColumn as WheelsetColumn,
-    WheelsetRecord as WheelsetRecord,
-    WheelsetRecords as WheelsetRecords,
+    Wheelsets as Wheelsets,
 )
 from .records import (
     SPEED_CLASSES as SPEED_CLASSES,
-    STOP_MEASURES as STOP_MEASURES,
-    WHEELSET_MEASURES as WHEELSET_MEASURES,
     WINDOW_SECONDS as WINDOW_SECONDS,
     MeasureDefinition as MeasureDefinition,
     StopMeasures as StopMeasures,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Literal
+
+from uictest.measures.records import StopMeasures, WheelsetMeasures
 
 Course = Literal["grows", "falls", "settles"]
 """What a value can do while the stop goes on: only grow, only fall, or no more once there is one."""
@@ -17,46 +19,7 @@ Definition = Mapping[str, float]
 """Definition of a criterion -> its SI value."""
 
 
-class StopRecord(Protocol):
-    """The fields of :data:`~uictest.measures.STOP_MEASURES` that measures read. SI units, pressures gauge.
-
-    NaN where the stop never reached what a field measures.
-    """
-
-    initial_speed: float
-    stopped: float
-    braking_time: float
-    braking_distance: float
-    end_speed: float
-    end_time: float
-    end_distance: float
-    minimum_deceleration: float
-    maximum_deceleration: float
-    sliding_time: float
-    speed_after_sliding: Sequence[float]
-    reservoir_minimum_pressure: float
-    air_consumed: float
-    energy_residual: float
-    air_residual: float
-
-
-class WheelsetRecord(Protocol):
-    """The fields of :data:`~uictest.measures.WHEELSET_MEASURES` that measures read.
-
-    SI units; slides are shares.
-    """
-
-    maximum_slide: float
-    maximum_slide_above: Sequence[float]
-    sliding_duration: float
-    locked_time: float
-    longest_lock: float
-    valve_actuations: float
-    maximum_clamping_force: float
-    air_vented: float
-
-
-WheelsetRecords = Iterable[WheelsetRecord]
+Wheelsets = Iterable[WheelsetMeasures]
 """One record per wheelset, from the leading end; may be iterated more than once."""
 
 
@@ -71,7 +34,7 @@ class MeasureValue:
     unavailable_reason: str = ""
 
 
-Reader = Callable[[StopRecord, WheelsetRecords, Definition], MeasureValue]
+Reader = Callable[[StopMeasures, Wheelsets, Definition], MeasureValue]
 
 
 def one_value(number: float) -> MeasureValue:
@@ -115,7 +78,7 @@ class StopColumn(Column):
     definition that it uses for a stop none of whose criteria defines its own.
     """
 
-    read: Callable[[StopRecord, Definition], float] = field(kw_only=True)
+    read: Callable[[StopMeasures, Definition], float] = field(kw_only=True)
     defaults: Definition = field(default_factory=dict)
 
 
@@ -126,7 +89,7 @@ class WheelsetColumn(Column):
     `read` returns the number of one wheelset in SI units, NaN where there is none.
     """
 
-    read: Callable[[WheelsetRecord], float] = field(kw_only=True)
+    read: Callable[[WheelsetMeasures], float] = field(kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)

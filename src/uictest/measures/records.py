@@ -6,7 +6,7 @@ SI units; NaN where something never happened.
 from collections.abc import MutableSequence
 from typing import Annotated
 
-from uictest.record import Record, from_scenario, layout_of
+from uictest.record import Record, from_scenario
 
 SPEED_CLASSES = 21
 """Classes of train speed, 10 km/h apart: the largest slide is kept above each of 0, 10, .. 200 km/h."""
@@ -59,25 +59,15 @@ class WheelsetMeasures(Record):
 class MeasureDefinition(Record):
     """How samples become measures: the ``measures`` part of a scenario."""
 
-    sliding_slide: float = from_scenario(
-        "measures.sliding_slide"
-    )  # relative slide from which a wheelset counts as sliding
-    sliding_slip: float = from_scenario("measures.sliding_slip")  # slip speed that it must have as well, m/s
-    locked_speed: float = from_scenario(
-        "measures.locked_speed"
-    )  # circumferential speed below which a wheelset counts as locked, m/s
-    moving_speed: float = from_scenario(
-        "measures.moving_speed"
-    )  # train speed above which all of these are observed, m/s
-    deceleration_filter: float = from_scenario(
-        "measures.deceleration_filter"
-    )  # time constant of the low-pass of the deceleration, s
-    developed_time: float = from_scenario(
-        "measures.developed_time"
-    )  # time after the command from which the smallest deceleration is kept, s
-
-
-STOP_MEASURES = layout_of(StopMeasures)
-"""Layout of :class:`StopMeasures`."""
-WHEELSET_MEASURES = layout_of(WheelsetMeasures)
-"""Layout of :class:`WheelsetMeasures`."""
+    # Relative slide from which a wheelset counts as sliding.
+    sliding_slide: float = from_scenario("measures.sliding_slide")
+    # Slip speed that it must have as well, m/s.
+    sliding_slip: float = from_scenario("measures.sliding_slip")
+    # Circumferential speed below which a wheelset counts as locked, m/s.
+    locked_speed: float = from_scenario("measures.locked_speed")
+    # Train speed above which all of these are observed, m/s.
+    moving_speed: float = from_scenario("measures.moving_speed")
+    # Time constant of the low-pass of the deceleration, s.
+    deceleration_filter: float = from_scenario("measures.deceleration_filter")
+    # Time after the command from which the smallest deceleration is kept, s.
+    developed_time: float = from_scenario("measures.developed_time")

@@ -14,10 +14,9 @@ from uictest.measures.measure import (
     Definition,
     Measure,
     StopColumn,
-    StopRecord,
     WheelsetColumn,
-    WheelsetRecord,
 )
+from uictest.measures.records import StopMeasures, WheelsetMeasures
 from uictest.units import in_unit
 
 _ORDER: Final = (*("stopping", "adhesion", "deceleration", "slide", "locking", "caliper", "air", "balances"),)
@@ -73,7 +72,7 @@ def column_unit(name: str) -> str:
     return column.unit if column else "1"
 
 
-def stop_column_values(stop: StopRecord, definition: Definition) -> dict[str, float]:
+def stop_column_values(stop: StopMeasures, definition: Definition) -> dict[str, float]:
     """Return what results report of a stop: column -> number in its unit, NaN where there is none.
 
     `definition` holds the SI value of every definition that a column has a default of.
@@ -81,7 +80,7 @@ def stop_column_values(stop: StopRecord, definition: Definition) -> dict[str, fl
     return {name: _number(column, column.read(stop, definition)) for name, column in STOP_COLUMNS.items()}
 
 
-def wheelset_column_values(wheelset: WheelsetRecord) -> dict[str, float]:
+def wheelset_column_values(wheelset: WheelsetMeasures) -> dict[str, float]:
     """Return what results report of one wheelset: column -> number in its unit, NaN where there is none."""
     return {name: _number(column, column.read(wheelset)) for name, column in WHEELSET_COLUMNS.items()}
 

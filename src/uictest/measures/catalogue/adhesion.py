@@ -10,16 +10,16 @@ from uictest.measures.measure import (
     MeasureValue,
     RecordedData,
     StopColumn,
-    StopRecord,
     one_value,
     unavailable,
 )
+from uictest.measures.records import StopMeasures
 
 _DEFAULT_FIRST_PHASE: Final = 3.0
 """s; chosen. Used for the column of a case none of whose criteria defines its own first phase."""
 
 
-def initial_adhesion(stop: StopRecord, first_phase_duration: float) -> MeasureValue:
+def initial_adhesion(stop: StopMeasures, first_phase_duration: float) -> MeasureValue:
     """Return (v(0) - v(T)) / T in m/s2, T = `first_phase_duration` (s) counted from the first sliding.
 
     v is known at whole seconds after the first sliding and taken as linear between them. There is no value
@@ -37,7 +37,7 @@ def initial_adhesion(stop: StopRecord, first_phase_duration: float) -> MeasureVa
     return one_value((at_start - at_end) / first_phase_duration)
 
 
-def _speed_after(stop: StopRecord, seconds: float) -> float:
+def _speed_after(stop: StopMeasures, seconds: float) -> float:
     """Return the train speed (m/s) `seconds` after the first sliding; NaN where it may not be running."""
     whole, known = math.floor(seconds), len(stop.speed_after_sliding)
     if not 0 <= whole < known:

@@ -9,12 +9,12 @@ from uictest.measures.measure import (
     Measure,
     MeasureValue,
     RecordedData,
-    StopRecord,
     WheelsetColumn,
-    WheelsetRecords,
+    Wheelsets,
     unavailable,
     value_per_wheelset,
 )
+from uictest.measures.records import StopMeasures
 from uictest.units import KILOMETRE_PER_HOUR
 
 SLIDE_CLASS: Final = 10.0 * KILOMETRE_PER_HOUR
@@ -24,7 +24,7 @@ _WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))
 
 
 def maximum_slide_above_cutoff(
-    stop: StopRecord, wheelsets: WheelsetRecords, low_speed_cutoff: float
+    stop: StopMeasures, wheelsets: Wheelsets, low_speed_cutoff: float
 ) -> MeasureValue:
     """Return the largest slide (share; 1 = locked) of each wheelset above the cut-off.
 

@@ -9,13 +9,13 @@ from uictest.measures.measure import (
     MeasureValue,
     RecordedData,
     StopColumn,
-    StopRecord,
     one_value,
     unavailable,
 )
+from uictest.measures.records import StopMeasures
 
 
-def braking_distance(stop: StopRecord) -> MeasureValue:
+def braking_distance(stop: StopMeasures) -> MeasureValue:
     """Return the distance (m) from the brake command to standstill or, before standstill, up to now.
 
     The distance is not corrected for the initial speed.
@@ -23,18 +23,18 @@ def braking_distance(stop: StopRecord) -> MeasureValue:
     return one_value(stop.braking_distance if stop.stopped else stop.end_distance)
 
 
-def braking_time(stop: StopRecord) -> MeasureValue:
+def braking_time(stop: StopMeasures) -> MeasureValue:
     """Return the time (s) from the brake command to standstill or, before standstill, up to now."""
     return one_value(stop.braking_time if stop.stopped else stop.end_time)
 
 
-def mean_deceleration(stop: StopRecord) -> MeasureValue:
+def mean_deceleration(stop: StopMeasures) -> MeasureValue:
     """Return v0^2 / (2 s) in m/s2, s the braking distance (up to now) from the initial speed v0."""
     (distance,) = braking_distance(stop).values
     return one_value(stop.initial_speed**2 / (2.0 * distance) if distance else math.inf)
 
 
-def standstill(stop: StopRecord) -> MeasureValue:
+def standstill(stop: StopMeasures) -> MeasureValue:
     """Return 1 where the train came to a standstill."""
     return one_value(1.0) if stop.stopped else unavailable("no standstill")
 

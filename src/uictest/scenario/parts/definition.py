@@ -5,8 +5,9 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
+from uictest.measures import SLIDE_CLASS
 from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind
-from uictest.units import KILOMETRE_PER_HOUR, in_unit
+from uictest.units import in_unit
 
 
 def _with_its_source(definition: object) -> object:
@@ -63,7 +64,7 @@ class LowSpeedCutoff(Model):
     """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
 
     unit: ClassVar[str] = "km/h"
-    step: ClassVar[float | None] = 10.0 * KILOMETRE_PER_HOUR
+    step: ClassVar[float | None] = SLIDE_CLASS
 
     value: _Cutoff = Field(description="Cut-off used.")
     range: tuple[_Cutoff, _Cutoff] = Field(description="Lowest and highest cut-off the words could mean.")

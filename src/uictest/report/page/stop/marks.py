@@ -35,7 +35,7 @@ DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]
         "maximum_clamping_force": wheelset_marks.maximum_clamping_force,
     }
 )
-"""Measure -> how a criterion that bounds it is drawn: every measure has an entry."""
+"""Measure -> how a criterion that bounds it is drawn; a criterion of another measure is only listed."""
 
 
 def marks_of(verdicts: Iterable[evaluation.Verdict], trace: Trace) -> list[Mark]:

@@ -1,0 +1,9 @@
+"""Layouts in memory of the records of measures: what compiled code and files of measures go by."""
+
+from uictest.measures.records import StopMeasures, WheelsetMeasures
+from uictest.record import layout_of
+
+STOP_MEASURES = layout_of(StopMeasures)
+"""Layout of :class:`~uictest.measures.StopMeasures`."""
+WHEELSET_MEASURES = layout_of(WheelsetMeasures)
+"""Layout of :class:`~uictest.measures.WheelsetMeasures`."""
