@@ -155,7 +155,7 @@ def test_where_a_run_stops_early_what_was_run_is_compared(call: Call, scenario: 
 def test_accepting_a_selection_keeps_the_other_cases(call: Call, scenario: Write, baseline: str) -> None:
     scenario("b", DIFFERENT)
     answer = call("run", "-k", "b", "--baseline", baseline, "--accept")
-    assert "1 case that did not run stay as they were" in answer.err
+    assert "1 case that did not run are unchanged" in answer.err
     assert _accepted() == ["a", "b"]
     assert call("run", "--baseline", baseline).code == 0
 
@@ -195,5 +195,5 @@ def test_what_is_no_baseline_is_refused_before_anything_is_simulated(
         Path("other/results.json").write_text(content)
     answer = call("run", "--baseline", "other")
     assert (answer.code, made_up, Path("reports").exists()) == (4, [], False)
-    assert "--accept makes the results of a run one" in answer.err
+    assert "--accept makes the results of a run the baseline" in answer.err
     assert call("run", "--accept").code == 4

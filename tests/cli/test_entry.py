@@ -14,7 +14,8 @@ from typing import Any
 
 import pytest
 
-from uictest.rig.backends.native import compiled_stop
+from uictest import rig
+from uictest.scenario import load
 
 from .conftest import HANGING, Start
 
@@ -31,8 +32,8 @@ _FORBIDDEN = {
 
 @pytest.mark.parametrize("arguments", _FORBIDDEN)
 def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[str, ...]) -> None:
-    scenario("stop")
-    compiled_stop()  # only the first start of all needs the compiler
+    [case] = load([scenario("stop")])
+    rig.simulate(case)  # only the first start of all needs the compiler
     program = """if True:
         import sys
         from uictest.cli.entry import execute

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from uictest.campaign import BatchResult
-from uictest.cli.exit_codes import ExitCode, of_campaign
+from uictest.cli.exit_codes import ExitCode, of_batch
 from uictest.evaluation import CaseResult
 
 
@@ -24,7 +24,7 @@ def _campaign(*outcomes: str, interrupted: bool = False) -> BatchResult:
     ],
 )
 def test_what_outweighs_what(campaign: BatchResult, code: ExitCode) -> None:
-    assert of_campaign(campaign) is code
+    assert of_batch(campaign) is code
 
 
 def test_the_codes_are_those_that_the_documentation_promises() -> None:

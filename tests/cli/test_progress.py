@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from uictest.cli import progress as progress_module
-from uictest.cli.progress import progress
+from uictest.cli.progress import announce_compilation, progress
 
 from .conftest import HANGING
 
@@ -33,3 +33,15 @@ def test_quiet_is_silent(monkeypatch: pytest.MonkeyPatch) -> None:
     with progress(7, quiet=True) as advance:
         advance()
     assert not [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
+
+
+@pytest.mark.parametrize(
+    ("warm", "quiet", "said"), [(False, False, True), (True, False, False), (False, True, False)]
+)
+def test_a_wait_is_announced_once_for_all_commands(
+    capsys: pytest.CaptureFixture[str], warm: bool, quiet: bool, said: bool
+) -> None:
+    announce_compilation(warm=warm, quiet=quiet)
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert ("uictest: compiling the rig (once per installation" in shown.err) is said

@@ -5,7 +5,14 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.escaping import csv_cell, printable, workflow_message, workflow_property, xml_text
+from uictest.report.escaping import (
+    csv_cell,
+    no_command,
+    printable,
+    workflow_message,
+    workflow_property,
+    xml_text,
+)
 
 any_text = st.text(st.characters(codec=None, exclude_categories=[]))
 
@@ -55,3 +62,17 @@ def test_a_workflow_property_cannot_start_another(text: str) -> None:
 
 def test_line_breaks_of_a_workflow_message_are_kept_as_github_reads_them() -> None:
     assert workflow_message("100 %\nof it") == "100 %25%0Aof it"
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        ("  ::error::x", "  \\x3a:error::x"),
+        ("::add-mask::x", "\\x3a:add-mask::x"),
+        ("case ##[error]x", "case #\\x23[error]x"),
+        ("  0.1  100 %", "  0.1  100 %"),
+        ("", ""),
+    ],
+)
+def test_a_line_of_the_log_is_no_command(line: str, shown: str) -> None:
+    assert no_command(line) == shown

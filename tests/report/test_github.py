@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from uictest.evaluation import CaseResult
-from uictest.report.github import LIMIT, annotation, append_to_step_summary, case_annotations, no_command
+from uictest.report.github import LIMIT, annotation, append_to_step_summary, case_annotations
 
 MakeResult = Callable[..., CaseResult]
 
@@ -29,20 +29,6 @@ def test_a_hostile_name_cannot_start_a_command_of_its_own(make_result: MakeResul
     (line,) = case_annotations(make_result(id=hostile, scenario=hostile, outcome="error"))
     assert line.startswith("::error file=")
     assert "\n" not in line
-
-
-@pytest.mark.parametrize(
-    ("line", "shown"),
-    [
-        ("  ::error::x", "  \\x3a:error::x"),
-        ("::add-mask::x", "\\x3a:add-mask::x"),
-        ("case ##[error]x", "case #\\x23[error]x"),
-        ("  0.1  100 %", "  0.1  100 %"),
-        ("", ""),
-    ],
-)
-def test_a_line_of_the_log_is_no_command(line: str, shown: str) -> None:
-    assert no_command(line) == shown
 
 
 def test_a_notice_is_an_annotation_of_its_own_level() -> None:

@@ -23,8 +23,8 @@ from uictest.cli.commands.run import run
 from uictest.cli.commands.schema import schema
 from uictest.cli.commands.sweep import sweep
 from uictest.cli.exit_codes import ExitCode
+from uictest.cli.output import data
 from uictest.cli.registration import command
-from uictest.cli.streams import data
 
 _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "

@@ -4,17 +4,32 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from uictest import comparison, evaluation, recording, report, scenario
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message
+import typer
+
+from uictest import campaign, comparison, evaluation, recording, report, scenario
+from uictest.cli.batch import Published
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.output import message
 from uictest.scenario import yaml
 
-if TYPE_CHECKING:
-    from uictest.cli.batch import Published
+
+@dataclass(frozen=True, slots=True)
+class BaselineChoice:
+    """What `--baseline`, `--accept` and `--tolerance` ask for; `folder` is None without a baseline."""
+
+    folder: Path | None
+    tolerances: comparison.Tolerances
+    accepting: bool
+
+    @classmethod
+    def of(cls, folder: Path | None, tolerances: comparison.Tolerances, *, accepting: bool) -> BaselineChoice:
+        """Return the choice. Raises typer.BadParameter where there is nothing to accept into."""
+        if accepting and folder is None:
+            raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")
+        return cls(folder, tolerances, accepting)
 
 
 def scope_of(selected: Sequence[scenario.Case], searched: Sequence[Path]) -> comparison.Scope:
@@ -24,20 +39,21 @@ def scope_of(selected: Sequence[scenario.Case], searched: Sequence[Path]) -> com
     )
 
 
-def open_baseline(
-    folder: Path, scope: comparison.Scope, tolerances: comparison.Tolerances, *, accepting: bool
-) -> comparison.Baseline | None:
-    """Return the baseline in a folder; None where the run that is accepted is the first one there.
+def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison.Baseline | None:
+    """Return the baseline; None without one, or where the run that is accepted is the first one there.
 
     Raises InvalidInputError where it cannot be read.
     """
-    if accepting and not (folder / report.RESULTS).exists():
+    folder = choice.folder
+    if folder is None or (choice.accepting and not (folder / report.RESULTS).exists()):
         return None
     way_out = (
-        f"remove {folder} to start a new one" if accepting else "--accept makes the results of a run one"
+        f"remove {folder} to start a new one"
+        if choice.accepting
+        else "--accept makes the results of a run the baseline"
     )
     try:
-        return comparison.read_baseline(folder, scope, tolerances)
+        return comparison.read_baseline(folder, scope, choice.tolerances)
     except OSError as error:
         reason = f"{error.filename}: {error.strerror}"
         raise InvalidInputError(f"uictest: {folder} is no baseline: {reason}; {way_out}") from error
@@ -45,7 +61,30 @@ def open_baseline(
         raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {way_out}") from error
 
 
-def show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool) -> ExitCode:
+def accept_or_compare(
+    choice: BaselineChoice,
+    accepted: comparison.Baseline | None,
+    done: campaign.BatchResult,
+    published: Published | None,
+    *,
+    quiet: bool,
+) -> ExitCode:
+    """Make a run the baseline, or show how it compares with it; nothing without a baseline or reports.
+
+    Returns MISSED where the run differs, else MET. Raises OSError.
+    """
+    if choice.folder is None or published is None:
+        return ExitCode.MET
+    if not choice.accepting:
+        return _show_comparison(published.content.baseline, quiet=quiet)
+    if done.interrupted:
+        message(f"uictest: interrupted: {choice.folder} is unchanged")
+    else:
+        _accept(published, choice.folder, accepted)
+    return ExitCode.MET
+
+
+def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool) -> ExitCode:
     """Show on stderr how the run compares with its baseline, if with any; with `quiet` only where it differs.
 
     Returns MISSED where it differs, else MET.
@@ -60,12 +99,12 @@ def show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool) 
     return ExitCode.MET if baseline.agrees else ExitCode.MISSED
 
 
-def accept_run(run: Published, folder: Path, baseline: comparison.Baseline | None) -> None:
+def _accept(run: Published, folder: Path, baseline: comparison.Baseline | None) -> None:
     """Make the results of a run the baseline; what the run did not select stays. Raises OSError."""
     document = comparison.accepted_document(json.loads(run.document), baseline)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in (("manifest.json", document["manifest"]), (report.RESULTS, document)):
         recording.write_text_atomic(folder / name, evaluation.to_json(content))
     kept = len(document["cases"]) - len(run.content.results)
-    others = f"; {report.counted(kept, 'case')} that did not run stay as they were" if kept else ""
+    others = f"; {report.counted(kept, 'case')} that did not run are unchanged" if kept else ""
     message(f"uictest: {folder} now holds the results of {run.place.name}{others}")

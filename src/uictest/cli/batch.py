@@ -9,12 +9,10 @@ from pathlib import Path
 from time import perf_counter
 
 from uictest import campaign, comparison, report, rig, scenario
-from uictest.campaign import BatchResult, CaseRun, PartsOfCases, RecordingRequest
-from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import Display
 from uictest.cli.drawing import Drawing
-from uictest.cli.progress import progress
-from uictest.cli.streams import message
+from uictest.cli.output import message
+from uictest.cli.progress import announce_compilation, progress
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,9 +20,9 @@ class Batch:
     """What is to be run, how, and where its reports go."""
 
     cases: Sequence[scenario.Case]
-    parts: PartsOfCases
+    parts: campaign.PartsOfCases
     manifest: report.RunManifest
-    recording: RecordingRequest
+    recording: campaign.RecordingRequest
     jobs: int
     maxfail: int | None
     output: Path
@@ -45,7 +43,7 @@ class Published:
     document: str
 
 
-def run_batch(batch: Batch, display: Display) -> tuple[BatchResult, Published | None]:
+def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Published | None]:
     """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
 
     Returns what came of it and its reports, None where there is nothing to report. Raises
@@ -72,7 +70,7 @@ def run_batch(batch: Batch, display: Display) -> tuple[BatchResult, Published | 
 
 
 def _write_reports(
-    batch: Batch, folder: report.RunFolder, done: BatchResult, traces: Mapping[str, report.Trace]
+    batch: Batch, folder: report.RunFolder, done: campaign.BatchResult, traces: Mapping[str, report.Trace]
 ) -> tuple[report.RunContent, str]:
     """Write all reports; return what they show and the text of results.json."""
     complete = len(done.results) == len(batch.cases)
@@ -95,11 +93,11 @@ def _append_step_summary(content: report.RunContent) -> None:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
-def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> BatchResult:
+def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> campaign.BatchResult:
     announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 
-        def take(examined: CaseRun) -> None:
+        def take(examined: campaign.CaseRun) -> None:
             drawing.take(examined)
             if examined.recording is not None and batch.recording.wants(examined.result):
                 report.write_recording(folder, examined.result.id, examined.recording)
@@ -118,7 +116,7 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
         )
 
 
-def _differences(batch: Batch, examined: CaseRun) -> Sequence[report.Difference]:
+def _differences(batch: Batch, examined: campaign.CaseRun) -> Sequence[report.Difference]:
     return () if batch.baseline is None else batch.baseline.differences(examined.result)
 
 
@@ -129,8 +127,10 @@ def _write_junit(path: Path | None, content: report.RunContent) -> None:
         write_text_atomic(path, report.junit_xml(content.results, content.baseline))
 
 
-def _sum_up(batch: Batch, content: report.RunContent, done: BatchResult, seconds: float, place: Path) -> None:
+def _sum_up(
+    batch: Batch, content: report.RunContent, done: campaign.BatchResult, seconds: float, place: Path
+) -> None:
     ended = "interrupted, " if done.interrupted else ""
-    left = len(batch.cases) - len(done.results)
-    not_run = f", {left} not run" if left else ""
+    remaining = len(batch.cases) - len(done.results)
+    not_run = f", {remaining} not run" if remaining else ""
     message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {place}")

@@ -10,7 +10,7 @@ from typing import Any
 import typer
 
 from uictest import campaign, scenario
-from uictest.cli.problems import InvalidInputError
+from uictest.cli.exit_codes import InvalidInputError
 from uictest.report import Column, aligned, columns_not_shown, counted, fitted, printable
 from uictest.scenario import yaml
 

@@ -9,7 +9,7 @@ from typing import Protocol, TextIO
 
 from uictest import evaluation, report
 from uictest.cli.options import Colour, Format
-from uictest.cli.streams import coloured, data
+from uictest.cli.output import coloured, data
 
 _ANSI = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _ANSI_END = "\x1b[0m"

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from uictest import campaign, report, scenario
-from uictest.campaign import BatchResult, CaseRun, RecordingRequest
 from uictest.report import page
 
 
@@ -20,21 +19,21 @@ class Drawing:
     """
 
     cases: Sequence[scenario.Case]
-    wish: RecordingRequest
+    wish: campaign.RecordingRequest
     wanted: bool
     traces: dict[str, report.Trace] = field(default_factory=dict)
 
     @property
-    def recording(self) -> RecordingRequest:
+    def recording(self) -> campaign.RecordingRequest:
         """What to record while the batch runs."""
         return replace(self.wish, cases="all") if self._on_the_way else self.wish
 
-    def take(self, examined: CaseRun) -> None:
+    def take(self, examined: campaign.CaseRun) -> None:
         """Keep what is drawn of a case."""
         if self._on_the_way and examined.recording is not None:
             self.traces[examined.result.id] = report.trace_of(examined.recording, examined.result.criteria)
 
-    def finish(self, done: BatchResult, jobs: int) -> dict[str, report.Trace]:
+    def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.Trace]:
         """Return what there is to draw, the worst cases of a large batch simulated again."""
         if self.wanted and not self._on_the_way and not done.interrupted:
             ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]

@@ -8,10 +8,9 @@ from collections.abc import Sequence
 import typer
 
 from uictest.cli.app import app
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.invocation import Invocation
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import lost_data, message, use_safe_encoding
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.options import CommandLine
+from uictest.cli.output import lost_data, message, use_safe_encoding
 
 _TYPER_INTERRUPTED = 130
 
@@ -19,14 +18,14 @@ _TYPER_INTERRUPTED = 130
 def execute(arguments: Sequence[str]) -> ExitCode:
     """Run one command line, and return its exit code; nothing but the code leaves, not even an exception."""
     use_safe_encoding()
-    code = _outcome(Invocation(arguments))
+    code = _outcome(CommandLine(arguments))
     reason = lost_data()
     if reason:
         message(f"uictest: {reason}; data are lost")
     return ExitCode.ERROR if reason and code is not ExitCode.INTERRUPTED else code
 
 
-def _outcome(invocation: Invocation) -> ExitCode:
+def _outcome(invocation: CommandLine) -> ExitCode:
     try:
         return _call(invocation)
     except typer.TyperException as error:
@@ -47,7 +46,7 @@ def _outcome(invocation: Invocation) -> ExitCode:
         return _failed(f"internal error: {type(error).__name__}: {error}", invocation)
 
 
-def _call(invocation: Invocation) -> ExitCode:
+def _call(invocation: CommandLine) -> ExitCode:
     code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
     if code == _TYPER_INTERRUPTED:
         # What typer makes of it outside its standalone mode, without a word.
@@ -55,7 +54,7 @@ def _call(invocation: Invocation) -> ExitCode:
     return ExitCode(code or 0)
 
 
-def _failed(reason: str, invocation: Invocation) -> ExitCode:
+def _failed(reason: str, invocation: CommandLine) -> ExitCode:
     if invocation.verbosity > 0:
         message(traceback.format_exc().rstrip())
         message(f"uictest: {reason}")

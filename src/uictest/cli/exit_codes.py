@@ -1,12 +1,10 @@
-"""What the exit code of the process says. A crash is never 1, and a count is never an exit code."""
+"""Exit codes, and the error that stands for one. A crash is never 1, and a count is never an exit code."""
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from uictest.campaign import BatchResult
+from uictest import campaign
 
 
 class ExitCode(IntEnum):
@@ -20,16 +18,23 @@ class ExitCode(IntEnum):
     NOTHING_SELECTED = 5
 
 
-def of_campaign(campaign: BatchResult) -> ExitCode:
-    """Return the exit code of a campaign: an interruption outweighs an error, an error a missed case."""
-    if campaign.interrupted:
+class InvalidInputError(Exception):
+    """Options or files that cannot be used: the command ends with `ExitCode.USAGE`.
+
+    The message is complete, and may have several lines.
+    """
+
+
+def of_batch(batch: campaign.BatchResult) -> ExitCode:
+    """Return the exit code of a batch: interruption before error, error before a case not as expected."""
+    if batch.interrupted:
         return ExitCode.INTERRUPTED
-    if any(result.outcome == "error" for result in campaign.results):
+    if any(result.outcome == "error" for result in batch.results):
         return ExitCode.ERROR
-    return ExitCode.MET if all(result.met for result in campaign.results) else ExitCode.MISSED
+    return ExitCode.MET if all(result.met for result in batch.results) else ExitCode.MISSED
 
 
 def worst(*codes: ExitCode) -> ExitCode:
-    """Return the code that weighs most: interruption, then error, then a missed case."""
+    """Return the first of interruption, error and a case not as expected that is among the codes."""
     order = (ExitCode.MET, ExitCode.MISSED, ExitCode.ERROR, ExitCode.INTERRUPTED)
     return max(codes, key=order.index)

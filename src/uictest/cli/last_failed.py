@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from uictest import campaign, evaluation, report, scenario
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message
+from uictest.cli.exit_codes import InvalidInputError
+from uictest.cli.output import message
 
 
 def failed_last(cases: Sequence[scenario.Case], output: Path) -> list[scenario.Case]:

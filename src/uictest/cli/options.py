@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +12,14 @@ from typing import Annotated
 import typer
 
 from uictest import comparison, report
-from uictest.cli.invocation import Invocation
+
+
+@dataclass(slots=True)
+class CommandLine:
+    """The arguments as typed, and how much the user wants to see (0; 1 and more with `-v`)."""
+
+    arguments: Sequence[str]
+    verbosity: int = 0
 
 
 class Format(StrEnum):
@@ -46,7 +54,7 @@ class Recorded(StrEnum):
 
 
 def _remember_verbosity(context: typer.Context, value: int) -> int:
-    if isinstance(context.obj, Invocation):
+    if isinstance(context.obj, CommandLine):
         context.obj.verbosity = value
     return value
 
@@ -70,19 +78,21 @@ Expression = Annotated[
     typer.Option(
         "-k",
         metavar="EXPR",
-        help="Cases whose id, file name or tag contains EXPR; 'and', 'or', 'not', '(', ')' join words.",
+        help="Select cases whose id, file name or tag contains EXPR; combine words with and, or, not, ( ).",
     ),
 ]
 Tag = Annotated[
     str | None,
-    typer.Option("-m", metavar="TAG", help="Cases that carry this tag; 'and', 'or', 'not' join several."),
+    typer.Option(
+        "-m", metavar="TAG", help="Select cases with this tag; combine tags with and, or, not, ( )."
+    ),
 ]
 Overrides = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
-        help="Set a key in every scenario; a comma list or range(a,b,step) sweeps it. May be repeated.",
+        help="Set a key in every scenario; a list (a,b) or range(a,b,step) sweeps it. May be repeated.",
     ),
 ]
 Seed = Annotated[
@@ -95,8 +105,8 @@ Trusted = Annotated[
         metavar="DIR",
         exists=True,
         file_okay=False,
-        help="Folder that references may lead into, besides those of the files given and the working folder."
-        " May be repeated.",
+        help="Allow references into this folder, besides the folders of the given files and the working"
+        " folder. May be repeated.",
     ),
 ]
 Verbosity = Annotated[
@@ -106,39 +116,39 @@ Verbosity = Annotated[
         "--verbose",
         count=True,
         callback=_remember_verbosity,
-        help="Show more; where an error arose, too.",
+        help="More detail, including tracebacks.",
     ),
 ]
-Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only what did not meet its expectation.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only cases that are not as expected.")]
 Output = Annotated[
     Path,
-    typer.Option("-o", "--output", metavar="DIR", help="Folder in which each run gets a folder of its own."),
+    typer.Option("-o", "--output", metavar="DIR", help="Folder for reports; each run gets a folder in it."),
 ]
-ExitFirst = Annotated[bool, typer.Option("-x", help="Stop at the first case that is not met.")]
+ExitFirst = Annotated[bool, typer.Option("-x", help="Stop at the first case that is not as expected.")]
 MaxFail = Annotated[
     int | None,
-    typer.Option("--maxfail", metavar="N", min=1, help="Stop at the Nth case that is not met."),
+    typer.Option("--maxfail", metavar="N", min=1, help="Stop after N cases that are not as expected."),
 ]
-DryRun = Annotated[bool, typer.Option("--dry-run", help="List what would run, and run nothing.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="List the selected cases without running them.")]
 JUnitFile = Annotated[
-    Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
+    Path | None, typer.Option("--junitxml", metavar="FILE", help="Also write the JUnit XML to FILE.")
 ]
-Jobs = Annotated[
-    int, typer.Option("-n", "--jobs", metavar="N|auto", parser=_jobs, help="Threads to simulate on.")
-]
+Jobs = Annotated[int, typer.Option("-n", "--jobs", metavar="N|auto", parser=_jobs, help="Number of threads.")]
 RunFormat = Annotated[
     Format,
     typer.Option(
-        "--format", help="What stdout carries: a table or lines, results.json, or lines with annotations."
+        "--format",
+        help="Output on stdout: text (a table or lines), json (results.json) or github (lines, annotations).",
     ),
 ]
 CheckFormat = Annotated[
     Format,
-    typer.Option("--format", help="What stdout carries: nothing, the problems as JSON, or as annotations."),
+    typer.Option("--format", help="Output on stdout: text (none), json (the errors), github (annotations)."),
 ]
-ListFormat = Annotated[PlainFormat, typer.Option("--format", help="What stdout carries: lines or JSON.")]
-Recording = Annotated[
-    Recorded, typer.Option("--record", help="Record all cases, those that are not met, or none.")
+ListFormat = Annotated[PlainFormat, typer.Option("--format", help="Output on stdout: text or json.")]
+RecordingChoice = Annotated[
+    Recorded,
+    typer.Option("--record", help="Keep recordings of all cases, those not as expected, or none."),
 ]
 RecordRate = Annotated[
     float,
@@ -146,7 +156,7 @@ RecordRate = Annotated[
         "--record-rate", metavar="HZ", min=1.0, max=100e3, help="Samples per second of a recording."
     ),
 ]
-Colouring = Annotated[Colour, typer.Option("--color", help="When to colour.")]
+Colouring = Annotated[Colour, typer.Option("--color", help="Colour the output.")]
 Reports = Annotated[
     str,
     typer.Option(
@@ -160,7 +170,7 @@ ToleranceTexts = Annotated[
     typer.Option(
         "--tolerance",
         metavar="[NAME=]VALUE",
-        help="What may differ: 0.5 (absolute), 1% (of the range); NAME may hold *. May be repeated.",
+        help="Allowed difference: 0.5 (absolute), 1% (of the range); NAME may contain *. May be repeated.",
     ),
 ]
 

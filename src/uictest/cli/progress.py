@@ -1,4 +1,4 @@
-"""That something is going on: a bar on a terminal, a line now and then elsewhere."""
+"""Signs of progress: a bar on a terminal, a line now and then elsewhere, a message before compiling."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from time import monotonic
 
 from uictest.cli.display import interactive
-from uictest.cli.streams import message
+from uictest.cli.output import message
 
 HEARTBEAT = 30.0  # seconds between two signs of life where nobody watches
 
@@ -57,3 +57,9 @@ def _heartbeat(total: int) -> Iterator[Advance]:
     finally:
         ended.set()
         thread.join()
+
+
+def announce_compilation(*, warm: bool, quiet: bool = False) -> None:
+    """Write that the rig is compiled first, unless the cache has it compiled (`warm`) or all is `quiet`."""
+    if not (warm or quiet):
+        message("uictest: compiling the rig (once per installation, ten to forty seconds)...")

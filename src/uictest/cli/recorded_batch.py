@@ -1,29 +1,37 @@
-"""Recordings from file to the published reports."""
+"""Recorded stops, from their files to the published reports."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from uictest import field_data, recording, report, scenario
-from uictest.campaign import BatchResult, CaseRun, RecordingRequest
+from uictest import campaign, field_data, recording, report, scenario
 from uictest.cli.display import Display
+from uictest.cli.output import message
 from uictest.cli.recordings import each_file, names_of
-from uictest.cli.streams import message
 from uictest.scenario import yaml
 from uictest.units import KILOMETRE_PER_HOUR
 
-Stated = Callable[[str, float], "scenario.Case"]
-"""The case that a stop is judged as: from its name and its initial speed, m/s."""
+CaseOfStop = Callable[[str, float], "scenario.Case"]
+"""Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
 """m/s, for the scenario of a record whose speed cannot be used: its result is an error whatever it says."""
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
-    """A recording, its name in the reports, and the stop in it; only defects where it cannot be used."""
+class RecordedFile:
+    """A file with a recorded stop.
+
+    Args:
+        path: of the file.
+        name: of the stop in the reports.
+        digest: SHA-256 of the file.
+        stop: the stop in it; None where it cannot be used.
+        defects: what is wrong with the record.
+
+    """
 
     path: Path
     name: str
@@ -31,98 +39,115 @@ class Measured:
     stop: field_data.RecordedStop | None
     defects: tuple[field_data.Defect, ...]
 
-    def case(self, stated: Stated, inputs: dict[str, str]) -> scenario.Case:
-        """Return what this recording is judged as."""
+    def case(self, case_of: CaseOfStop, inputs: dict[str, str]) -> scenario.Case:
+        """Return the case that this stop is judged as; `inputs` are the other files read for it."""
         speed = _UNKNOWN_SPEED if self.stop is None else float(self.stop.recording["speed"][0])
-        base = stated(self.name, speed)
+        case = case_of(self.name, speed)
         shown = yaml.display_name(self.path)
         return replace(
-            base, id=self.name, path=Path(shown), inputs={**base.inputs, **inputs, shown: self.digest}
+            case, id=self.name, path=Path(shown), inputs={**case.inputs, **inputs, shown: self.digest}
         )
 
 
-def read_all(files: Sequence[Path], channel_map: field_data.ChannelMap) -> list[Measured]:
+@dataclass(frozen=True, slots=True)
+class RecordedBatch:
+    """Recorded stops with the cases that they are judged as, and where their reports go.
+
+    `recording` says whose samples are kept; `arguments` are those of the command line.
+    """
+
+    files: Sequence[RecordedFile]
+    cases: Sequence[scenario.Case]
+    arguments: Sequence[str]
+    recording: campaign.RecordingRequest
+    output: Path
+    junit: Path | None
+
+
+def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> list[RecordedFile]:
     """Read every file. Raises InvalidInputError with the errors of all that are no recordings."""
 
-    def read(named: Path) -> Measured:
+    def read(path: Path) -> RecordedFile:
         try:
-            stop = field_data.stop_in(named, channel_map)
+            stop = field_data.stop_in(path, channel_map)
         except field_data.UnusableError as error:
-            return Measured(named, "", field_data.digest_of(named), None, error.defects)
-        return Measured(named, "", field_data.digest_of(named), stop, stop.defects)
+            return RecordedFile(path, "", field_data.digest_of(path), None, error.defects)
+        return RecordedFile(path, "", field_data.digest_of(path), stop, stop.defects)
 
-    read_ones = each_file(files, read)
-    return [replace(each, name=name) for each, name in zip(read_ones, names_of(files), strict=True)]
+    files = each_file(paths, read)
+    return [replace(file, name=name) for file, name in zip(files, names_of(paths), strict=True)]
 
 
-def judge_all(recordings: Sequence[Measured], cases: Sequence[scenario.Case]) -> list[CaseRun]:
+def run_recorded(batch: RecordedBatch, display: Display) -> tuple[campaign.BatchResult, Path]:
+    """Judge every stop and publish the reports; return the results and the folder. Raises OSError."""
+    parts = campaign.parts_of_recorded(batch.cases)
+    inputs = {name: digest for case in batch.cases for name, digest in case.inputs.items()}
+    manifest = report.run_manifest(batch.arguments, None, inputs, len(batch.cases), parts.values())
+    case_runs = [campaign.with_parts(case_run, parts) for case_run in _judge(batch)]
+    place = _publish(batch, case_runs, manifest, display)
+    return campaign.BatchResult([each.result for each in case_runs]), place
+
+
+def _judge(batch: RecordedBatch) -> list[campaign.CaseRun]:
     """Judge every stop; the samples it was judged by come with its result."""
-    examined = []
-    for measured, case in zip(recordings, cases, strict=True):
-        if measured.stop is None:
-            examined.append(CaseRun(field_data.unusable_result(case, measured.defects)))
-            continue
-        examined.append(CaseRun(*field_data.judge_recording(case, measured.stop)))
-    return examined
+    return [
+        campaign.CaseRun(field_data.unusable_result(case, file.defects))
+        if file.stop is None
+        else campaign.CaseRun(*field_data.judge_recording(case, file.stop))
+        for file, case in zip(batch.files, batch.cases, strict=True)
+    ]
 
 
-def subjects_of(
-    recordings: Sequence[Measured], cases: Sequence[scenario.Case]
-) -> dict[str, report.CaseDescription]:
-    """Return what the stops are about, by the id of the case each is judged as."""
-    return {
-        case.id: field_data.recorded_description(case, measured.stop)
-        for measured, case in zip(recordings, cases, strict=True)
-    }
-
-
-def traces_of(examined: Sequence[CaseRun]) -> dict[str, report.Trace]:
-    """Return what there is to draw of the recordings, by the id of the case each is judged as."""
-    return {
-        each.result.id: report.trace_of(each.recording, each.result.criteria)
-        for each in examined
-        if each.recording is not None
-    }
-
-
-def publish(
-    examined: Sequence[CaseRun],
-    wish: RecordingRequest,
+def _publish(
+    batch: RecordedBatch,
+    case_runs: Sequence[campaign.CaseRun],
     manifest: report.RunManifest,
-    output: Path,
-    junit: Path | None,
     display: Display,
-    subjects: Mapping[str, report.CaseDescription],
-    traces: Mapping[str, report.Trace],
-) -> tuple[BatchResult, Path]:
-    """Write the reports of a run of recordings; return its results and where they are. Raises OSError.
-
-    `wish` says whose samples are kept, `subjects` what the cases are about and `traces` what the page draws
-    of them, by id.
-    """
-    results = [each.result for each in examined]
-    with report.RunFolder(output, report.run_name(datetime.now(UTC), manifest)) as folder:
-        for each in examined:
-            if each.recording is not None and wish.wants(each.result):
-                report.write_recording(folder.path, each.result.id, each.recording)
-        content = report.RunContent(folder.name, results, manifest, True, subjects, traces)
+) -> Path:
+    with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), manifest)) as folder:
+        content = _content(batch, folder.name, case_runs, manifest)
+        _write_recordings(folder.path, case_runs, batch.recording)
         document = report.write_reports(folder.path, content)
         report.write_formats(folder.path, content, ["html"])
         place = folder.publish()
     report.point_latest(place)
-    if junit is not None:
-        recording.write_text_atomic(junit, report.junit_xml(results))
-    for result in results:
+    if batch.junit is not None:
+        recording.write_text_atomic(batch.junit, report.junit_xml(content.results))
+    for result in content.results:
         display.case(result)
     display.end(content, document)
-    return BatchResult(results), place
+    return place
 
 
-def tell(recordings: Sequence[Measured]) -> None:
-    """Say how each record was prepared and everything that was found wrong with it."""
-    for measured in recordings:
-        if measured.stop is not None:
-            chosen = "; ".join(f"{name}: {text}" for name, text in measured.stop.choices.items())
-            message(f"uictest: {measured.path}: {chosen}")
-        for defect in measured.defects:
-            message(f"uictest: {measured.path}: {defect}")
+def _content(
+    batch: RecordedBatch, name: str, case_runs: Sequence[campaign.CaseRun], manifest: report.RunManifest
+) -> report.RunContent:
+    descriptions = {
+        case.id: field_data.recorded_description(case, file.stop)
+        for file, case in zip(batch.files, batch.cases, strict=True)
+    }
+    traces = {
+        each.result.id: report.trace_of(each.recording, each.result.criteria)
+        for each in case_runs
+        if each.recording is not None
+    }
+    results = [each.result for each in case_runs]
+    return report.RunContent(name, results, manifest, subjects=descriptions, traces=traces)
+
+
+def _write_recordings(
+    folder: Path, case_runs: Sequence[campaign.CaseRun], request: campaign.RecordingRequest
+) -> None:
+    for each in case_runs:
+        if each.recording is not None and request.wants(each.result):
+            report.write_recording(folder, each.result.id, each.recording)
+
+
+def write_preparation(files: Sequence[RecordedFile]) -> None:
+    """Write to stderr how each record was prepared, and its defects."""
+    for file in files:
+        if file.stop is not None:
+            choices = "; ".join(f"{name}: {text}" for name, text in file.stop.choices.items())
+            message(f"uictest: {file.path}: {choices}")
+        for defect in file.defects:
+            message(f"uictest: {file.path}: {defect}")

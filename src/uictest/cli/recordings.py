@@ -5,17 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import typer
 
-from uictest import field_data
-from uictest.cli.problems import InvalidInputError
+from uictest import field_data, scenario
+from uictest.cli.cases import load_cases, select_cases
+from uictest.cli.exit_codes import InvalidInputError
 from uictest.recording import formats
 from uictest.scenario import yaml
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case
 
 Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
 MapName = Annotated[
@@ -29,19 +27,23 @@ Trigger = Annotated[
     typer.Option(
         "--trigger",
         metavar="HOW|TIME",
-        help="The brake command: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
+        help="Brake command at: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
     ),
 ]
 TriggerLead = Annotated[
     str | None,
-    typer.Option("--trigger-lead", metavar="TIME", help="How long before its mark the command was given."),
+    typer.Option("--trigger-lead", metavar="TIME", help="Time from the brake command to the trigger."),
 ]
 Raster = Annotated[
-    str | None, typer.Option("--raster", metavar="TIME", help="Interval of the samples that are measured.")
+    str | None, typer.Option("--raster", metavar="TIME", help="Interval to which the samples are resampled.")
 ]
 LowPass = Annotated[
     str | None,
-    typer.Option("--low-pass", metavar="FREQUENCY", help="Low-pass on every signal, such as '10 Hz'."),
+    typer.Option(
+        "--low-pass",
+        metavar="FREQUENCY",
+        help="Low-pass filter for every signal, such as '10 Hz'.",
+    ),
 ]
 Result = TypeVar("Result")
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
@@ -49,9 +51,12 @@ _LONGEST_NAME = 80
 
 
 def channel_map(
-    reference: str, trusted: Sequence[Path] | None, **choices: str | None
+    reference: str, trusted: Sequence[Path] | None, **preparation: str | None
 ) -> tuple[field_data.ChannelMap, dict[str, str]]:
-    """Return a channel map, changed by options, and the files read for it. Raises InvalidInputError."""
+    """Return a channel map, its preparation changed by options, and the files read for it.
+
+    Raises InvalidInputError where there is no such map, typer.BadParameter for an option that does not fit.
+    """
     try:
         loaded, inputs = field_data.load_map(reference, trusted or ())
     except KeyError:
@@ -61,17 +66,19 @@ def channel_map(
         ) from None
     except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
-    return loaded.model_copy(update={"preparation": _changed(loaded.preparation, choices)}), inputs
+    changed = _with_options(loaded.preparation, preparation)
+    return loaded.model_copy(update={"preparation": changed}), inputs
 
 
-def _changed(preparation: Any, choices: dict[str, str | None]) -> Any:
+def _with_options(preparation: Any, texts: dict[str, str | None]) -> Any:
+    """Return the preparation with the options that are set."""
     from pydantic import ValidationError
 
-    given = {name: text for name, text in choices.items() if text is not None}
-    if (trigger := given.get("trigger")) is not None and any(map(str.isdigit, trigger)):
-        given["trigger_time"] = given.pop("trigger")
+    options = {name: text for name, text in texts.items() if text is not None}
+    if (trigger := options.get("trigger")) is not None and any(map(str.isdigit, trigger)):
+        options["trigger_time"] = options.pop("trigger")
     try:
-        return type(preparation).model_validate({**dict(preparation), **given})
+        return type(preparation).model_validate({**dict(preparation), **options})
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         name = str(first["loc"][0]) if first["loc"] else ""
@@ -80,16 +87,14 @@ def _changed(preparation: Any, choices: dict[str, str | None]) -> Any:
 
 
 def one_case(
-    scenario: Path, expression: str | None, overrides: Sequence[str], trusted: Sequence[Path] | None
-) -> Case:
+    path: Path, expression: str | None, overrides: Sequence[str], trusted: Sequence[Path] | None
+) -> scenario.Case:
     """Return the one case of a scenario file. Raises InvalidInputError where there are several or none."""
-    from uictest.cli.cases import load_cases, select_cases
-
-    cases = select_cases(load_cases([scenario], overrides, None, trusted), expression, None)
+    cases = select_cases(load_cases([path], overrides, None, trusted), expression, None)
     if len(cases) != 1:
-        listed = ", ".join(case.id for case in cases[:8]) or "none is selected"
+        ids = ", ".join(case.id for case in cases[:8]) or "none is selected"
         raise InvalidInputError(
-            f"uictest: {scenario} has {len(cases)} cases where one is needed ({listed}); choose with -k"
+            f"uictest: {path} has {len(cases)} cases where one is needed ({ids}); choose with -k"
         )
     return cases[0]
 

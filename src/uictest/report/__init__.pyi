@@ -14,7 +14,12 @@ from .difference import (
     worst_of_wheelsets as worst_of_wheelsets,
 )
 from .document import differences_form as differences_form, subjects_form as subjects_form
-from .escaping import csv_cell as csv_cell, printable as printable, xml_text as xml_text
+from .escaping import (
+    csv_cell as csv_cell,
+    no_command as no_command,
+    printable as printable,
+    xml_text as xml_text,
+)
 from .format_registry import (
     IN_EVERY_RUN as IN_EVERY_RUN,
     draws_stops as draws_stops,
@@ -27,7 +32,6 @@ from .github import (
     annotation as annotation,
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
-    no_command as no_command,
 )
 from .manifest import (
     RunManifest as RunManifest,

@@ -6,6 +6,7 @@ import re
 
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", *"\uff1d\uff0b\uff0d\uff20")
 _PLAIN_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_COMMAND = re.compile(r"^(\s*):(?=:)")
 _NOT_XML = re.compile("[^\t\n\r\u0020-\u007e\u0085\u00a0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -40,3 +41,9 @@ def workflow_message(text: str) -> str:
 def workflow_property(text: str) -> str:
     """Return the text as the value of a property of a GitHub workflow command."""
     return workflow_message(text).replace(":", "%3A").replace(",", "%2C")
+
+
+def no_command(line: str) -> str:
+    """Return a line of the log as one that GitHub does not take for a command, whatever it contains."""
+    # The runner looks behind leading blanks, and for commands of its first kind anywhere in a line.
+    return _COMMAND.sub(r"\1\\x3a", line).replace("##[", r"#\x23[")

@@ -1,9 +1,8 @@
-"""What GitHub Actions reads: workflow commands for cases, lines that are none, and the summary of a step."""
+"""What GitHub Actions reads: workflow commands for cases, and the summary of a step."""
 
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -22,7 +21,6 @@ LIMIT = 1_000_000
 """Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""
 
 _ALWAYS = 2_000  # bytes that a summary may have where others have filled the file
-_COMMAND = re.compile(r"^(\s*):(?=:)")
 
 
 def case_annotations(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
@@ -54,12 +52,6 @@ def annotation(
         f"{name}={workflow_property(str(value))}" for name, value in properties.items() if value is not None
     )
     return f"::{level} {shown}::{workflow_message(message)}"
-
-
-def no_command(line: str) -> str:
-    """Return a line of the log as one that GitHub takes for no command, whatever stands in it."""
-    # The runner looks behind leading blanks, and for commands of its first kind anywhere in a line.
-    return _COMMAND.sub(r"\1\\x3a", line).replace("##[", r"#\x23[")
 
 
 def append_to_step_summary(summary: Callable[[int], str]) -> None:

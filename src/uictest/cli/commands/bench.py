@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from uictest import identification
-from uictest.cli.compilation import announce_compilation
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import data, message
+from uictest.cli.output import data, message
+from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
 
 if TYPE_CHECKING:

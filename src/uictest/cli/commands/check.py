@@ -1,4 +1,4 @@
-"""`uictest check`: whether scenario files are valid. Nothing is simulated."""
+"""`uictest check`: validate scenario and sweep files without simulating them."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from typing import Annotated
 
 import typer
 
-from uictest import scenario, sweep
+from uictest import report, scenario, sweep
 from uictest.cli import sweep as sweeping
 from uictest.cli.cases import scenario_paths
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
-from uictest.cli.streams import data, message
-from uictest.report import annotation, counted
+from uictest.cli.output import data, message
 from uictest.scenario import yaml
 
 _FIELDS = ("file", "line", "column", "key", "message", "hint")
@@ -25,26 +24,24 @@ def check(
     paths: Paths = None,
     trusted: Trusted = None,
     shown: CheckFormat = Format.TEXT,
-    quiet: Annotated[
-        bool, typer.Option("-q", "--quiet", help="Say nothing where there is no error.")
-    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing if there is no error.")] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Validate scenario and sweep files and what they refer to. Every error is shown with its place."""
-    given = scenario_paths(paths)
-    found, sound = _scenarios([path for path in given if not sweeping.is_sweep(path)], trusted or ())
-    sweeps = list(sweeping.sweep_files(given))
+    places = scenario_paths(paths)
+    errors, counts = _scenarios([path for path in places if not sweeping.is_sweep(path)], trusted or ())
+    sweeps = list(sweeping.sweep_files(places))
     for path in sweeps:
-        found.extend(_errors_of_sweep(path, given, trusted or ()))
-    if found:
-        _show(found, shown)
-        message(f"uictest: {counted(len(found), 'error')}")
+        errors.extend(_errors_of_sweep(path, places, trusted or ()))
+    if errors:
+        _show(errors, shown)
+        message(f"uictest: {report.counted(len(errors), 'error')}")
         return ExitCode.USAGE
     if shown is Format.JSON:
         data("[]")
     if not quiet:
-        and_sweeps = f" and {counted(len(sweeps), 'sweep')}" if sweeps else ""
-        message(f"uictest: {sound}{and_sweeps}, no error")
+        and_sweeps = f" and {report.counted(len(sweeps), 'sweep')}" if sweeps else ""
+        message(f"uictest: {counts}{and_sweeps}, no error")
     return ExitCode.MET
 
 
@@ -55,11 +52,11 @@ def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yam
     except yaml.ScenarioErrors as errors:
         return list(errors.diagnostics), ""
     files = {case.path for case in cases}
-    return [], f"{counted(len(files), 'scenario')} with {counted(len(cases), 'case')}"
+    return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
 
 
-def _errors_of_sweep(path: Path, given: Sequence[Path], trusted: Sequence[Path]) -> Sequence[yaml.Diagnostic]:
-    if path not in given and not scenario.Roots.of(given, trusted).contain(path):
+def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path]) -> Sequence[yaml.Diagnostic]:
+    if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
         return (scenario.link_outside(path),)
     try:
         plan = sweep.load_sweep(path, trusted=trusted)
@@ -73,13 +70,10 @@ def _errors_of_sweep(path: Path, given: Sequence[Path], trusted: Sequence[Path])
 
 def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
     if shown is Format.JSON:
-        data(
-            json.dumps([{name: getattr(found, name) for name in _FIELDS} for found in diagnostics], indent=2)
-        )
+        data(json.dumps([{name: getattr(each, name) for name in _FIELDS} for each in diagnostics], indent=2))
         return
-    for found in diagnostics:
+    for each in diagnostics:
         if shown is Format.GITHUB:
-            data(
-                annotation(str(found.file), found.key or "scenario", found.message, found.line, found.column)
-            )
-        message(str(found))
+            title = each.key or "scenario"
+            data(report.annotation(str(each.file), title, each.message, each.line, each.column))
+        message(str(each))

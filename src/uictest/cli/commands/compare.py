@@ -10,12 +10,10 @@ from typing import Annotated
 import typer
 
 from uictest import comparison, recording
-from uictest.cli.commands.report import run_folder
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.folders import why_no_run
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import data, message, terminal_width
+from uictest.cli.output import data, message, terminal_width
+from uictest.cli.run_folders import run_folder, why_no_run
 from uictest.recording import formats
 
 

@@ -2,46 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from uictest import campaign, field_data, recording, report
-from uictest.cli.exit_codes import ExitCode, of_campaign
-from uictest.cli.options import (
-    Colour,
-    Colouring,
-    Expression,
-    Format,
-    Output,
-    Overrides,
-    Quiet,
-    Recorded,
-    Recording,
-    RunFormat,
-    Trusted,
-    Verbosity,
-)
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.recordings import (
-    Files,
-    LowPass,
-    MapName,
-    Raster,
-    Trigger,
-    TriggerLead,
-    channel_map,
-    each_file,
-    one_case,
-)
-from uictest.cli.streams import data, message
+from uictest import campaign, field_data, recording, report, scenario as scenarios
+from uictest.cli import options, recorded_batch, recordings
+from uictest.cli.display import chosen_display
+from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_batch
+from uictest.cli.output import data, message
 from uictest.recording import formats
 from uictest.scenario import yaml
-
-if TYPE_CHECKING:
-    from uictest.scenario import Case
 
 _OPTIONS = {
     "rail.condition": "--rail",
@@ -51,93 +24,92 @@ _OPTIONS = {
 }
 """What must be stated of a recording -> the option that states it."""
 
+Listing = Annotated[
+    bool, typer.Option("--list", help="List the channels of the files and the channel map that fits.")
+]
+ScenarioFile = Annotated[
+    Path | None,
+    typer.Option("--scenario", metavar="FILE", help="Scenario with the test conditions and the criteria."),
+]
+Criteria = Annotated[
+    list[str] | None,
+    typer.Option("--criteria", metavar="NAME", help="Criteria to judge by. May be repeated."),
+]
+Rail = Annotated[str | None, typer.Option("--rail", metavar="NAME", help="Rail condition.")]
+Position = Annotated[str | None, typer.Option("--position", metavar="NAME", help="Brake position.")]
+Wsp = Annotated[str | None, typer.Option("--wsp", metavar="STATE", help="WSP: active or bypassed.")]
+
 
 def evaluate(
     context: typer.Context,
-    files: Files,
-    map_name: MapName = "uictest",
-    listing: Annotated[
-        bool, typer.Option("--list", help="Show what the files hold, and which channel map fits.")
-    ] = False,
-    scenario: Annotated[
-        Path | None,
-        typer.Option("--scenario", metavar="FILE", help="States circumstances and criteria of the stop."),
-    ] = None,
-    expression: Expression = None,
-    criteria: Annotated[
-        list[str] | None,
-        typer.Option("--criteria", metavar="NAME", help="Criteria to judge by; may be repeated."),
-    ] = None,
-    rail: Annotated[str | None, typer.Option("--rail", metavar="NAME", help="Rail condition.")] = None,
-    position: Annotated[
-        str | None, typer.Option("--position", metavar="NAME", help="Brake position.")
-    ] = None,
-    wsp: Annotated[str | None, typer.Option("--wsp", metavar="STATE", help="active or bypassed.")] = None,
-    overrides: Overrides = None,
-    trusted: Trusted = None,
-    trigger: Trigger = None,
-    trigger_lead: TriggerLead = None,
-    raster: Raster = None,
-    low_pass: LowPass = None,
-    output: Output = Path("reports"),
-    junit: Annotated[
-        Path | None, typer.Option("--junitxml", metavar="FILE", help="Write the JUnit XML to this file, too.")
-    ] = None,
-    recorded: Recording = Recorded.FAILED,
-    shown: RunFormat = Format.TEXT,
-    quiet: Quiet = False,
-    verbosity: Verbosity = 0,
-    colour: Colouring = Colour.AUTO,
+    files: recordings.Files,
+    map_name: recordings.MapName = "uictest",
+    listing: Listing = False,
+    scenario: ScenarioFile = None,
+    expression: options.Expression = None,
+    criteria: Criteria = None,
+    rail: Rail = None,
+    position: Position = None,
+    wsp: Wsp = None,
+    overrides: options.Overrides = None,
+    trusted: options.Trusted = None,
+    trigger: recordings.Trigger = None,
+    trigger_lead: recordings.TriggerLead = None,
+    raster: recordings.Raster = None,
+    low_pass: recordings.LowPass = None,
+    output: options.Output = Path("reports"),
+    junit: options.JUnitFile = None,
+    recorded: options.RecordingChoice = options.Recorded.FAILED,
+    shown: options.RunFormat = options.Format.TEXT,
+    quiet: options.Quiet = False,
+    verbosity: options.Verbosity = 0,
+    colour: options.Colouring = options.Colour.AUTO,
 ) -> ExitCode:
-    """Judge measured or simulated recordings. Reports and exit codes are those of 'run'.
+    """Judge recordings of real or simulated stops. Reports and exit codes are those of 'run'.
 
-    A recording does not hold the rail condition, the brake position, the state of the WSP or the criteria:
-    state them by a scenario, or by options.
+    A recording does not contain the rail condition, the brake position, the state of the WSP or the criteria:
+    state them with a scenario or with options.
     """
-    mapped, inputs = channel_map(
+    mapped, inputs = recordings.channel_map(
         map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
     )
     if listing:
         return _list(files, mapped)
-    chosen = f"[{', '.join(criteria)}]" if criteria else None
-    given = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": chosen}
-    statements = [*(f"{key}={text}" for key, text in given.items() if text is not None), *(overrides or ())]
-    stated = _stated(scenario, expression, statements, trusted)
-
-    from uictest.cli.display import chosen_display
-    from uictest.cli.recorded_batch import judge_all, publish, read_all, subjects_of, tell, traces_of
-
-    recordings = read_all(files, mapped)
-    cases = [_checked(lambda m=measured: m.case(stated, inputs)) for measured in recordings]  # type: ignore[misc]
-    read = {name: digest for case in cases for name, digest in case.inputs.items()}
-    parts = campaign.parts_of_recorded(cases)
-    examined = [campaign.with_parts(each, parts) for each in judge_all(recordings, cases)]
-    done, place = publish(
-        examined,
-        campaign.RecordingRequest(recorded.value),
-        report.run_manifest(context.obj.arguments, None, read, len(cases), parts.values()),
-        output,
-        junit,
-        chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0),
-        subjects_of(recordings, cases),
-        traces_of(examined),
+    statements = [*_statements(criteria, rail, position, wsp), *(overrides or ())]
+    case_of = _case_of_stop(scenario, expression, statements, trusted)
+    stops = recorded_batch.read_files(files, mapped)
+    cases = [_case(stop, case_of, inputs) for stop in stops]
+    request = campaign.RecordingRequest(recorded.value)
+    batch = recorded_batch.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit)
+    done, place = recorded_batch.run_recorded(
+        batch, chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     )
     if not quiet:
-        tell(recordings)
+        recorded_batch.write_preparation(stops)
         message(f"uictest: {report.tally(done.results)}; reports in {place}")
-    return of_campaign(done)
+    return of_batch(done)
 
 
-def _stated(
+def _statements(
+    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
+) -> Iterator[str]:
+    """Yield what the options state of the stops, as `--set` has it."""
+    listed = f"[{', '.join(criteria)}]" if criteria else None
+    for key, text in zip(_OPTIONS, (rail, position, wsp, listed), strict=True):
+        if text is not None:
+            yield f"{key}={text}"
+
+
+def _case_of_stop(
     scenario: Path | None,
     expression: str | None,
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
-) -> Callable[[str, float], Case]:
+) -> recorded_batch.CaseOfStop:
     """Return what makes a case of a recording. Raises InvalidInputError where too little is stated."""
     if scenario is not None:
-        base = one_case(scenario, expression, statements, trusted)
-        return lambda name, speed: base
+        case = recordings.one_case(scenario, expression, statements, trusted)
+        return lambda name, speed: case
 
     keys = {statement.partition("=")[0].strip() for statement in statements}
     missing = [_OPTIONS[key] for key in field_data.REQUIRED_STATEMENTS if key not in keys]
@@ -149,17 +121,18 @@ def _stated(
     return lambda name, speed: field_data.stated_case(name, speed, statements, trusted or ())
 
 
-def _checked(make: Callable[[], Case]) -> Case:
+def _case(
+    stop: recorded_batch.RecordedFile, case_of: recorded_batch.CaseOfStop, inputs: dict[str, str]
+) -> scenarios.Case:
     try:
-        return make()
+        return stop.case(case_of, inputs)
     except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 
 
 def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
-    for path, contents in zip(
-        files, each_file(files, lambda p: formats.read_contents(p, mapped.dialect)), strict=True
-    ):
+    read = recordings.each_file(files, lambda path: formats.read_contents(path, mapped.dialect))
+    for path, contents in zip(files, read, strict=True):
         data(report.printable(str(path)))
         for row in field_data.channel_rows(contents):
             data("  " + "\t".join(report.printable(cell) for cell in row))

@@ -9,11 +9,10 @@ from typing import Annotated
 import typer
 
 from uictest import recording
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity
-from uictest.cli.problems import InvalidInputError
+from uictest.cli.output import data
 from uictest.cli.recordings import Files, each_file
-from uictest.cli.streams import data
 
 
 def export(

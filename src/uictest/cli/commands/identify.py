@@ -13,11 +13,10 @@ from typing import Annotated, Literal
 import typer
 
 from uictest import field_data, identification, library, recording, scenario
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
-from uictest.cli.problems import InvalidInputError
+from uictest.cli.output import data, message
 from uictest.cli.registration import command
-from uictest.cli.streams import data, message
 from uictest.scenario import yaml
 
 identify = typer.Typer(

@@ -9,10 +9,9 @@ import typer
 
 from uictest import recording
 from uictest.cli.commands.schema import schema_text
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message
+from uictest.cli.output import message
 
 SCENARIO = Path("scenarios", "first-stop.yaml")
 SCHEMA = Path("schema", "scenario.schema.json")

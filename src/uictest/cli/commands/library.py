@@ -9,11 +9,10 @@ from typing import Annotated
 import typer
 
 from uictest import field_data, scenario
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
-from uictest.cli.problems import InvalidInputError
+from uictest.cli.output import data
 from uictest.cli.registration import command
-from uictest.cli.streams import data
 from uictest.report import printable
 from uictest.rig import bench
 from uictest.scenario import yaml

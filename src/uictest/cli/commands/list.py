@@ -10,7 +10,7 @@ from uictest.cli import sweep as sweeping
 from uictest.cli.cases import case_lines, case_table, cases_json, load_cases, nothing_selected, select_cases
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
-from uictest.cli.streams import data, message, terminal_width
+from uictest.cli.output import data, message, terminal_width
 
 
 def list_cases(

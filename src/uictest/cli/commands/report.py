@@ -10,11 +10,10 @@ from typing import Annotated
 import typer
 
 from uictest import report as reports
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.folders import holds_sweep, why_no_run
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity, report_formats
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import data
+from uictest.cli.output import data
+from uictest.cli.run_folders import holds_sweep, run_folder, why_no_run
 
 
 def report(
@@ -76,10 +75,3 @@ def _read_as(kind: str, folder: Path, *errors: type[Exception]) -> Iterator[None
         yield
     except errors as error:
         raise InvalidInputError(f"uictest: {folder} cannot be read as a {kind}: {error}") from error
-
-
-def run_folder(place: Path) -> Path:
-    """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
-    if place.name == "latest" and not place.is_dir():
-        return reports.latest_run(place.parent) or place
-    return place

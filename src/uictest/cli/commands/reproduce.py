@@ -11,12 +11,11 @@ from typing import Annotated
 import typer
 
 from uictest import controllers, rig, studies
-from uictest.cli.compilation import announce_compilation
 from uictest.cli.display import interactive
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Colour, Colouring, Jobs, PlainFormat, Quiet, Verbosity
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import coloured, data, message
+from uictest.cli.output import coloured, data, message
+from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
 
 _FIGURES = "pip install 'uictest[figures]'"

@@ -9,7 +9,9 @@ from typing import Annotated
 import typer
 
 from uictest import campaign, evaluation, report, scenario
-from uictest.cli.baseline import accept_run, open_baseline, scope_of, show_comparison
+from uictest.cli import options
+from uictest.cli.baseline import BaselineChoice, accept_or_compare, open_baseline, scope_of
+from uictest.cli.batch import Batch, run_batch
 from uictest.cli.cases import (
     case_lines,
     cases_json,
@@ -18,102 +20,70 @@ from uictest.cli.cases import (
     scenario_paths,
     select_cases,
 )
-from uictest.cli.exit_codes import ExitCode, of_campaign, worst
-from uictest.cli.options import (
-    Colour,
-    Colouring,
-    DryRun,
-    ExitFirst,
-    Expression,
-    Format,
-    Jobs,
-    JUnitFile,
-    MaxFail,
-    Output,
-    Overrides,
-    Paths,
-    Quiet,
-    Recorded,
-    Recording,
-    RecordRate,
-    Reports,
-    RunFormat,
-    Seed,
-    Tag,
-    ToleranceTexts,
-    Trusted,
-    Verbosity,
-    junit_file,
-    report_formats,
-    tolerances_of,
-)
-from uictest.cli.streams import data, message
+from uictest.cli.display import chosen_display
+from uictest.cli.exit_codes import ExitCode, of_batch, worst
+from uictest.cli.last_failed import failed_last
+from uictest.cli.output import data, message
+
+LastFailed = Annotated[
+    bool, typer.Option("--lf", help="Select the cases that were not as expected in the newest run.")
+]
+BaselineFolder = Annotated[
+    Path | None,
+    typer.Option(
+        "--baseline",
+        metavar="DIR",
+        help="Compare with the baseline in DIR; exit 1 if a figure is out of tolerance.",
+    ),
+]
+Accept = Annotated[
+    bool, typer.Option("--accept", help="Make the results of the selected cases the new baseline.")
+]
+Durations = Annotated[
+    int | None, typer.Option("--durations", metavar="N", min=0, help="List the N slowest cases; 0 lists all.")
+]
 
 
 def run(
     context: typer.Context,
-    paths: Paths = None,
-    expression: Expression = None,
-    tag: Tag = None,
-    last_failed: Annotated[bool, typer.Option("--lf", help="Cases that failed in the newest run.")] = False,
-    overrides: Overrides = None,
-    seed: Seed = None,
-    trusted: Trusted = None,
-    exit_first: ExitFirst = False,
-    maxfail: MaxFail = None,
-    jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
-    dry_run: DryRun = False,
-    output: Output = Path("reports"),
-    junit: JUnitFile = None,
-    recorded: Recording = Recorded.FAILED,
-    record_rate: RecordRate = 100.0,
-    shown: RunFormat = Format.TEXT,
-    formats: Reports = "csv,html",
-    baseline: Annotated[
-        Path | None,
-        typer.Option(
-            "--baseline",
-            metavar="DIR",
-            help="Compare with the baseline in DIR; exit 1 if a figure is out of tolerance.",
-        ),
-    ] = None,
-    accept: Annotated[
-        bool, typer.Option("--accept", help="Make the results of the selected cases the --baseline.")
-    ] = False,
-    tolerance: ToleranceTexts = None,
-    durations: Annotated[
-        int | None, typer.Option("--durations", metavar="N", min=0, help="Show the N slowest cases; 0: all.")
-    ] = None,
-    quiet: Quiet = False,
-    verbosity: Verbosity = 0,
-    colour: Colouring = Colour.AUTO,
+    paths: options.Paths = None,
+    expression: options.Expression = None,
+    tag: options.Tag = None,
+    last_failed: LastFailed = False,
+    overrides: options.Overrides = None,
+    seed: options.Seed = None,
+    trusted: options.Trusted = None,
+    exit_first: options.ExitFirst = False,
+    maxfail: options.MaxFail = None,
+    jobs: options.Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
+    dry_run: options.DryRun = False,
+    output: options.Output = Path("reports"),
+    junit: options.JUnitFile = None,
+    recorded: options.RecordingChoice = options.Recorded.FAILED,
+    record_rate: options.RecordRate = 100.0,
+    shown: options.RunFormat = options.Format.TEXT,
+    formats: options.Reports = "csv,html",
+    baseline: BaselineFolder = None,
+    accept: Accept = False,
+    tolerance: options.ToleranceTexts = None,
+    durations: Durations = None,
+    quiet: options.Quiet = False,
+    verbosity: options.Verbosity = 0,
+    colour: options.Colouring = options.Colour.AUTO,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
-    wanted = report_formats(formats, "--report", report.format_names())
-    tolerances = tolerances_of(tolerance)
-    if accept and baseline is None:
-        raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")
+    names = options.report_formats(formats, "--report", report.format_names())
+    choice = BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     cases = load_cases(paths, overrides, seed, trusted)
-    selected = select_cases(cases, expression, tag)
-    if last_failed:
-        from uictest.cli.last_failed import failed_last
-
-        selected = failed_last(selected, output)
+    selected = _selected(cases, expression, tag, output if last_failed else None)
     if not selected:
         message(nothing_selected(cases))
         return ExitCode.NOTHING_SELECTED
     if dry_run:
-        data(cases_json(selected) if shown is Format.JSON else case_lines(selected))
+        data(cases_json(selected) if shown is options.Format.JSON else case_lines(selected))
         return ExitCode.MET
-
-    accepted = None
-    if baseline is not None:
-        searched = () if expression or tag or last_failed else scenario_paths(paths)
-        accepted = open_baseline(baseline, scope_of(selected, searched), tolerances, accepting=accept)
-
-    from uictest.cli.batch import Batch, run_batch
-    from uictest.cli.display import chosen_display
-
+    searched = () if expression or tag or last_failed else scenario_paths(paths)
+    accepted = open_baseline(choice, scope_of(selected, searched))
     parts = campaign.parts_of_cases(selected)
     batch = Batch(
         cases=selected,
@@ -125,27 +95,24 @@ def run(
         jobs=min(jobs, len(selected)),
         maxfail=1 if exit_first else maxfail,
         output=output,
-        junit=junit_file(junit, output),
-        formats=wanted,
+        junit=options.junit_file(junit, output),
+        formats=names,
         quiet=quiet,
         verbose=verbosity > 0,
         baseline=None if accept else accepted,
     )
-    done, published = run_batch(
-        batch, chosen_display(shown, colour, quiet=batch.quiet, verbose=batch.verbose)
-    )
+    done, published = run_batch(batch, chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0))
     if durations is not None:
         _show_slowest(done.results, durations or len(done.results))
-    code = of_campaign(done)
-    if baseline is None or published is None:
-        return code
-    if not accept:
-        return worst(code, show_comparison(published.content.baseline, quiet=quiet))
-    if done.interrupted:
-        message(f"uictest: interrupted: {baseline} stays as it was")
-    else:
-        accept_run(published, baseline, accepted)
-    return code
+    return worst(of_batch(done), accept_or_compare(choice, accepted, done, published, quiet=quiet))
+
+
+def _selected(
+    cases: Sequence[scenario.Case], expression: str | None, tag: str | None, last_run: Path | None
+) -> list[scenario.Case]:
+    """Return the cases selected by expression and tag, and by their last run below `last_run`, if given."""
+    selected = select_cases(cases, expression, tag)
+    return selected if last_run is None else failed_last(selected, last_run)
 
 
 def _inputs(cases: Sequence[scenario.Case]) -> dict[str, str]:

@@ -12,7 +12,7 @@ import typer
 from uictest import recording
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
-from uictest.cli.streams import data
+from uictest.cli.output import data
 
 
 class SchemaKind(StrEnum):

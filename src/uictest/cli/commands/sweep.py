@@ -28,7 +28,7 @@ from uictest.cli.options import (
     junit_file,
     report_formats,
 )
-from uictest.cli.streams import message
+from uictest.cli.output import message
 
 
 class Device(StrEnum):

@@ -9,7 +9,7 @@ from typing import Literal
 import typer
 
 from uictest import campaign, sweep
-from uictest.cli.problems import InvalidInputError
+from uictest.cli.exit_codes import InvalidInputError
 from uictest.scenario import yaml
 
 

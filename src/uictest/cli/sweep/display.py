@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from uictest import report, sweep
 from uictest.cli.options import Format
-from uictest.cli.streams import data, terminal_width
+from uictest.cli.output import data, terminal_width
 from uictest.report import printable
 
 _MOST_ROWS = 30

@@ -6,10 +6,9 @@ from pathlib import Path
 from time import perf_counter
 
 from uictest import report
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Format
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message
+from uictest.cli.output import message
 from uictest.cli.sweep.display import show_annotations, show_result
 from uictest.cli.sweep.publishing import publish
 from uictest.cli.sweep.run import MaxfailReached, SweepRun, run_missing_chunks

@@ -9,7 +9,7 @@ from time import monotonic
 
 from uictest.cli import progress as steps
 from uictest.cli.display import interactive
-from uictest.cli.streams import message
+from uictest.cli.output import message
 
 Advance = Callable[[int], None]
 

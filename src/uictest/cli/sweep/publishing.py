@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from uictest import campaign, evaluation, recording, report, sweep
-from uictest.cli.streams import message
+from uictest.cli.output import message
 from uictest.cli.sweep.run import SweepRun, prepared_runner
 
 

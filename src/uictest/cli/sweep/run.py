@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from uictest import rig, sweep
-from uictest.cli.compilation import announce_compilation
-from uictest.cli.problems import InvalidInputError
-from uictest.cli.streams import message
+from uictest.cli.exit_codes import InvalidInputError
+from uictest.cli.output import message
+from uictest.cli.progress import announce_compilation
 from uictest.cli.sweep.display import reason_missed
 from uictest.cli.sweep.progress import sweep_progress
 from uictest.report import counted

@@ -1,4 +1,4 @@
-"""What a folder that should hold a run holds instead."""
+"""Folders of finished runs that a user names."""
 
 from __future__ import annotations
 
@@ -25,3 +25,10 @@ def why_no_run(folder: Path) -> str:
     if holds_sweep(folder):
         return f"{folder} holds a sweep"
     return "" if (folder / report.RESULTS).is_file() else f"{folder} holds no run: it has no {report.RESULTS}"
+
+
+def run_folder(place: Path) -> Path:
+    """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
+    if place.name == "latest" and not place.is_dir():
+        return report.latest_run(place.parent) or place
+    return place
