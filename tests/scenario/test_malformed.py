@@ -595,3 +595,12 @@ def test_a_hint_too_long_for_an_example_names_the_section_alone(
     """An example cut off in the middle would be refused as well."""
     (error,) = refused(f"{HEAD}seed: {list(range(40))}\n")
     assert error.hint == "several values go under matrix"
+
+
+def test_a_hint_shows_a_whole_example_or_none(
+    refused: Callable[..., tuple[Diagnostic, ...]],
+) -> None:
+    """Half of a long value would be wrong."""
+    short, long = (HEAD + f"matrix: {{description: {value}}}\n" for value in ("a", "a" * 90))
+    assert [each.hint for each in refused(short)] == ["write `[a]`"]
+    assert [each.hint for each in refused(long)] == [""]

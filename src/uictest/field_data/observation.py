@@ -1,9 +1,9 @@
-"""The measures of a recorded stop, taken sample by sample as the simulator takes its own."""
+"""The measures of a recorded stop, computed sample by sample with the functions of the simulator."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
+from math import inf, isnan
 from types import SimpleNamespace
 from typing import Any
 
@@ -39,7 +39,7 @@ _VENT = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Observed:
-    """Measures of a stop and of its wheelsets, SI, over the samples that there are, and what is missing."""
+    """Measures of a stop and of its wheelsets, SI, over the recorded samples, and what is missing."""
 
     measures: Any
     wheelset_measures: Any
@@ -58,53 +58,84 @@ def observe(stop: RecordedStop, definition: scenario.MeasureDefinitions) -> Obse
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):
         _copy(wheelset, record)
-    whole = np.zeros(1, STOP_MEASURES)
-    _copy(train, whole[0])
-    return Observed(whole[0], records.view(np.recarray), coverage_of(stop))
+    stop_measures = np.zeros(1, STOP_MEASURES)
+    _copy(train, stop_measures[0])
+    return Observed(stop_measures[0], records.view(np.recarray), coverage_of(stop))
+
+
+@dataclass(frozen=True, slots=True)
+class _Samples:
+    """Samples of a recording as lists, which plain Python reads fastest; NaN where nothing was recorded."""
+
+    time: list[float]
+    distance: list[float]
+    speed: list[float]
+    reservoir: list[float]
+    wheel_speed: list[list[float]]
+    venting: list[list[float]]
+    force: list[list[float]]
+
+
+def _samples_of(recording: Recording) -> _Samples:
+    time, distance, speed = (recording[name].tolist() for name in (TIME, "distance", "speed"))
+    return _Samples(
+        time,
+        distance,
+        speed,
+        _channel(recording, "reservoir_pressure").tolist(),
+        [_channel(recording, f"wheel_speed_{n}").tolist() for n in WHEELSETS],
+        [_venting(_channel(recording, f"valve_command_{n}")).tolist() for n in WHEELSETS],
+        [_channel(recording, f"clamping_force_{n}").tolist() for n in WHEELSETS],
+    )
 
 
 def _observe(stop: RecordedStop, train: Any, wheelsets: list[Any], definition: Any) -> None:
-    recording = stop.recording
-    time, distance, speed = (recording[name].tolist() for name in (TIME, "distance", "speed"))
-    reservoir = _samples(recording, "reservoir_pressure").tolist()
-    wheels = [_samples(recording, f"wheel_speed_{n}").tolist() for n in WHEELSETS]
-    venting = [_venting(_samples(recording, f"valve_command_{n}")).tolist() for n in WHEELSETS]
-    force = [_samples(recording, f"clamping_force_{n}").tolist() for n in WHEELSETS]
-    begin(train, time[0], distance[0], speed[0], reservoir[0])
+    samples = _samples_of(stop.recording)
+    _begin(samples, train, wheelsets)
+    end = inf if stop.standstill is None else stop.standstill[0]
+    for k in range(1, len(samples.time)):
+        time, speed = samples.time[k], samples.speed[k]
+        if time >= end:
+            break
+        for i, wheelset in enumerate(wheelsets):
+            _observe_wheelset(samples, k, i, wheelset, train, definition)
+        observe_train(train, definition, time, samples.distance[k], speed, samples.reservoir[k])
+        keep_window(train, train)
+    if stop.standstill is not None:
+        observe_train(train, definition, *stop.standstill, 0.0, train.reservoir_minimum_pressure)
+        keep_window(train, train)
+        finish(train, True, *stop.standstill)
+
+
+def _begin(samples: _Samples, train: Any, wheelsets: list[Any]) -> None:
+    begin(train, samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir[0])
     begin_window(train)
     for wheelset in wheelsets:
         begin_wheelset(wheelset)
         begin_slides(wheelset)
-    rest = stop.standstill
-    for k in range(1, len(time)):
-        if rest is not None and time[k] >= rest[0]:
-            break
-        for i, wheelset in enumerate(wheelsets):
-            observe_wheelset(
-                wheelset,
-                train,
-                definition,
-                i + 1,
-                time[k],
-                speed[k],
-                wheels[i][k],
-                venting[i][k],
-                force[i][k],
-            )
-            if isnan(speed[k] - wheels[i][k]):
-                # A lock before a gap and one after it need not be the same lock.
-                wheelset.lock = 0.0
-            else:
-                keep_slide(wheelset, wheelset, definition, speed[k])
-        observe_train(train, definition, time[k], distance[k], speed[k], reservoir[k])
-        keep_window(train, train)
-    if rest is not None:
-        observe_train(train, definition, rest[0], rest[1], 0.0, train.reservoir_minimum_pressure)
-        keep_window(train, train)
-        finish(train, True, *rest)
 
 
-def _samples(recording: Recording, name: str) -> NDArray[np.float64]:
+def _observe_wheelset(samples: _Samples, k: int, i: int, wheelset: Any, train: Any, definition: Any) -> None:
+    speed, wheel_speed = samples.speed[k], samples.wheel_speed[i][k]
+    observe_wheelset(
+        wheelset,
+        train,
+        definition,
+        i + 1,
+        samples.time[k],
+        speed,
+        wheel_speed,
+        samples.venting[i][k],
+        samples.force[i][k],
+    )
+    if isnan(speed - wheel_speed):
+        # A lock before a gap and one after it need not be the same lock.
+        wheelset.lock = 0.0
+    else:
+        keep_slide(wheelset, wheelset, definition, speed)
+
+
+def _channel(recording: Recording, name: str) -> NDArray[np.float64]:
     if name in recording.channels:
         return np.asarray(recording[name], dtype=np.float64)
     return np.full(len(recording), np.nan)

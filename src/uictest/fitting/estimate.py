@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Literal
@@ -16,6 +16,8 @@ from uictest.fitting.samples import FitError, samples_of
 from uictest.scenario import Scenario
 
 Array = NDArray[np.float64]
+Residuals = tuple[Array, Array]
+"""Of the balances of sliding wheelsets, and of the train."""
 Standing = Literal["found", "at least", "not reached"]
 
 _LOWEST, _HIGHEST = 0.001, 1.0
@@ -27,6 +29,8 @@ _START_SHARE = 1.15
 _BOUND_PERCENTILE = 95.0
 """Of the adhesion used while rolling, taken as the lower bound: single windows are noise; chosen."""
 _CONFIDENCE = 0.95
+_FIRST_OUTLIER = 0.01
+"""Residual from which it counts less than by its square, as long as the noise is unknown; chosen."""
 _OUTLIER = 3.0
 """Standard deviations from which a residual counts less than by its square; chosen."""
 
@@ -141,9 +145,8 @@ def _solve(
     balances: Balances, stretch: NDArray[np.intp], free: list[int], stretches: int, *, with_pads: bool
 ) -> tuple[list[float], list[float], float]:
     """Return the free frictions and the factor, their half widths, and the residual's standard deviation."""
-    from scipy.optimize import least_squares
 
-    def parts(x: Array) -> tuple[Array, Array]:
+    def residuals(x: Array) -> Residuals:
         level = np.full(stretches, _HIGHEST)
         level[free] = x[: len(free)]
         factor = float(x[-1]) if with_pads else 1.0
@@ -152,29 +155,38 @@ def _solve(
 
     start = _start(balances, len(free), with_pads=with_pads)
     if not len(start):
-        return (
-            [],
-            [],
-            float(np.std(np.concatenate(parts(start))))
-            if balances.samples.torque is not None
-            else float("nan"),
-        )
-    weights = (1.0, 1.0)
-    solution: Any = None
-    # Twice: the first pass estimates the noise of each kind of balance.
+        known = balances.samples.torque is not None
+        return [], [], float(np.std(np.concatenate(residuals(start)))) if known else float("nan")
+    solution = _least_squares(residuals, start, _bounds(len(free), with_pads=with_pads))
+    final = residuals(solution.x)
+    return list(map(float, solution.x)), _half_widths(solution, final), float(np.std(np.concatenate(final)))
+
+
+def _least_squares(
+    residuals: Callable[[Array], Residuals], start: Array, bounds: tuple[list[float], list[float]]
+) -> Any:
+    """Return scipy's solution of the second of two passes; the first estimates the noise of each balance."""
+    from scipy.optimize import least_squares
+
+    unknown = (1.0, 1.0)
+    noise = unknown
     for _ in range(2):
         solution = least_squares(
-            lambda x, w=weights: np.concatenate([r / s for r, s in zip(parts(x), w, strict=True)]),
+            lambda x, s=noise: np.concatenate([r / each for r, each in zip(residuals(x), s, strict=True)]),
             start,
-            bounds=_bounds(len(free), with_pads=with_pads),
+            bounds=bounds,
             loss="soft_l1",
-            f_scale=_OUTLIER if weights != (1.0, 1.0) else 0.01,
+            f_scale=_FIRST_OUTLIER if noise == unknown else _OUTLIER,
             x_scale=start,
         )
         start = solution.x
-        weights = tuple(max(float(np.std(r)) if len(r) > 2 else 1.0, 1e-6) for r in parts(start))  # type: ignore[assignment]
-    final = parts(solution.x)
-    return list(map(float, solution.x)), _half_widths(solution, final), float(np.std(np.concatenate(final)))
+        wheelsets, train = map(_noise, residuals(start))
+        noise = wheelsets, train
+    return solution
+
+
+def _noise(residuals: Array) -> float:
+    return max(float(np.std(residuals)) if len(residuals) > 2 else 1.0, 1e-6)
 
 
 def _start(balances: Balances, count: int, *, with_pads: bool) -> Array:
