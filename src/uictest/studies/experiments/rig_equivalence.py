@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from statistics import median
 
-from uictest.rig import SimulatedStop
+from uictest import rig
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
 from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
@@ -61,9 +61,11 @@ class RigDifference:
 
 def _quantities() -> Iterator[StudyQuantity]:
     for measure in COMPARED_MEASURES:
-        for rig in RIGS:
-            title = f"{measure.title}, {rig}"
-            yield StudyQuantity(f"{measure.key}_{rig}", title, measure.unit, NOT_ASKED, digits=measure.digits)
+        for rig_name in RIGS:
+            title = f"{measure.title}, {rig_name}"
+            yield StudyQuantity(
+                f"{measure.key}_{rig_name}", title, measure.unit, NOT_ASKED, digits=measure.digits
+            )
     for error in ERRORS:
         for setting in SETTINGS:
             yield StudyQuantity(
@@ -83,9 +85,9 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     ]
     return StudyFindings(
         {
-            f"{measure.key}_{rig}": overall(rig_differences, measure.key, rig)
+            f"{measure.key}_{rig_name}": overall(rig_differences, measure.key, rig_name)
             for measure in COMPARED_MEASURES
-            for rig in RIGS
+            for rig_name in RIGS
         }
         | {
             f"{error.key}_{name}": overall(rig_differences, error.key, name)
@@ -124,30 +126,30 @@ def differences(point: Point) -> Iterator[RigDifference]:
     for measure in COMPARED_MEASURES:
         for wheelset in (1, 2, 3, 4) if measure.of_wheelsets else (TRAIN,):
             reference = median(_values(point.stops[FOUR_CALIPER], measure, wheelset))
-            for rig in RIGS:
-                values = [value - reference for value in _values(point.stops[rig], measure, wheelset)]
+            for rig_name in RIGS:
+                values = [value - reference for value in _values(point.stops[rig_name], measure, wheelset)]
                 yield RigDifference(
-                    rig, point.friction, point.command, measure.key, wheelset, reference, values
+                    rig_name, point.friction, point.command, measure.key, wheelset, reference, values
                 )
 
 
-def overall(rig_differences: Sequence[RigDifference], measure: str, rig: str) -> StudyValue:
+def overall(rig_differences: Sequence[RigDifference], measure: str, rig_name: str) -> StudyValue:
     """Return median and range over points, repeats and wheelsets."""
     return spread(
         [
             value
             for each in rig_differences
-            if (each.measure, each.rig) == (measure, rig)
+            if (each.measure, each.rig) == (measure, rig_name)
             for value in each.values
         ]
     )
 
 
-def _values(stops: Sequence[SimulatedStop], measure: Measure, wheelset: int) -> list[float]:
+def _values(stops: Sequence[rig.SimulatedStop], measure: Measure, wheelset: int) -> list[float]:
     return [_value(stop, measure.key, wheelset) for stop in stops]
 
 
-def _value(stop: SimulatedStop, key: str, wheelset: int) -> float:
+def _value(stop: rig.SimulatedStop, key: str, wheelset: int) -> float:
     if wheelset != TRAIN:
         value = float(stop.wheelset_measures[wheelset - 1][key])
         return value / PERCENT if key == "maximum_slide" else value
