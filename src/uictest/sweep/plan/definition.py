@@ -11,6 +11,7 @@ from typing import Final
 from uictest.scenario import LONGEST, Roots, sets_friction, short_keys
 from uictest.scenario.yaml import (
     FIXED,
+    Diagnostic,
     Document,
     Entry,
     Map,
@@ -128,24 +129,13 @@ class _Reader:
     def _reject_bad_keys(self, axes: Sequence[_Axis]) -> None:
         sample = self._tree.get("sample")
         drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
-        seen: dict[str, str] = {}
-        for axis in (*axes, *([_Axis("sample", drawn)] if drawn else [])):
-            for key, entry in axis.entries.items():
-                if key in seen:
-                    message = f"{quoted(key)} is under {seen[key]} as well"
-                    self.group_reader.diagnostics.append(
-                        diagnose(entry.key, message, f"{axis.section}.{key}")
-                    )
-                if key.split(".")[0] in FIXED:
-                    message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
-                    self.group_reader.diagnostics.append(
-                        diagnose(entry.key, message, f"{axis.section}.{key}")
-                    )
-                seen[key] = axis.section
-        if not any(map(sets_friction, seen)):
-            for axis in (*axes, _Axis("sample", drawn)):
+        all_axes = (*axes, _Axis("sample", drawn))
+        self.group_reader.diagnostics.extend(_bad_keys(all_axes))
+        keys = [key for axis in all_axes for key in axis.entries]
+        if not any(map(sets_friction, keys)):
+            for axis in all_axes:
                 self.group_reader.reject_conditions_alone(axis.entries)
-        if not seen:
+        if not keys:
             hint = "give values under grid, ranges, zip or sample"
             self.group_reader.diagnostics.append(diagnose(self._tree.place, "nothing varies", hint=hint))
         self._raise_diagnostics()
@@ -168,6 +158,20 @@ class _Reader:
     def _raise_diagnostics(self) -> None:
         if self.group_reader.diagnostics:
             raise ScenarioErrors(in_reading_order(self.group_reader.diagnostics))
+
+
+def _bad_keys(axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for each key that stands in two sections or cannot vary."""
+    section_of: dict[str, str] = {}
+    for axis in axes:
+        for key, entry in axis.entries.items():
+            if key in section_of:
+                message = f"{quoted(key)} is under {section_of[key]} as well"
+                yield diagnose(entry.key, message, f"{axis.section}.{key}")
+            if key.split(".")[0] in FIXED:
+                message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
+                yield diagnose(entry.key, message, f"{axis.section}.{key}")
+            section_of[key] = axis.section
 
 
 def _of_command_line(swept: Sequence[Override]) -> Iterator[_Axis]:

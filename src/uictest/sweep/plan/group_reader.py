@@ -31,7 +31,6 @@ from uictest.scenario.yaml import (
 )
 from uictest.sweep.plan.base_case import BaseCase
 from uictest.sweep.plan.decimal_quantity import (
-    DecimalQuantity,
     common_unit,
     evenly_spaced,
     quantity_text,
@@ -184,7 +183,7 @@ class GroupReader:
         for text, place in _bounds(distribution, entry.node):
             self._row({key: Entry(entry.key, _scalar(text, place))}, 1)
         kind = self._kind(key, entry)
-        unit = common_unit(list(_quantities(distribution)))
+        unit = common_unit(distribution.quantities)
         assert unit is not None
         return ParameterDraw(distribution, unit, kind)
 
@@ -267,23 +266,9 @@ def _items(node: Node) -> Sequence[Node]:
     return node.items if isinstance(node, List) else (node,)
 
 
-def _quantities(distribution: Distribution) -> Iterator[DecimalQuantity]:
-    bounds = distribution.uniform or distribution.log_uniform or distribution.triangular
-    if bounds is not None:
-        yield from bounds
-    elif distribution.normal is not None:
-        yield from (distribution.normal.lower, distribution.normal.upper)
-
-
-def bounds_of(distribution: Distribution) -> tuple[DecimalQuantity, DecimalQuantity]:
-    """Return the smallest and the largest value of a distribution that is not a choice."""
-    first, *_, last = _quantities(distribution)
-    return first, last
-
-
 def _bounds(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:
     """Yield the smallest and the largest value with their places in the file."""
-    quantities = list(_quantities(distribution))
+    quantities = distribution.quantities
     name = "log-uniform" if distribution.log_uniform else distribution.form
     for quantity, place in ((quantities[0], 0), (quantities[-1], len(quantities) - 1)):
         key = ("lower", "upper")[min(place, 1)] if distribution.normal else place

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from uictest.scenario import Slug
 from uictest.scenario.yaml import Inconsistency, Model
-from uictest.sweep.plan.decimal_quantity import DecimalQuantityField, common_unit
+from uictest.sweep.plan.decimal_quantity import DecimalQuantity, DecimalQuantityField, common_unit
 
 SWEEP_SCHEMA: Final = "uictest/sweep/1"
 MOST_CASES: Final = 100_000_000
@@ -155,6 +155,19 @@ class Distribution(Model):
     def form(self) -> str:
         """Name of the distribution that is given."""
         return next(name for name, value in self if value is not None)
+
+    @property
+    def quantities(self) -> tuple[DecimalQuantity, ...]:
+        """The smallest, the likeliest (if any) and the largest value; a choice has none."""
+        if self.normal is not None:
+            return self.normal.lower, self.normal.upper
+        return self.uniform or self.log_uniform or self.triangular or ()
+
+    @property
+    def bounds(self) -> tuple[DecimalQuantity, DecimalQuantity]:
+        """The smallest and the largest value of a distribution that is not a choice."""
+        first, *_, last = self.quantities
+        return first, last
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield none or several distributions at once, mixed units, bounds in the wrong order."""

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from uictest.scenario.yaml import Quantity, parse_quantity
-from uictest.sweep.plan.group_reader import bounds_of
 from uictest.sweep.plan.plan import ParameterDraw, Plan, saltelli_sample
 from uictest.sweep.plan.scenario_values import value_at
 
@@ -49,5 +48,5 @@ def _shown(quantity: Quantity) -> str:
 
 
 def _bounds(draw: ParameterDraw) -> tuple[Quantity, Quantity]:
-    low, high = (parse_quantity(str(bound), draw.kind) for bound in bounds_of(draw.distribution))
+    low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
     return low, high

@@ -71,7 +71,7 @@ class ParameterDraw:
 
     def values(self, probabilities: NDArray[np.float64]) -> list[ParameterValue]:
         """Return the quantiles for the given probabilities (0 up to 1)."""
-        from uictest.sweep.plan.distribution import quantile
+        from uictest.sweep.plan.distribution import quantile  # numpy, which checking a sweep does not need
 
         numbers = quantile(self.distribution)(probabilities).tolist()
         if self.choices:
@@ -94,7 +94,7 @@ class SampledGroup:
 
     def at(self, numbers: Numbers) -> list[list[ParameterValue]]:
         """Return the values of each parameter in the rows of the given numbers."""
-        from uictest.sweep.plan.sampling import points
+        from uictest.sweep.plan.sampling import points  # numpy, which checking a sweep does not need
 
         drawn = points(self.method, self.points, len(self.keys), self.seed, numbers)
         return [draw.values(drawn[:, place]) for place, draw in enumerate(self.draws)]

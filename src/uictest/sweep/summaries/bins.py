@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report import DrawnInterval, SweptValue, WrittenValue
-from uictest.sweep.plan.group_reader import bounds_of
 from uictest.sweep.plan.plan import ListedGroup, ParameterDraw, Plan
 from uictest.sweep.running.table import text_column
 
@@ -68,7 +67,7 @@ def _listed_bins(key: str, texts: Sequence[str], place: tuple[int, int]) -> Para
 def _drawn_bins(key: str, draw: ParameterDraw, place: tuple[int, int]) -> ParameterBins:
     if draw.choices:
         return ParameterBins(key, tuple(WrittenValue(value.text) for value in draw.choices), place)
-    low, high = bounds_of(draw.distribution)
+    low, high = draw.distribution.bounds
     edges: Any = np.linspace(float(low.number), float(high.number), INTERVALS + 1).tolist()
     intervals = tuple(DrawnInterval(start, end, low.unit) for start, end in pairwise(edges))
     return ParameterBins(key, intervals, place, tuple(edges[1:-1]))
