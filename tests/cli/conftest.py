@@ -22,8 +22,17 @@ from uictest.measures import STOP_COLUMNS
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
-_NUMBERS = (465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
-FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
+FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
+    "braking_distance_m": 465.25,
+    "braking_time_s": 27.5,
+    "mean_deceleration_mps2": 1.195,
+    "minimum_deceleration_mps2": 0.9,
+    "maximum_deceleration_mps2": 1.31,
+    "reservoir_minimum_bar": 7.2,
+    "air_consumed_nl": 180.0,
+    "energy_residual": 1e-5,
+    "air_residual": 1e-12,
+}
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,23 @@ from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.recording import Recording
 from uictest.report import CaseDescription, RunContent, RunManifest
 
-_NUMBERS = (465.0, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-9, 1e-12)
-FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
+FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
+    "braking_distance_m": 465.0,
+    "braking_time_s": 27.5,
+    "mean_deceleration_mps2": 1.195,
+    "minimum_deceleration_mps2": 0.9,
+    "maximum_deceleration_mps2": 1.31,
+    "reservoir_minimum_bar": 7.2,
+    "air_consumed_nl": 180.0,
+    "energy_residual": 1e-9,
+    "air_residual": 1e-12,
+}
+WHEELSET = {
+    "maximum_slide": 0.02,
+    "valve_actuations": 11,
+    "maximum_clamping_force_n": 25e3,
+    "air_vented_nl": 1.5,
+}
 VERDICT = Verdict("braking-distance", "validity", 465.0, "m", 440.0, 490.0, 25.0, "pass", "")
 
 
@@ -30,7 +45,7 @@ def make_run() -> Callable[..., RunContent]:
         friction: str = "0.3",
         **figures: float,
     ) -> RunContent:
-        wheelset = dict(zip(WHEELSET_COLUMNS, (0.02, 0.0, 11, 25e3, 1.5), strict=True))
+        wheelset = dict.fromkeys(WHEELSET_COLUMNS, 0.0) | WHEELSET
         result = CaseResult(
             id=case_id,
             scenario="dry.yaml",

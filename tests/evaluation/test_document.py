@@ -16,6 +16,7 @@ from uictest.evaluation import (
     results_of,
     to_json,
 )
+from uictest.measures import STOP_COLUMNS
 
 CASE = [
     *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
@@ -115,7 +116,7 @@ def test_a_column_of_another_version_is_refused(results) -> None:
     document["cases"][0]["measures"] = {"braking_distance_m": 465.0}
     with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should have the columns braking_distance_m"):
         results_of(document)
-    document["cases"][0]["measures"] = dict.fromkeys(MEASURES, "far")
+    document["cases"][0]["measures"] = dict.fromkeys(STOP_COLUMNS, "far")
     with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should hold numbers only"):
         results_of(document)
 

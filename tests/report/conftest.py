@@ -40,9 +40,7 @@ def make_result() -> Callable[..., CaseResult]:
             "outcome": "pass",
             "criteria": (verdict(),),
             "measures": FIGURES,
-            "wheelsets": tuple(
-                dict(zip(WHEELSET_COLUMNS, (0.02 * n, 0.0, n, 25e3, 1.5), strict=True)) for n in range(1, 5)
-            ),
+            "wheelsets": tuple(map(_wheelset, range(1, 5))),
             "duration": 0.25,
         }
         return CaseResult(**(content | changes))  # type: ignore[arg-type]
@@ -113,8 +111,27 @@ def make_recording() -> Callable[..., Recording]:
     return make
 
 
-_NUMBERS = (465.25, 27.5, 1.195, float("nan"), 0.9, 1.31, 7.2, 180.0, 1e-5, 1e-12)
-FIGURES = dict(zip(STOP_COLUMNS, _NUMBERS, strict=True))
+def _wheelset(n: int) -> dict[str, float]:
+    own = {
+        "maximum_slide": 0.02 * n,
+        "valve_actuations": n,
+        "maximum_clamping_force_n": 25e3,
+        "air_vented_nl": 1.5,
+    }
+    return dict.fromkeys(WHEELSET_COLUMNS, 0.0) | own
+
+
+FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
+    "braking_distance_m": 465.25,
+    "braking_time_s": 27.5,
+    "mean_deceleration_mps2": 1.195,
+    "minimum_deceleration_mps2": 0.9,
+    "maximum_deceleration_mps2": 1.31,
+    "reservoir_minimum_bar": 7.2,
+    "air_consumed_nl": 180.0,
+    "energy_residual": 1e-5,
+    "air_residual": 1e-12,
+}
 
 
 def verdict(**changes: object) -> Verdict:

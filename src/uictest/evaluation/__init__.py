@@ -1,4 +1,4 @@
-"""Judging a stop: figures in the engineer's units, criteria, verdicts, outcome, the result document."""
+"""Judging a stop: criteria, verdicts, outcome, the columns of its result, and the result document."""
 
 import lazy_loader
 

@@ -22,17 +22,17 @@ _PARTS: Final = {
 """Kind of a part -> where it stands in a scenario."""
 
 _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
-"""What a scenario states of a recorded stop, besides rail condition, criteria and measures."""
+"""Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
 _SECTIONS: Final = ("brake", "rail", "rig", "simulation")
 _FRICTION: Final = ("friction",)
 
 
 class EffectiveParts:
-    """Computes the parts of scenarios; a part that many scenarios share is computed once."""
+    """Computes the effective parts of scenarios; a part that many scenarios share is computed once."""
 
     def __init__(self) -> None:
-        # Keyed by identity; the part is kept beside the result so that its identity stays taken.
+        # Keyed by identity: holding the part keeps Python from giving its identity to another object.
         self._computed: dict[tuple[int, Key], tuple[Part, EffectivePart]] = {}
 
     def of(self, scenario: Scenario) -> dict[str, EffectivePart]:
@@ -47,11 +47,11 @@ class EffectiveParts:
         return parts | self._criteria(scenario)
 
     def of_recorded(self, scenario: Scenario) -> dict[str, EffectivePart]:
-        """Return what a recorded stop is judged under: conditions, measures, criteria; nothing of a rig."""
+        """Return the parts of a recorded stop: conditions, measures and criteria, nothing of a rig."""
         condition = scenario.rail.condition
         stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
         for name in ("brake", "rail", "rig"):
-            stated += [each for each in _section(scenario, name) if each.key in _CONDITIONS]
+            stated += [row for row in _section(scenario, name) if row.key in _CONDITIONS]
         return {
             "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
             "measures": self.part(scenario.measures, "measures", "measures"),
@@ -76,8 +76,8 @@ class EffectiveParts:
 def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePart:
     values, original = dict(values_in(part)), dict(values_in(part.original))
     if overridden:
-        for each in (values, original):
-            each.pop(overridden, None)
+        for settings in (values, original):
+            settings.pop(overridden, None)
     above = f"{key}." if key else ""
     library = original if part.original else None
     parameters = tuple(
@@ -85,13 +85,13 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
         for place, value in values.items()
     )
     removed = tuple(f"{above}{_dotted(place)}" for place in _removed(original, values))
-    used = {each.source for each in parameters if each.source}
+    used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
     return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
 
 
 def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list[Key]:
-    """Return what a part lacks of its original; where a whole section is gone, the section alone."""
+    """Return the keys of its original that a part lacks; of a section that it lacks, the section alone."""
     kept = {place[:depth] for place in values for depth in range(len(place) + 1)}
     return list(
         dict.fromkeys(
@@ -120,23 +120,23 @@ def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
 
 
 def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
-    """Yield what a scenario says itself; what it may leave out is held against the default."""
+    """Yield the parameters that stand in the scenario file; optional ones are compared with their default."""
     for name, declared in type(model).model_fields.items():
         value = getattr(model, name)
         if name in DESCRIPTIVE or (name in _SECTIONS and isinstance(value, Model)):
             continue
         default = None if declared.is_required() else dict(values_in(defaults.get(name, declared.default)))
         setting = "user" if name in model.model_fields_set else "default"
-        for place, each in values_in(value, (name,)):
-            mark = mark_of(each, {}) if isinstance(each, Quantity) else setting
+        for place, part_value in values_in(value, (name,)):
+            mark = mark_of(part_value, {}) if isinstance(part_value, Quantity) else setting
             below = None if default is None else {(name, *key): other for key, other in default.items()}
-            yield _parameter(above, place, each, below, mark)
+            yield _parameter(above, place, part_value, below, mark)
 
 
 def _parameter(
     above: str, place: Key, value: Value, library: Mapping[Key, Value] | None, mark: str
 ) -> Parameter:
-    """Return a parameter held against the values of the library part, None where there is no such part."""
+    """Return a parameter compared with the library part; `library` is None without such a part."""
     source = value.source if isinstance(value, Quantity) and mark not in ("user", "default") else ""
     other = None if library is None else library.get(place)
     key, unit = f"{above}{_dotted(place)}", value.unit if isinstance(value, Quantity) else ""

@@ -74,4 +74,5 @@ def to_json_form(adapter: TypeAdapter[Any], value: object) -> Any:
 def _first_problem(error: ValidationError, place: str) -> str:
     first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     where = ".".join(filter(None, (place, *map(str, first["loc"]))))
-    return f"{where}: {first['msg']}" if where else first["msg"]
+    what = first["msg"].removeprefix("Value error, ")
+    return f"{where}: {what}" if where else what

@@ -1,4 +1,4 @@
-"""The parts that a case was run with, and every parameter in them."""
+"""The parts that a case was run with, their parameters, and their JSON form."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ Decide = Callable[[float], Decision]
 def sensitivity(
     name: str, unit: str, lower: float, upper: float, step: float | None, decide: Decide
 ) -> Sensitivity:
-    """Return how the verdict moves while the definition `name` runs from `lower` to `upper` (SI).
+    """Return how the verdict changes while the definition `name` runs from `lower` to `upper` (SI).
 
     `decide` gives the decision at a value of the definition. With a `step` the definition takes multiples of
     it only, and all of them in the range are decided. Without one it is continuous, what it defines is

@@ -17,7 +17,6 @@ from uictest.recording import TIME
 
 Channels = tuple[str, ...]
 
-
 _NEEDS: Final = MappingProxyType(
     {name: measure.recorded for name, measure in MEASURES.items() if measure.recorded is not None}
 )
@@ -40,7 +39,8 @@ _NEVER: Final = {
     for name, values in _VALUES.items()
     if _NEEDS[name].when == "never"
 }
-"""Measures of which no record holds the data."""
+"""Measures whose data no record holds -> what their values lack."""
+
 _LATE: Final = "the record begins after the brake command"
 
 
@@ -102,8 +102,7 @@ def _unknown(stop: RecordedStop, name: str, *, throughout: bool) -> Iterator[str
     elif name == "distance" and (
         unknown[0] or (stop.standstill is not None and not np.isfinite(stop.standstill[1]))
     ):
-        yield (
-            "the distance is not known: the speed it is integrated from has a gap"
-            if not unknown[0]
-            else ("distance is not known at the brake command")
-        )
+        if unknown[0]:
+            yield "distance is not known at the brake command"
+        else:
+            yield "the distance is not known: the speed it is integrated from has a gap"
