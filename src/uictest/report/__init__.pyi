@@ -92,6 +92,7 @@ from .terminal.case_lines import (
 from .terminal.fitted_columns import (
     Column as Column,
     aligned as aligned,
+    aligned_rows as aligned_rows,
     columns_not_shown as columns_not_shown,
     fitted as fitted,
     table_width as table_width,

@@ -77,5 +77,5 @@ def test_a_text_among_numbers_is_refused_with_its_place(call: Call, workplace: P
     (workplace / "run.csv").write_text("time [s],speed [m/s]\n0,10\n1,n.a.\n")
     answer = call("export", "run.csv", "--to", "mat")
     assert answer.code == 4
-    assert "channel 'speed' holds texts, the first in line 3, column 2" in answer.err
+    assert "channel 'speed' contains texts, the first in line 3, column 2" in answer.err
     assert not (workplace / "run.mat").exists()

@@ -2,82 +2,86 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from uictest import identification
+from uictest import identification, recording
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.progress import announce_compilation
+from uictest.recording import formats
+from uictest.rig import bench as rig_bench
 from uictest.scenario import yaml
 
-if TYPE_CHECKING:
-    from uictest.recording import Recording
-    from uictest.rig.bench import BenchTest
+_FORMATS = {".parquet": "parquet", ".csv": "csv"}
+"""Suffix of the recording -> its format."""
+
+Recipe = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[RECIPE]", help="Recipe of the library (see --list), or a .yaml file.", show_default=False
+    ),
+]
+TraceFile = Annotated[
+    Path | None,
+    typer.Option("--trace", metavar="FILE", help="Recording whose pressure is demanded, instead of RECIPE."),
+]
+PressureChannel = Annotated[
+    str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the demanded pressure in --trace.")
+]
+CommandChannel = Annotated[
+    str | None,
+    typer.Option("--command", metavar="CHANNEL", help="Channel of the valve command in --trace."),
+]
+RigOverrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig. May be repeated."),
+]
+Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise.")]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Recording to write, .parquet or .csv [default: RECIPE.parquet].",
+        show_default=False,
+    ),
+]
+Listing = Annotated[bool, typer.Option("--list", help="List the recipes of the library.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Write the recording without a summary.")]
 
 
 def bench(
-    recipe: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[RECIPE]", help="A recipe of the library or a .yaml file.", show_default=False
-        ),
-    ] = None,
-    trace: Annotated[
-        Path | None,
-        typer.Option("--trace", metavar="FILE", help="Demand a recorded pressure instead of a recipe's."),
-    ] = None,
-    pressure: Annotated[
-        str,
-        typer.Option("--pressure", metavar="CHANNEL", help="Channel of the demanded pressure in --trace."),
-    ] = "demanded_pressure",
-    command: Annotated[
-        str | None,
-        typer.Option("--command", metavar="CHANNEL", help="Channel of the valve command in --trace."),
-    ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig. May be repeated."),
-    ] = None,
-    seed: Annotated[
-        int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the noise.")
-    ] = None,
+    recipe: Recipe = None,
+    trace: TraceFile = None,
+    pressure: PressureChannel = "demanded_pressure",
+    command: CommandChannel = None,
+    overrides: RigOverrides = None,
+    seed: Seed = None,
     trusted: Trusted = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Recording to write, .parquet or .csv [default: RECIPE.parquet].",
-            show_default=False,
-        ),
-    ] = None,
-    listed: Annotated[bool, typer.Option("--list", help="List the recipes of the library.")] = False,
-    quiet: Annotated[
-        bool, typer.Option("-q", "--quiet", help="Write the recording and show nothing.")
-    ] = False,
+    output: Output = None,
+    listing: Listing = False,
+    quiet: Quiet = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
-    from uictest.rig.bench import is_compiled, loading as bench_loading
-
-    if listed:
-        data("\n".join(bench_loading.recipe_names()))
+    if listing:
+        data("\n".join(rig_bench.recipe_names()))
         return ExitCode.MET
     test = _test(recipe, trace, pressure, command, overrides or (), seed, trusted or ())
     target = output or Path(f"{test.recipe.name}.parquet")
-    writer = _writer(target)
-    announce_compilation(warm=is_compiled(), quiet=quiet)
-    recording = _run(test)
-    writer(recording, target)
+    write = _writer(target)
+    announce_compilation(warm=rig_bench.is_compiled(), quiet=quiet)
+    samples = _run(test)
+    write(samples, target)
     if not quiet:
-        message(f"uictest: wrote {len(recording)} samples of {recording['time'][-1]:.1f} s to {target}")
-        data(_summary(recording))
+        message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")
+        data(_summary(samples))
     return ExitCode.MET
 
 
@@ -86,57 +90,53 @@ def _test(
     trace: Path | None,
     pressure: str,
     command: str | None,
-    overrides: list[str] | tuple[()],
+    overrides: Sequence[str],
     seed: int | None,
     trusted: Sequence[Path],
-) -> BenchTest:
-    from uictest.rig.bench import load_bench, recipe_names, recipe_path, trace_recipe
-
+) -> rig_bench.BenchTest:
+    """Return the test of a recipe or of a recorded pressure. Raises InvalidInputError."""
+    names = rig_bench.recipe_names()
     if (recipe is None) == (trace is None):
         raise InvalidInputError(
-            f"uictest: name one recipe ({', '.join(recipe_names())}, or a .yaml file) or give --trace FILE"
+            f"uictest: name one recipe ({', '.join(names)}, or a .yaml file) or give --trace FILE"
         )
     try:
         if trace is not None:
-            return trace_recipe(trace, pressure, command, overrides, seed, trusted)
+            return rig_bench.trace_recipe(trace, pressure, command, overrides, seed, trusted)
         assert recipe is not None
-        if not recipe_path(recipe).exists():
-            hint = yaml.suggestion(recipe, recipe_names())
+        if not rig_bench.recipe_path(recipe).exists():
+            hint = yaml.suggestion(recipe, names)
             raise InvalidInputError(f"uictest: no bench recipe {recipe!r}; {hint}")
-        return load_bench(recipe_path(recipe), overrides, seed, trusted)
+        return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, seed, trusted)
     except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 
 
-def _run(test: BenchTest) -> Recording:
-    from uictest.rig.bench import run_test
-
+def _run(test: rig_bench.BenchTest) -> recording.Recording:
     try:
-        return run_test(test)
+        return rig_bench.run_test(test)
     except identification.UnsuitableRecordError as error:
         raise InvalidInputError(f"uictest: {error}") from error
     except FileNotFoundError as error:
         raise InvalidInputError(f"uictest: {error.filename}: no such file") from error
 
 
-def _writer(target: Path):  # type: ignore[no-untyped-def]
-    from uictest.recording.formats import writer_of
-
-    formats = {".parquet": "parquet", ".csv": "csv"}
-    if target.suffix.lower() not in formats:
+def _writer(target: Path) -> Callable[[recording.Recording, Path], object]:
+    """Return what writes a recording to a file of this name. Raises InvalidInputError."""
+    if target.suffix.lower() not in _FORMATS:
         raise InvalidInputError(f"uictest: {target}: write a .parquet or a .csv file")
     if not target.parent.is_dir():
         raise InvalidInputError(f"uictest: {target}: there is no folder {target.parent}")
-    return writer_of(formats[target.suffix.lower()])
+    return formats.writer_of(_FORMATS[target.suffix.lower()])
 
 
-def _summary(recording: Recording) -> str:
-    """Largest errors of the computed forces and pressures, in per cent of the largest measured ones."""
+def _summary(samples: recording.Recording) -> str:
+    """Return the largest errors of the computed forces and pressures, in % of the largest measured value."""
     import numpy as np
 
     def error(computed: str, measured: str) -> float:
-        difference = np.abs(recording[computed] - recording[measured]).max()
-        return float(100.0 * difference / max(recording[measured].max(), 1e-9))
+        difference = np.abs(samples[computed] - samples[measured]).max()
+        return float(100.0 * difference / max(samples[measured].max(), 1e-9))
 
     force, pressure = "clamping_force_1", "cylinder_pressure_1"
     rows = [

@@ -18,24 +18,25 @@ from uictest.recording import formats
 
 
 def compare(
-    first: Annotated[Path, typer.Argument(metavar="A", help="A run's folder, or a recording.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another of the same kind.")],
+    first: Annotated[Path, typer.Argument(metavar="A", help="Folder of a run, or a recording.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="Another run or recording.")],
     tolerance: ToleranceTexts = None,
     channels: Annotated[
         list[str] | None,
         typer.Option(
             "--channel",
             metavar="NAME",
-            help="Draw this channel on the page; NAME may hold *. May be repeated.",
+            help="Draw this channel on the page; NAME may contain *. May be repeated.",
         ),
     ] = None,
     page: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Write a page with overlay plots, too.")
+        Path | None,
+        typer.Option("--html", metavar="FILE", help="Also write a page with overlay plots."),
     ] = None,
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Show what differs between two runs or two recordings. Exit 1 where something is out of tolerance."""
+    """Compare two runs or two recordings. Exit 1 if anything is out of tolerance."""
     if channels and page is None:
         raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
     compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from uictest import recording
+from uictest import __version__, recording
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files, each_file
+from uictest.recording import formats as file_formats
 
 
 def export(
@@ -20,40 +22,41 @@ def export(
     formats: Annotated[
         list[str],
         typer.Option(
-            "--to", metavar="FORMAT", help="mdf (or mf4), tdms, mat, csv, parquet; commas join several."
+            "--to", metavar="FORMAT", help="Formats, joined by commas: mdf (or mf4), tdms, mat, csv, parquet."
         ),
     ],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")
     ] = Path(),
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there already.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Shows the files it wrote."""
-    from uictest.recording.formats import SUFFIXES, writer_of
-
-    wanted = _formats(formats)
-    targets = {(path, name): output / f"{path.stem}{SUFFIXES[name]}" for path in files for name in wanted}
+    """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
+    names = _formats(formats)
+    targets = {
+        (path, name): output / f"{path.stem}{file_formats.SUFFIXES[name]}" for path in files for name in names
+    }
     _refuse_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, each_file(files, _recording), strict=True))
     output.mkdir(parents=True, exist_ok=True)
     for (path, name), target in targets.items():
-        each_file([path], lambda p, n=name, t=target: writer_of(n)(recordings[p], t))  # type: ignore[misc]
+        write = partial(file_formats.writer_of(name), recordings[path], target)
+        each_file([path], lambda _, write=write: write())  # type: ignore[misc]
         data(str(target))
     return ExitCode.MET
 
 
 def _formats(texts: Sequence[str]) -> list[str]:
-    from uictest.recording.formats import FORMATS, SUFFIXES
-
-    # A format is known by the suffix of its files, too: engineers say MF4 for MDF 4.
-    names = {suffix.removeprefix("."): name for name, suffix in SUFFIXES.items()}
+    # A format is also known by the suffix of its files: engineers say MF4 for MDF 4.
+    by_suffix = {suffix.removeprefix("."): name for name, suffix in file_formats.SUFFIXES.items()}
     words = [word.strip().lower() for text in texts for word in text.split(",")]
-    wanted = list(dict.fromkeys(names.get(word, word) for word in words))
-    for word in wanted:
-        if word not in FORMATS:
-            raise typer.BadParameter(f"no format {word!r}; accepted: {', '.join(FORMATS)}", param_hint="--to")
-    return wanted
+    names = list(dict.fromkeys(by_suffix.get(word, word) for word in words))
+    for word in names:
+        if word not in file_formats.FORMATS:
+            raise typer.BadParameter(
+                f"no format {word!r}; accepted: {', '.join(file_formats.FORMATS)}", param_hint="--to"
+            )
+    return names
 
 
 def _refuse_overwriting(targets: Sequence[Path], *, force: bool) -> None:
@@ -66,9 +69,6 @@ def _refuse_overwriting(targets: Sequence[Path], *, force: bool) -> None:
 
 
 def _recording(path: Path) -> recording.Recording:
-    from uictest import __version__
-    from uictest.recording.formats import read_contents
-
     return recording.recording_of(
-        read_contents(path), {"program": f"uictest {__version__}", "source": path.name}
+        file_formats.read_contents(path), {"program": f"uictest {__version__}", "source": path.name}
     )

@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -18,6 +18,10 @@ from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
 from uictest.scenario import yaml
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 identify = typer.Typer(
     rich_markup_mode=None,
@@ -37,7 +41,7 @@ Recording = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write; none: only report."),
+    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write [default: none]."),
 ]
 Base = Annotated[
     str,
@@ -54,7 +58,50 @@ Name = Annotated[
 ]
 Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
 HeldOut = Annotated[
-    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record kept from the fit.")
+    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record held out from the fit.")
+]
+
+
+PressureChannel = Annotated[
+    str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder pressure.")
+]
+ForceChannel = Annotated[
+    str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
+]
+CommandChannel = Annotated[
+    str,
+    typer.Option(
+        "--command", metavar="CHANNEL", help="Channel of the valve command (0 fill, 1 hold, 2 vent)."
+    ),
+]
+Intervals = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--wsp",
+        metavar="FROM..TO",
+        help="Time in s in which the WSP acts, instead of --command. May be repeated.",
+    ),
+]
+ActingTime = Annotated[
+    float,
+    typer.Option(
+        "--acting-time", min=0.0, max=60.0, help="Filling time in s after which the WSP no longer acts."
+    ),
+]
+TransitionTime = Annotated[
+    float,
+    typer.Option(
+        "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
+    ),
+]
+TankChannel = Annotated[str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank pressure.")]
+CylinderChannel = Annotated[
+    str,
+    typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder pressure."),
+]
+FitCriterion = Annotated[
+    Literal["least-squares", "largest-error"],
+    typer.Option("--criterion", help="What to minimize; largest-error suits records with little noise."),
 ]
 
 
@@ -66,36 +113,12 @@ def hysteresis(
     base: Base = "six-inch",
     name: Name = "",
     trusted: Trusted = None,
-    pressure: Annotated[
-        str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder's pressure.")
-    ] = "cylinder_pressure_1",
-    force: Annotated[
-        str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
-    ] = "clamping_force_1",
-    command: Annotated[
-        str, typer.Option("--command", metavar="CHANNEL", help="Valve command: 0 fill, 1 hold, 2 vent.")
-    ] = "valve_command_1",
-    intervals: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--wsp", metavar="FROM..TO", help="Time in s in which the WSP acts, instead of commands."
-        ),
-    ] = None,
-    acting_time: Annotated[
-        float,
-        typer.Option(
-            "--acting-time",
-            min=0.0,
-            max=60.0,
-            help="Time of filling in s after which the WSP no longer acts.",
-        ),
-    ] = 2.0,
-    transition_time: Annotated[
-        float,
-        typer.Option(
-            "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
-        ),
-    ] = 0.1,
+    pressure: PressureChannel = "cylinder_pressure_1",
+    force: ForceChannel = "clamping_force_1",
+    command: CommandChannel = "valve_command_1",
+    intervals: Intervals = None,
+    acting_time: ActingTime = 2.0,
+    transition_time: TransitionTime = 0.1,
     held_out: HeldOut = 0.25,
     date: Date = "",
     verbosity: Verbosity = 0,
@@ -103,22 +126,11 @@ def hysteresis(
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
     kept = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
-    given = [_interval(text) for text in intervals or ()]
-    wanted = {"pressure": pressure, "force": force} | ({} if given else {"command": command})
-    recorded = _record(record, wanted)
-    channels = recorded.channels
-    time = channels["time"]
-    acting = (
-        identification.wsp_acting_in_intervals(time, given)
-        if given
-        else identification.wsp_acting_from_commands(time, channels["command"], acting_time)
-    )
-    try:
-        result = identification.identify_hysteresis(
-            time, channels["pressure"], channels["force"], acting, transition_time, held_out
-        )
-    except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {record}: {error}") from error
+    acting_intervals = [_interval(text) for text in intervals or ()]
+    roles = {"pressure": pressure, "force": force} | ({} if acting_intervals else {"command": command})
+    recorded = _record(record, roles)
+    acting = _wsp_acting(recorded, acting_intervals, acting_time)
+    result = _hysteresis(record, recorded, acting, transition_time, held_out)
     data(_hysteresis_report(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
@@ -137,19 +149,9 @@ def cylinder(
     base: Base = "six-inch",
     name: Name = "",
     trusted: Trusted = None,
-    tank: Annotated[
-        str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank's pressure.")
-    ] = "measured_pressure_2",
-    cylinder: Annotated[
-        str,
-        typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder's pressure."),
-    ] = "cylinder_pressure_1",
-    criterion: Annotated[
-        Literal["least-squares", "largest-error"],
-        typer.Option(
-            "--criterion", help="What is made least; the largest error suits records of little noise."
-        ),
-    ] = "least-squares",
+    tank: TankChannel = "measured_pressure_2",
+    cylinder: CylinderChannel = "cylinder_pressure_1",
+    criterion: FitCriterion = "least-squares",
     held_out: HeldOut = 0.25,
     date: Date = "",
     verbosity: Verbosity = 0,
@@ -158,6 +160,46 @@ def cylinder(
     kept = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
+    result = _cylinder(record, recorded, criterion, held_out)
+    data(_cylinder_report(result))
+    if output is not None:
+        provenance = _provenance(context, record, recorded, date)
+        _write(output, identification.with_cylinder(kept, part_name, result, provenance))
+    return ExitCode.MET
+
+
+def _wsp_acting(
+    recorded: identification.Record, intervals: Sequence[tuple[float, float]], acting_time: float
+) -> NDArray[np.bool_]:
+    """Return for every sample whether the WSP acts: in the intervals, or else by the valve commands."""
+    channels = recorded.channels
+    if intervals:
+        return identification.wsp_acting_in_intervals(channels["time"], intervals)
+    return identification.wsp_acting_from_commands(channels["time"], channels["command"], acting_time)
+
+
+def _hysteresis(
+    record: Path,
+    recorded: identification.Record,
+    acting: NDArray[np.bool_],
+    transition_time: float,
+    held_out: float,
+) -> identification.HysteresisResult:
+    channels = recorded.channels
+    try:
+        return identification.identify_hysteresis(
+            channels["time"], channels["pressure"], channels["force"], acting, transition_time, held_out
+        )
+    except identification.UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
+
+
+def _cylinder(
+    record: Path,
+    recorded: identification.Record,
+    criterion: Literal["least-squares", "largest-error"],
+    held_out: float,
+) -> identification.CylinderResult:
     channels = recorded.channels
     try:
         result = identification.identify_cylinder(
@@ -166,22 +208,18 @@ def cylinder(
         identification.require_fit(result)
     except identification.UnsuitableRecordError as error:
         raise InvalidInputError(f"uictest: {record}: {error}") from error
-    data(_cylinder_report(result))
-    if output is not None:
-        provenance = _provenance(context, record, recorded, date)
-        _write(output, identification.with_cylinder(kept, part_name, result, provenance))
-    return ExitCode.MET
+    return result
 
 
-def _record(record: Path, wanted: dict[str, str]) -> identification.Record:
+def _record(record: Path, names: dict[str, str]) -> identification.Record:
     """Read the channels of a record by role. Raises InvalidInputError where two options name the same one."""
-    for (role, name), (other, same) in combinations(wanted.items(), 2):
+    for (role, name), (other, same) in combinations(names.items(), 2):
         if name == same:
             raise InvalidInputError(
                 f"uictest: {_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
             )
     try:
-        return identification.read_record(_existing(record), wanted)
+        return identification.read_record(_existing(record), names)
     except identification.UnsuitableRecordError as error:
         raise InvalidInputError(f"uictest: {error}") from error
 
@@ -206,7 +244,7 @@ def _interval(text: str) -> tuple[float, float]:
 
 
 def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
-    """The compensation that keeps its other numbers: of the library, or a file."""
+    """Return the compensation, of the library or in a file, whose other numbers are kept."""
     try:
         return identification.load_compensation(reference, trusted)
     except yaml.ScenarioErrors as errors:
@@ -214,7 +252,7 @@ def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
 
 
 def _name(name: str, record: Path) -> str:
-    """The name that was asked for, else one from the file name of the record, which no library part has."""
+    """Return the name of `--name`, else one from the file name of the record that no library part has."""
     derived = re.sub(r"[^a-z0-9]+", "-", record.stem.lower()).strip("-")[:100]
     if name and not re.fullmatch(yaml.NAME_PATTERN, name):
         raise InvalidInputError(f"uictest: --name {name!r}: write lower case letters, digits and . _ -")

@@ -39,10 +39,10 @@ expect: pass
 
 
 def init(
-    folder: Annotated[Path, typer.Argument(help="Where to put scenarios/ and schema/.")] = Path(),
+    folder: Annotated[Path, typer.Argument(help="Folder for scenarios/ and schema/.")] = Path(),
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write a first scenario, and the schema that lets editors complete it. Nothing is overwritten."""
+    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing."""
     texts = {folder / SCENARIO: _FIRST_STOP, folder / SCHEMA: schema_text()}
     existing = [path for path in texts if path.exists()]
     if existing:

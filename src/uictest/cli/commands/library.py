@@ -8,16 +8,19 @@ from typing import Annotated
 
 import typer
 
-from uictest import field_data, scenario
+from uictest import field_data, library as library_files, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data
 from uictest.cli.registration import command
-from uictest.report import printable
+from uictest.report import aligned_rows, printable
 from uictest.rig import bench
 from uictest.scenario import yaml
 
 library = typer.Typer(rich_markup_mode=None, help="Show the parts that come with the program.")
+
+_FOLDERS = sorted((*library_files.FOLDERS, *library_files.OTHER_FOLDERS))
+"""Folders of the library."""
 
 
 @command(library, "list")
@@ -30,16 +33,17 @@ def list_parts(verbosity: Verbosity = 0) -> ExitCode:
 @command(library, "show")
 def show_part(
     reference: Annotated[
-        str, typer.Argument(metavar="PART", help="Such as vehicles/intercity-180, or the file of a part.")
+        str,
+        typer.Argument(metavar="PART", help="Part of the library (vehicles/intercity-180), or its file."),
     ],
     trusted: Trusted = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
 
-    Of a part that extends another, what differs from it. Below the numbers stand the sources, the
-    publications they name and, of identified numbers, how. Of a channel map, the names that a channel may
-    have in a file.
+    For a part that extends another, also the values that differ. Below the numbers: the sources, the
+    publications that they cite, and how identified numbers were identified. For a channel map: the names that
+    each channel may have in a file.
     """
     if reference.endswith((".yaml", ".yml")):
         _show_file(Path(reference), trusted or ())
@@ -75,8 +79,6 @@ def _show_file(path: Path, trusted: Sequence[Path]) -> None:
 
 
 def _show_numbers(part: yaml.Part) -> None:
-    from uictest.library import references
-
     shown = list(scenario.numbers(part))
     original = {} if part.original is None else {each.key: each for each in scenario.numbers(part.original)}
     data(_aligned([(*_row(number), _difference(number, original, part)) for number in shown]))
@@ -85,7 +87,9 @@ def _show_numbers(part: yaml.Part) -> None:
     used = {number.quantity.source for number in shown}
     sources = [(name, each.text) for name, each in part.sources.items() if name in used]
     cited = [
-        each for each in references().items() if any(text.startswith(each[0] + ":") for _, text in sources)
+        each
+        for each in library_files.references().items()
+        if any(text.startswith(each[0] + ":") for _, text in sources)
     ]
     provenance = list(getattr(part, "provenance", {}).items())
     for title, rows in (("sources", sources), ("references", cited), ("provenance", provenance)):
@@ -128,21 +132,14 @@ def _title(reference: str) -> str:
 
 
 def _references() -> list[str]:
-    from uictest.library import FOLDERS, OTHER_FOLDERS, names
-
-    return [f"{folder}/{name}" for folder in sorted((*FOLDERS, *OTHER_FOLDERS)) for name in names(folder)]
+    return [f"{folder}/{name}" for folder in _FOLDERS for name in library_files.names(folder)]
 
 
 def _hint(reference: str) -> str:
-    from uictest.library import FOLDERS, OTHER_FOLDERS
-
     guess = yaml.nearest(reference, _references())
-    accepted = ", ".join(f"{folder}/..." for folder in sorted((*FOLDERS, *OTHER_FOLDERS)))
+    accepted = ", ".join(f"{folder}/..." for folder in _FOLDERS)
     return f"did you mean {guess!r}?" if guess else f"accepted: {accepted}"
 
 
 def _aligned(rows: Sequence[Sequence[str]]) -> str:
-    shown = [[printable(cell) for cell in row] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*shown, strict=True)]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in shown)
-    return "\n".join(line.rstrip() for line in lines)
+    return "\n".join(aligned_rows([[printable(cell) for cell in row] for row in rows]))

@@ -1,4 +1,4 @@
-"""`uictest list`: which cases there are."""
+"""`uictest list`: the ids of cases."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def list_cases(
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """List the ids of all cases, one per line. With -v, their titles and tags. A sweep must be named."""
+    """List the ids of all cases, one per line; with -v, titles and tags. Lists a sweep only if named."""
     if paths and all(map(sweeping.is_sweep, paths)):
         return _list_sweeps(paths, expression, overrides, trusted)
     cases = load_cases(paths, overrides, None, trusted)

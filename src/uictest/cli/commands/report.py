@@ -1,4 +1,4 @@
-"""`uictest report`: a finished run or sweep in further formats."""
+"""`uictest report`: write a finished run or sweep in more formats."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def report(
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write a finished run or sweep in further formats. Shows the files it wrote.
+    """Write a finished run or sweep in more formats. Prints the names of the files.
 
-    The page draws the stops whose recordings lie in the run's folder; --record all keeps all of them.
+    The page draws the stops whose recordings are in the folder; 'run --record all' keeps all of them.
     """
     folder = run_folder(run)
     is_sweep = (folder / reports.SWEEP_RESULTS).is_file()

@@ -27,7 +27,7 @@ def schema(
         SchemaKind.SCENARIO
     ),
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to a file, not to stdout.")
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to FILE instead of stdout.")
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:

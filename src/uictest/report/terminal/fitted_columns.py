@@ -62,9 +62,14 @@ def table_width(columns: Sequence[Column]) -> int:
 
 def aligned(columns: Sequence[Column]) -> Iterator[str]:
     """Yield the lines of a table, the titles first."""
-    texts = [[cell.split("\n") for cell in (column.title, *column.cells)] for column in columns]
-    widths = [max(len(line) for cell in cells for line in cell) for cells in texts]
-    for row in zip(*texts, strict=True):
+    return aligned_rows(list(zip(*((column.title, *column.cells) for column in columns), strict=True)))
+
+
+def aligned_rows(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of rows of cells; every column has the same width in all rows."""
+    texts = [[cell.split("\n") for cell in row] for row in rows]
+    widths = [max(len(line) for cell in cells for line in cell) for cells in zip(*texts, strict=True)]
+    for row in texts:
         for line in range(max(map(len, row))):
             parts = [cell[line] if line < len(cell) else "" for cell in row]
             yield GAP.join(map(str.ljust, parts, widths)).rstrip()
