@@ -81,7 +81,7 @@ def prepared(recording: Recording) -> Callable[..., RecordedStop]:
     def make(
         channels: Mapping[str, RawChannel], facts: Mapping[str, str] | None = None, **choices: Any
     ) -> RecordedStop:
-        wanted = Preparation.model_validate(choices)
-        return prepare(channels, recording.metadata if facts is None else facts, wanted)
+        preparation = Preparation.model_validate(choices)
+        return prepare(channels, recording.metadata if facts is None else facts, preparation)
 
     return make

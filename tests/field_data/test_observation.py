@@ -46,27 +46,27 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
     writer_of(name)(stop.recording, path)
     contents = read_here(name, path, Dialect())
     channel_map, _ = load_map("uictest")
-    measured = prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
-    wanted, found = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, measured)
-    assert measured.defects == ()
-    assert found.outcome == wanted.outcome
-    verdicts = [(v.id, v.status) for v in found.criteria if v.id not in BALANCES]
-    assert verdicts == [(v.id, v.status) for v in wanted.criteria if v.id not in BALANCES]
-    _compare(found, wanted, max(1.0 / rate, 0.01))
+    recorded_stop = prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
+    expected, actual = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, recorded_stop)
+    assert recorded_stop.defects == ()
+    assert actual.outcome == expected.outcome
+    verdicts = [(v.id, v.status) for v in actual.criteria if v.id not in BALANCES]
+    assert verdicts == [(v.id, v.status) for v in expected.criteria if v.id not in BALANCES]
+    _compare(actual, expected, max(1.0 / rate, 0.01))
 
 
-def _compare(found: Any, wanted: Any, interval: float) -> None:
+def _compare(actual: Any, expected: Any, interval: float) -> None:
     for figure, resolution in RESOLUTION.items():
-        expected = wanted.measures[figure]
-        assert found.measures[figure] == pytest.approx(
-            expected, abs=resolution(interval) + 1e-3 * abs(expected) * (interval > 0.01), nan_ok=True
+        value = expected.measures[figure]
+        assert actual.measures[figure] == pytest.approx(
+            value, abs=resolution(interval) + 1e-3 * abs(value) * (interval > 0.01), nan_ok=True
         ), figure
     tolerances = {
         "locked_time_s": LOCKED * (interval - 0.01) + 1e-6,
         "valve_actuations": 0 if interval == 0.01 else 2,
         "maximum_slide": 2.0 * (interval - 0.01) + 1e-6,
     }
-    for one, other in zip(found.wheelsets, wanted.wheelsets, strict=True):
+    for one, other in zip(actual.wheelsets, expected.wheelsets, strict=True):
         for column, tolerance in tolerances.items():
             assert one[column] == pytest.approx(other[column], abs=tolerance), column
 
@@ -107,9 +107,9 @@ def test_a_sound_record_of_a_good_stop_passes_by_our_own_criteria(
 def test_the_recording_of_a_judged_stop_says_when_a_wheelset_first_slid(
     case: Case, simulated: Callable[[float], SimulatedStop], channels: Any, prepared: Any
 ) -> None:
-    wanted = simulated(100.0).measures.sliding_time
+    expected = simulated(100.0).measures.sliding_time
     _, recording = judge_recording(case, prepared(channels))
-    assert float(recording.metadata["sliding_time"]) == pytest.approx(wanted)
+    assert float(recording.metadata["sliding_time"]) == pytest.approx(expected)
     assert recording.metadata["brake_command_time"] == "0 s"
 
 
@@ -135,8 +135,8 @@ def test_the_preparation_stands_in_every_verdict(case: Case, channels: Any, prep
 
 
 def test_a_distance_that_is_not_recorded_is_integrated(channels: Any, prepared: Any) -> None:
-    wanted = prepared(channels).standstill
+    expected = prepared(channels).standstill
     del channels["distance"]
-    found = prepared(channels)
-    assert found.choices["distance"] == "integrated from speed"
-    assert found.standstill == pytest.approx(wanted, rel=1e-4)
+    actual = prepared(channels)
+    assert actual.choices["distance"] == "integrated from speed"
+    assert actual.standstill == pytest.approx(expected, rel=1e-4)

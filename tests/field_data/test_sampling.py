@@ -20,9 +20,9 @@ def _channel(name: str, time: np.ndarray, samples: np.ndarray) -> RawChannel:
 
 @given(RISING, st.lists(st.floats(-5.0, 40.0), min_size=1, max_size=20))
 def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(
-    time: np.ndarray, wanted: list[float]
+    time: np.ndarray, times_asked: list[float]
 ) -> None:
-    times = np.sort(wanted)
+    times = np.sort(times_asked)
     values = resampled(_channel("speed", time, 3.0 * time + 1.0), times, raster=100.0)
     inside = (times >= time[0]) & (times <= time[-1])
     assert np.isnan(values[(times < time[0] - 1e-3) | (times > time[-1] + 1e-3)]).all()

@@ -32,38 +32,38 @@ def known(real=True):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("real", [True, False])
 def test_a_known_response_is_recovered_within_a_per_cent_up_to_20_hz(seed, real):
-    time, given = excitation()
+    time, tank = excitation()
     truth = known(real)
-    noise = 0.005 * given.max() * np.random.default_rng(seed).standard_normal(len(given))
-    found = identify_cylinder(time, given, truth.output(given) + noise)
-    wanted = truth.response(FREQUENCIES)
-    assert np.abs(found.transfer_function.response(FREQUENCIES) - wanted).max() < 0.01
-    assert found.fit > 95.0
+    noise = 0.005 * tank.max() * np.random.default_rng(seed).standard_normal(len(tank))
+    result = identify_cylinder(time, tank, truth.output(tank) + noise)
+    expected = truth.response(FREQUENCIES)
+    assert np.abs(result.transfer_function.response(FREQUENCIES) - expected).max() < 0.01
+    assert result.fit > 95.0
 
 
 def test_unity_gain_at_rest_and_stability_hold_by_parametrisation():
-    time, given = excitation(8.0)
-    found = identify_cylinder(time, given, known().output(given)).transfer_function
-    gain = sum(found.numerator) / (1.0 + sum(found.denominator))
+    time, tank = excitation(8.0)
+    result = identify_cylinder(time, tank, known().output(tank)).transfer_function
+    gain = sum(result.numerator) / (1.0 + sum(result.denominator))
     assert gain == pytest.approx(1.0, abs=1e-6)
-    assert np.all(np.abs(found.poles) < 1.0)
-    assert found.output(np.full(1000, 3e5)) == pytest.approx(3e5)
+    assert np.all(np.abs(result.poles) < 1.0)
+    assert result.output(np.full(1000, 3e5)) == pytest.approx(3e5)
 
 
 def test_the_largest_error_is_smaller_when_it_is_what_is_made_least():
     """A difference that is no linear lag: the tank's time runs a tenth faster."""
-    time, given = excitation(12.0)
-    given = known().output(given)
-    wanted = np.interp(time / 1.1, time, given)
-    least_squares = identify_cylinder(time, given, wanted)
-    largest = identify_cylinder(time, given, wanted, "largest-error")
+    time, tank = excitation(12.0)
+    tank = known().output(tank)
+    expected = np.interp(time / 1.1, time, tank)
+    least_squares = identify_cylinder(time, tank, expected)
+    largest = identify_cylinder(time, tank, expected, "largest-error")
     assert largest.largest_after < 1.1 * least_squares.largest_after
 
 
 def test_the_model_is_better_than_none_on_what_was_held_out():
-    time, given = excitation(8.0)
-    found = identify_cylinder(time, given, known().output(given))
-    assert found.largest_after < 0.01 * found.largest_before
+    time, tank = excitation(8.0)
+    result = identify_cylinder(time, tank, known().output(tank))
+    assert result.largest_after < 0.01 * result.largest_before
 
 
 @pytest.mark.parametrize(

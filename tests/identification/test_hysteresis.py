@@ -20,24 +20,24 @@ def noisy(samples, share, seed):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_known_lines_are_recovered_under_half_a_per_cent_of_noise(pressures, force, seed):
     time, pressure, acting = pressures
-    found = identify_hysteresis(
+    result = identify_hysteresis(
         time, noisy(pressure, 0.005, seed), noisy(force, 0.005, seed + 10), acting, transition_time=0.0
     )
     for phase in PHASES:
-        assert found.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
-        assert found.lines[phase].intercept == pytest.approx(LINES[phase].intercept, abs=0.02 * force.max())
+        assert result.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
+        assert result.lines[phase].intercept == pytest.approx(LINES[phase].intercept, abs=0.02 * force.max())
     for kind in ("bc", "wsp"):
-        width = LINES[f"{kind}_squeezing"].pressure(found.high_force) - LINES[f"{kind}_releasing"].pressure(
-            found.high_force
+        width = LINES[f"{kind}_squeezing"].pressure(result.high_force) - LINES[f"{kind}_releasing"].pressure(
+            result.high_force
         )
-        assert found.loop_widths[kind] == pytest.approx(width, abs=0.03e5)
+        assert result.loop_widths[kind] == pytest.approx(width, abs=0.03e5)
 
 
 def test_without_noise_the_computed_force_is_the_measured_one(pressures, force):
     time, pressure, acting = pressures
-    found = identify_hysteresis(time, pressure, force, acting, transition_time=0.0)
-    assert found.largest_error < 0.005
-    assert found.rms_error <= found.largest_error
+    result = identify_hysteresis(time, pressure, force, acting, transition_time=0.0)
+    assert result.largest_error < 0.005
+    assert result.rms_error <= result.largest_error
 
 
 def test_points_inside_the_loop_do_not_bias_the_lines(pressures, force):
@@ -46,7 +46,7 @@ def test_points_inside_the_loop_do_not_bias_the_lines(pressures, force):
     extra = np.arange(1, 40_001) * 0.0005
     ripple = pressure[-1] - 0.1e5 * (1.0 - np.cos(2.0 * np.pi * extra))
     stuck = np.full(len(extra), force[-1])
-    found = identify_hysteresis(
+    result = identify_hysteresis(
         np.concatenate([time, time[-1] + extra]),
         np.concatenate([pressure, ripple]),
         np.concatenate([force, stuck]),
@@ -54,21 +54,21 @@ def test_points_inside_the_loop_do_not_bias_the_lines(pressures, force):
         transition_time=0.0,
     )
     for phase in PHASES:
-        assert found.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
+        assert result.lines[phase].slope == pytest.approx(LINES[phase].slope, rel=0.02)
 
 
 def test_a_record_without_wsp_gives_the_bc_lines_alone(pressures, force):
     time, pressure, _ = pressures
     n = 44_000
-    found = identify_hysteresis(time[:n], pressure[:n], force[:n], np.zeros(n, bool))
-    assert set(found.lines) == {"bc_squeezing", "bc_releasing"}
-    assert set(found.loop_widths) == {"bc"}
+    result = identify_hysteresis(time[:n], pressure[:n], force[:n], np.zeros(n, bool))
+    assert set(result.lines) == {"bc_squeezing", "bc_releasing"}
+    assert set(result.loop_widths) == {"bc"}
 
 
 def test_the_line_without_hysteresis_lies_midway(pressures, force):
-    found = identify_hysteresis(*pressures[:2], force, pressures[2])
-    squeezing, releasing = found.lines["bc_squeezing"], found.lines["bc_releasing"]
-    assert found.linear.slope == pytest.approx(0.5 * (squeezing.slope + releasing.slope))
+    result = identify_hysteresis(*pressures[:2], force, pressures[2])
+    squeezing, releasing = result.lines["bc_squeezing"], result.lines["bc_releasing"]
+    assert result.linear.slope == pytest.approx(0.5 * (squeezing.slope + releasing.slope))
 
 
 @pytest.mark.parametrize(

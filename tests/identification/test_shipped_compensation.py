@@ -36,15 +36,17 @@ def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     steps = commands()
     assert len(steps) == 4
     assert [execute(arguments) for arguments in steps] == [0, 0, 0, 0]
-    found, shipped = load_compensation("six-inch.yaml"), load_compensation("six-inch")
+    identified, shipped = load_compensation("six-inch.yaml"), load_compensation("six-inch")
     for phase in PHASES:
-        line, other = getattr(found.hysteresis, phase), getattr(shipped.hysteresis, phase)
+        line, other = getattr(identified.hysteresis, phase), getattr(shipped.hysteresis, phase)
         assert line.slope == pytest.approx(other.slope, rel=1e-3)
         assert line.intercept == pytest.approx(other.intercept, rel=1e-2)
-    assert np.abs(response(found) - response(shipped)).max() < 0.01
-    assert found.provenance.keys() == shipped.provenance.keys()
+    assert np.abs(response(identified) - response(shipped)).max() < 0.01
+    assert identified.provenance.keys() == shipped.provenance.keys()
     for topic in ("hysteresis", "cylinder"):
-        assert found.provenance[f"{topic} samples sha256"] == shipped.provenance[f"{topic} samples sha256"]
+        assert (
+            identified.provenance[f"{topic} samples sha256"] == shipped.provenance[f"{topic} samples sha256"]
+        )
 
 
 def test_its_numbers_are_marked_identified_from_the_simulated_caliper() -> None:

@@ -60,9 +60,9 @@ def test_two_scenarios_of_one_name_are_refused(write: Write, head: str) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         load([Path("a.yaml"), Path("b.yaml")])
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.column, found.key) == ("b.yaml", 2, 7, "name")
-    assert "'a.yaml'" in found.message
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.file, diagnostic.line, diagnostic.column, diagnostic.key) == ("b.yaml", 2, 7, "name")
+    assert "'a.yaml'" in diagnostic.message
 
 
 def test_an_empty_folder_holds_no_case(tmp_path: Path) -> None:

@@ -64,10 +64,10 @@ def test_the_digest_is_that_of_the_bytes(loaded: Loaded, head: str) -> None:
 
 
 def test_an_id_too_long_for_a_file_name_is_refused(refused: Refused, head: str) -> None:
-    (found,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
+    (diagnostic,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
 
-    assert (found.line, found.column) == (4, 18)
-    assert "longer than 200 characters" in found.message
+    assert (diagnostic.line, diagnostic.column) == (4, 18)
+    assert "longer than 200 characters" in diagnostic.message
 
 
 def test_a_part_is_made_once_for_all_cases(loaded: Loaded, head: str) -> None:

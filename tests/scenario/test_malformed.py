@@ -455,10 +455,10 @@ ROWS = SHAPE + HEADER + KEYS + QUANTITIES + PARTS + IMPOSSIBLE + SWEEPS
 def test_is_refused_at_its_place(row: Row, refused: Callable[..., tuple[Diagnostic, ...]]) -> None:
     _, content, line, column, key, message, hint = row
 
-    found = refused(content)
+    diagnostics = refused(content)
 
-    matching = [each for each in found if (each.line, each.column, each.key) == (line, column, key)]
-    assert matching, "\n".join(map(str, found))
+    matching = [each for each in diagnostics if (each.line, each.column, each.key) == (line, column, key)]
+    assert matching, "\n".join(map(str, diagnostics))
     assert any(message in each.message and hint in each.hint for each in matching), str(matching[0])
 
 
@@ -483,17 +483,17 @@ def test_an_alias_bomb_is_refused_without_being_expanded(
         f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12)
     )
 
-    found = refused(bomb)
+    diagnostics = refused(bomb)
 
-    assert (found[0].line, found[0].column) == (1, 5)
-    assert "anchor '&a0' is not accepted" in found[0].message
-    assert len(found) <= 20
+    assert (diagnostics[0].line, diagnostics[0].column) == (1, 5)
+    assert "anchor '&a0' is not accepted" in diagnostics[0].message
+    assert len(diagnostics) <= 20
 
 
 def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(
     refused: Callable[..., tuple[Diagnostic, ...]],
 ) -> None:
-    found = refused(
+    diagnostics = refused(
         "schema: uictest/scenario/1\n"
         "name: Stop\n"
         "initial_speed: 120\n"
@@ -505,7 +505,7 @@ def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(
         "matrix: {seed: []}\n"
     )
 
-    assert [(each.line, each.key) for each in found] == [
+    assert [(each.line, each.key) for each in diagnostics] == [
         (2, "name"),
         (3, "initial_speed"),
         (4, "brke"),
@@ -520,7 +520,7 @@ def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(
 def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(
     refused: Callable[..., tuple[Diagnostic, ...]],
 ) -> None:
-    found = refused(
+    diagnostics = refused(
         HEAD + "brakes: {}\n"
         "matrix:\n"
         "  rail.friction: 0.09\n"
@@ -533,7 +533,7 @@ def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(
         "exclude: [{sed: 1}]\n"
     )
 
-    assert [(each.line, each.key) for each in found] == [
+    assert [(each.line, each.key) for each in diagnostics] == [
         (4, "brakes"),
         (6, "matrix.rail.friction"),
         (7, "brake.comand"),
@@ -554,17 +554,17 @@ def test_too_many_cases_do_not_hide_wrong_values(refused: Callable[..., tuple[Di
         )
     )
 
-    found = refused(HEAD + "matrix:\n" + axes)
+    diagnostics = refused(HEAD + "matrix:\n" + axes)
 
-    assert [(each.line, each.key) for each in found] == [(4, ""), (6, "rail.friction")]
+    assert [(each.line, each.key) for each in diagnostics] == [(4, ""), (6, "rail.friction")]
 
 
 def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(
     refused: Callable[..., tuple[Diagnostic, ...]],
 ) -> None:
-    found = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
+    diagnostics = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
 
-    assert [(each.line, each.column) for each in found] == [(4, 26), (4, 29)]
+    assert [(each.line, each.column) for each in diagnostics] == [(4, 26), (4, 29)]
 
 
 def test_a_missing_file_is_told_without_a_line_of_it(tmp_path: Path) -> None:

@@ -86,9 +86,9 @@ def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(
 
 
 def test_the_errors_of_all_references_are_told(refused: Refused, head: str) -> None:
-    found = refused(head + "vehicle: a\ncontroller: b\ncriteria: [c, d]\n")
+    diagnostics = refused(head + "vehicle: a\ncontroller: b\ncriteria: [c, d]\n")
 
-    assert [each.key for each in found] == ["vehicle", "controller", "criteria.0", "criteria.1"]
+    assert [each.key for each in diagnostics] == ["vehicle", "controller", "criteria.0", "criteria.1"]
 
 
 def test_an_error_in_a_part_file_points_into_it(write: Callable[[str, str], Path], head: str) -> None:
@@ -97,8 +97,9 @@ def test_an_error_in_a_part_file_points_into_it(write: Callable[[str, str], Path
     with pytest.raises(ScenarioErrors) as caught:
         load([write("stop.yaml", head + "vehicle: car.yaml\n")])
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.column, found.key) == ("car.yaml", 3, 14, "body.mass")
+    (diagnostic,) = caught.value.diagnostics
+    place = (diagnostic.file, diagnostic.line, diagnostic.column)
+    assert (*place, diagnostic.key) == ("car.yaml", 3, 14, "body.mass")
 
 
 def test_a_part_of_another_kind_is_refused(write: Callable[[str, str], Path], head: str) -> None:

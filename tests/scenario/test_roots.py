@@ -32,9 +32,9 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def refused(read: Callable[[], object]) -> Diagnostic:
     with pytest.raises(ScenarioErrors) as caught:
         read()
-    (found,) = caught.value.diagnostics
-    assert "secret" not in str(found).replace("secret.yaml", "")
-    return found
+    (diagnostic,) = caught.value.diagnostics
+    assert "secret" not in str(diagnostic).replace("secret.yaml", "")
+    return diagnostic
 
 
 def scenario(text: str, name: str = "sub/stop.yaml") -> Path:
@@ -53,18 +53,18 @@ REFERENCES = {
 
 @pytest.mark.parametrize("key", REFERENCES)
 def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place: Path, key: str) -> None:
-    found = refused(lambda: load([scenario(REFERENCES[key])]))
+    diagnostic = refused(lambda: load([scenario(REFERENCES[key])]))
 
-    assert (found.file, found.key) == ("sub/stop.yaml", key)
-    assert found.line > 2
-    assert found.message == f"'../../there/secret.yaml' leads out of {place / 'here'}"
-    assert f"--trust {place / 'there'}" in found.hint
+    assert (diagnostic.file, diagnostic.key) == ("sub/stop.yaml", key)
+    assert diagnostic.line > 2
+    assert diagnostic.message == f"'../../there/secret.yaml' leads out of {place / 'here'}"
+    assert f"--trust {place / 'there'}" in diagnostic.hint
 
 
 def test_what_is_not_there_outside_is_not_told_apart_from_what_is(place: Path) -> None:
-    found = refused(lambda: load([scenario("extends: ../../there/nothing.yaml\n")]))
+    diagnostic = refused(lambda: load([scenario("extends: ../../there/nothing.yaml\n")]))
 
-    assert "leads out of" in found.message
+    assert "leads out of" in diagnostic.message
 
 
 def test_links_are_followed_before_it_is_decided(place: Path) -> None:
@@ -78,9 +78,10 @@ def test_links_are_followed_before_it_is_decided(place: Path) -> None:
 def test_a_link_out_of_a_folder_given_is_not_read(place: Path) -> None:
     Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
 
-    found = refused(lambda: load([Path("sub")]))
+    diagnostic = refused(lambda: load([Path("sub")]))
 
-    assert (found.file, found.message) == ("sub/link.yaml", "a link that leads out of the folders given")
+    assert diagnostic.file == "sub/link.yaml"
+    assert diagnostic.message == "a link that leads out of the folders given"
 
 
 def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(
@@ -105,9 +106,9 @@ def test_a_file_named_on_the_command_line_opens_its_folder(place: Path) -> None:
 def test_parts_are_confined_wherever_they_come_from(place: Path) -> None:
     Path("sub/car.yaml").write_text(CAR.replace("intercity-180", "../../there/secret.yaml"))
 
-    found = refused(lambda: load([scenario(SPEED + "vehicle: car.yaml\n")]))
+    diagnostic = refused(lambda: load([scenario(SPEED + "vehicle: car.yaml\n")]))
 
-    assert (found.file, found.line, found.key) == ("sub/car.yaml", 2, "vehicle.extends")
+    assert (diagnostic.file, diagnostic.line, diagnostic.key) == ("sub/car.yaml", 2, "vehicle.extends")
 
 
 SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: {base}\ngrid: {{{axis}}}\n"
@@ -156,6 +157,6 @@ def test_other_files_are_confined_too(place: Path, name: str) -> None:
     text, read = READERS[name]
     Path("sub/file.yaml").write_text(text)
 
-    found = refused(lambda: read(Path("sub/file.yaml")))
+    diagnostic = refused(lambda: read(Path("sub/file.yaml")))
 
-    assert "leads out of" in found.message or "is an absolute path" in found.message
+    assert "leads out of" in diagnostic.message or "is an absolute path" in diagnostic.message

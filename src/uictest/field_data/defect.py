@@ -1,4 +1,4 @@
-"""What can be wrong with a record, each with a name of its own."""
+"""The defects of a record, by kind."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ Kind = Literal[
 class Defect:
     """One defect of one channel.
 
-    `spoils` says that nothing can be measured with the channel at all; a gap or a missing sample spoils only
-    what needs the samples that are not there.
+    `spoils`: the channel cannot be used at all. A gap or a missing sample affects only the measures that need
+    the missing samples.
     """
 
     kind: Kind

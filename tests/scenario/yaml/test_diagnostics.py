@@ -12,9 +12,9 @@ def place(text: str, line: int, column: int, display: str = "a.yaml") -> Place:
 
 
 def test_a_message_shows_place_line_caret_and_hint() -> None:
-    found = diagnose(place("x\nspeed: 120\n", 2, 8), "'120' has no unit", "speed", "write 120 km/h")
+    diagnostic = diagnose(place("x\nspeed: 120\n", 2, 8), "'120' has no unit", "speed", "write 120 km/h")
 
-    assert str(found) == (
+    assert str(diagnostic) == (
         "a.yaml:2:8: speed: '120' has no unit\n    2 | speed: 120\n      |        ^\n      = write 120 km/h"
     )
 
@@ -34,9 +34,9 @@ def test_a_file_name_cannot_act_on_the_terminal() -> None:
 
 
 def test_the_same_error_is_told_once() -> None:
-    found = diagnose(place("a", 1, 1), "wrong")
+    diagnostic = diagnose(place("a", 1, 1), "wrong")
 
-    assert ScenarioErrors([found, found]).diagnostics == (found,)
+    assert ScenarioErrors([diagnostic, diagnostic]).diagnostics == (diagnostic,)
 
 
 def test_reading_order_goes_down_each_file_in_turn() -> None:

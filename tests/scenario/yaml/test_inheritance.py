@@ -56,10 +56,10 @@ def test_a_new_rail_condition_does_not_keep_the_parents_friction(write: Write, m
     with pytest.raises(ScenarioErrors) as caught:
         child(write, more)
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.key) == ("set/child.yaml", 4, "rail.condition")
-    assert "rail.friction stays '0.2' (set/parent.yaml:6)" in found.message
-    assert "null takes the friction of the condition" in found.hint
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.file, diagnostic.line, diagnostic.key) == ("set/child.yaml", 4, "rail.condition")
+    assert "rail.friction stays '0.2' (set/parent.yaml:6)" in diagnostic.message
+    assert "null takes the friction of the condition" in diagnostic.hint
 
 
 def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write: Write) -> None:
@@ -90,9 +90,9 @@ def test_a_circle_is_told_at_the_reference_that_closes_it(write: Write, loop: li
     with pytest.raises(ScenarioErrors) as caught:
         load([Path("a.yaml")])
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.column) == (f"{loop[-1]}.yaml", 3, 10)
-    assert "circular 'extends': a.yaml -> " in found.message
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.file, diagnostic.line, diagnostic.column) == (f"{loop[-1]}.yaml", 3, 10)
+    assert "circular 'extends': a.yaml -> " in diagnostic.message
 
 
 def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:
@@ -101,17 +101,17 @@ def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="../base.yaml")
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.column) == ("base.yaml", 3, 16)
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("base.yaml", 3, 16)
 
 
 def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write: Write) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="parnet.yaml")
 
-    (found,) = caught.value.diagnostics
-    assert (found.line, found.column, found.key) == (3, 10, "extends")
-    assert "'parent.yaml'" in found.hint
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.line, diagnostic.column, diagnostic.key) == (3, 10, "extends")
+    assert "'parent.yaml'" in diagnostic.hint
 
 
 def test_a_parent_must_be_a_scenario(write: Write) -> None:

@@ -103,10 +103,10 @@ def test_a_malformed_option_is_refused_at_its_place(argument: str, column: int, 
     with pytest.raises(ScenarioErrors) as caught:
         parse_overrides([argument], None)
 
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.line, found.column) == ("--set", 1, column)
-    assert message in found.message
-    assert str(found).replace("\n", "").isprintable()
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("--set", 1, column)
+    assert message in diagnostic.message
+    assert str(diagnostic).replace("\n", "").isprintable()
 
 
 @pytest.mark.parametrize(
@@ -121,10 +121,10 @@ def test_a_malformed_option_is_refused_at_its_place(argument: str, column: int, 
 def test_an_unknown_key_is_told_as_an_error_of_the_option(
     argument: str, key: str, hint: str, refused: Refused, head: str
 ) -> None:
-    (found,) = refused(head, argument)
+    (diagnostic,) = refused(head, argument)
 
-    assert (found.file, found.key) == ("--set", key)
-    assert hint in found.hint
+    assert (diagnostic.file, diagnostic.key) == ("--set", key)
+    assert hint in diagnostic.hint
 
 
 @given(st.text(max_size=30))
@@ -154,18 +154,18 @@ def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
 ) -> None:
     over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
 
-    (found,) = refused(head + more, override, over_time)
+    (diagnostic,) = refused(head + more, override, over_time)
 
-    assert (found.file, found.key) == ("--set", "rail.condition")
-    assert "rail.friction stays '0.09'" in found.message or "stays '[0.09, 0.1]'" in found.message
+    assert (diagnostic.file, diagnostic.key) == ("--set", "rail.condition")
+    assert "rail.friction stays '0.09'" in diagnostic.message or "stays '[0.09, 0.1]'" in diagnostic.message
 
 
 def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(
     refused: Callable[..., tuple[Diagnostic, ...]], head: str
 ) -> None:
-    (found,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
+    (diagnostic,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
 
-    assert (found.line, found.column, found.key) == (5, 32, "rail.condition")
+    assert (diagnostic.line, diagnostic.column, diagnostic.key) == (5, 32, "rail.condition")
 
 
 @pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])

@@ -32,10 +32,10 @@ def test_a_value_with_its_source_keeps_it() -> None:
 
 
 @pytest.mark.parametrize(
-    "given", [{"value": "3 bar"}, {"value": "3 bar", "source": 1}, {"x": 1}, True, None, ()]
+    "value", [{"value": "3 bar"}, {"value": "3 bar", "source": 1}, {"x": 1}, True, None, ()]
 )
-def test_anything_else_is_refused(given: object) -> None:
-    assert message(given).startswith("expected a pressure")
+def test_anything_else_is_refused(value: object) -> None:
+    assert message(value).startswith("expected a pressure")
 
 
 def test_a_quantity_of_another_kind_is_refused() -> None:

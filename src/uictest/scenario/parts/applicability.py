@@ -56,6 +56,6 @@ class Applicability(Model):
     topology: tuple[Literal["one-caliper", "four-caliper"], ...] | None = Field(
         default=None, description="Topologies of the rig."
     )
-    initial_speed: NominalSpeed | None = Field(default=None, description="Initial speed, as measured.")
+    initial_speed: NominalSpeed | None = Field(default=None, description="Initial speed, uncorrected.")
     command: NominalShare | None = Field(default=None, description="Share of the full service command.")
     gradient: NominalGradient | None = Field(default=None, description="Gradient of the track.")
