@@ -209,6 +209,15 @@ QUANTITIES: list[Row] = [
     ),
     ("command over full", HEAD + "brake: {command: 101 %}\n", 4, 18, "brake.command", "100 %", ""),
     ("friction with unit", HEAD + "rail: {friction: 9 %}\n", 4, 18, "rail.friction", "bare number", "0.09"),
+    (
+        "friction in bar",
+        HEAD + "rail: {friction: 9 bar}\n",
+        4,
+        18,
+        "rail.friction",
+        "bare number",
+        "such as 0.1",
+    ),
     ("friction above one", HEAD + "rail: {friction: 1.2}\n", 4, 18, "rail.friction", "at most 1", "0.001"),
     ("gradient too steep", HEAD + "rail: {gradient: 9 %}\n", 4, 18, "rail.gradient", "60 permille", ""),
 ]

@@ -97,10 +97,9 @@ def _canonical(number: Fraction, symbol: str, kind: Kind, text: str, accepts: Ac
     if kind.bare:
         if symbol:
             ratio = KINDS["share"].units.get(symbol)
-            bare = number if ratio is None else number * ratio.factor
-            raise QuantityError(
-                f"{quoted(text)} has a unit where a bare number belongs", f"write {_as_float(bare):.10g}"
-            )
+            bare = _as_float(number if ratio is None else number * ratio.factor)
+            hint = f"write {bare:.10g}" if accepts(bare) else f"write {example(kind)}"
+            raise QuantityError(f"{quoted(text)} has a unit where a bare number belongs", hint)
         return _as_float(number)
     if not symbol:
         raise QuantityError(
