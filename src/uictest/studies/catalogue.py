@@ -1,4 +1,4 @@
-"""Find the studies: every module of the folder `experiments` has one as `STUDY`."""
+"""Find the studies: every module of the folder `experiments` defines one, named `STUDY`."""
 
 from __future__ import annotations
 

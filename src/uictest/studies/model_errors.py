@@ -1,4 +1,4 @@
-"""How well each setting of the compensation stands in for a caliper under the same valve commands."""
+"""Errors of each setting of the compensation against a caliper under the same valve commands."""
 
 from __future__ import annotations
 

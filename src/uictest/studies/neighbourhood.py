@@ -15,7 +15,7 @@ FOUR_CALIPER = "four-caliper"
 SEEDS = range(10)
 _FRICTION_STEPS = (-0.005, 0.0, 0.005)
 _COMMANDS = ("95 %", "97.5 %", "100 %")
-"""Commands next to the full one all lie below it."""
+"""The full command is the highest, so its neighbours are all below it."""
 WITHOUT_CALIPER = (2, 3, 4)
 """Modules that are tanks on the rig with one caliper."""
 
@@ -39,7 +39,7 @@ class Point:
 
 
 def neighbourhood(stop_runner: StopRunner) -> list[Point]:
-    """Return the nine points, friction slowest; what another study has run is not run again."""
+    """Return the nine points, friction slowest; stops that another study has run are not run again."""
     changes = (_frictions(stop_runner), f"brake.command={','.join(_COMMANDS)}")
     one = stop_runner.cases("slide-80", *changes, f"rig.compensation={','.join(SETTINGS)}")
     four = stop_runner.cases("slide-80-four-caliper", *changes)

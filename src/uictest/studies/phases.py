@@ -18,7 +18,7 @@ TITLES = {
 
 
 def lines_of(recording: Recording) -> identification.HysteresisResult:
-    """Return the lines that the force of the caliper follows, as `uictest identify hysteresis` finds them."""
+    """Return the lines of the caliper's force, identified as by `uictest identify hysteresis`."""
     return identification.identify_hysteresis(
         recording["time"],
         recording["measured_pressure_1"],

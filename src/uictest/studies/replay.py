@@ -1,4 +1,4 @@
-"""The valve commands of a stop, given on the bench to a module with a caliper and to one without."""
+"""Replay the valve commands of a stop on the bench: to a module with a caliper, and to one without."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from uictest import recording, scenario
 from uictest.rig import bench
 
 CYCLE = 0.01
-"""Time between two samples of a stop that is to be replayed, s: that of a controller cycle."""
+"""Time between two samples of a stop to be replayed, s: one controller cycle."""
 _RELEASE = 4.0
-"""Time given to the brake to release, s."""
+"""Time for the brake to release, s."""
 
 
 def replayed(
@@ -33,13 +33,13 @@ def replayed(
 
 
 def _releasing(case: scenario.Case, pressure: float, clock: bench.Clock) -> bench.BenchInput:
-    """Stand until the WSP no longer counts as acting, then release."""
+    """Return pressures that hold until the WSP no longer counts as acting, then release."""
     stand = float(case.scenario.rig.compensation_model.hysteresis.wsp_acting_time) + CYCLE
     times = (0.0, stand, stand + clock.step, stand + _RELEASE)
     return bench.bypassed(times, (pressure, pressure, 0.0, 0.0), clock)
 
 
 def maximum_pressure(case: scenario.Case) -> float:
-    """Pressure of a full service application in the brake position of a case, gauge, Pa."""
+    """Return the gauge pressure of a full service application in the brake position of a case, Pa."""
     brake = case.scenario.brake
     return float(brake.system.positions[brake.position].maximum_pressure)

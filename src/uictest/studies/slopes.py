@@ -1,4 +1,4 @@
-"""How far the slopes of force against pressure move from one stop to another."""
+"""Spread of the slopes of force against pressure among stops."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NAN = float("nan")
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """One stop: what was varied, as written, the caliper under its commands, and the lines found there."""
+    """One stop: the varied value as written, the recording of its replay, and the identified lines."""
 
     level: str
     recording: Recording
@@ -37,7 +37,7 @@ def _loop(case: scenario.Case, stop: Recording) -> Loop:
 
 
 def slope_spread(stop_loops: Sequence[Loop]) -> float:
-    """Return the largest range of a phase's slope among the stops that hold it, a share of its mean."""
+    """Return the largest range of a phase's slope among the stops, as a share of its mean."""
     spreads = []
     for phase in TITLES:
         slopes = [loop.lines.lines[phase].slope for loop in stop_loops if phase in loop.lines.lines]

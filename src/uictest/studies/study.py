@@ -91,6 +91,6 @@ def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
 
 
 def column(samples: NDArray[Any], unit: float, digits: int) -> list[float]:
-    """Return samples, SI, in a unit of that size, rounded for the column of a table."""
+    """Return samples, SI, in a unit of this size, rounded for a column of a table."""
     rounded: list[float] = np.round(samples / unit, digits).tolist()
     return rounded

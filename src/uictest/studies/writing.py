@@ -1,4 +1,4 @@
-"""What a study leaves in a folder: its data as CSV, its figures as SVG and PNG."""
+"""Write a study into a folder: its data as CSV, its figures as SVG and PNG."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def write_figures(folder: Path, result: StudyResult) -> list[Path]:
 
 
 def table_text(table: Table) -> str:
-    """Return a table as CSV: comma, line feed, header first; what is not known stays empty."""
+    """Return a table as CSV: comma, line feed, header first; None and NaN stay empty."""
     buffer = io.StringIO(newline="")
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(table)

@@ -49,8 +49,8 @@ def report(
 def _write_run(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
     if holds_sweep(folder):
         raise InvalidInputError(
-            f"uictest: {folder} holds a sweep that is not finished: give its command again, "
-            "or put its shares together with --merge"
+            f"uictest: {folder} holds a sweep that is not finished: run its command again, "
+            "or merge its shards with --merge"
         )
     if reason := why_no_run(folder):
         raise InvalidInputError(f"uictest: {reason}; report takes the folder of a finished run or sweep")

@@ -1,1 +1,1 @@
-"""The studies: each module is one and has it as `STUDY`."""
+"""The studies: each module defines one, named `STUDY`."""

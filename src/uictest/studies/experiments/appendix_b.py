@@ -57,7 +57,7 @@ QUANTITIES = (
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Judge both stops by the shipped profile of Appendix B."""
+    """Judge both stops with the shipped profile of Appendix B."""
     (dry,) = stop_runner.cases("dry-120")
     (slip,) = stop_runner.cases("slip-120")
     distance = _values(stop_runner, dry, "braking-distance", [0])[0]
@@ -84,7 +84,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 def _values(
     stop_runner: StopRunner, case: scenario.Case, criterion: str, seeds: range | list[int]
 ) -> list[float]:
-    """Return what a criterion found under every seed, in its own unit; NaN where it does not apply."""
+    """Return the value of a criterion for every seed, in its own unit; NaN where it does not apply."""
     (repeats,) = stop_runner.repeated([case], seeds)
     values = []
     for seed, stop in zip(seeds, repeats.stops, strict=True):

@@ -14,7 +14,7 @@ from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON
 
 TESTS = ("stepwise", "triangular", "random")
-"""Bench recipes of the library: the kinds of pressure are the paper's, levels, rates and times are ours."""
+"""Bench recipes of the library. The kinds of pressure are the paper's; levels, rates and times are ours."""
 _EVERY = 20
 """Steps between two samples in the table."""
 
@@ -36,7 +36,7 @@ QUANTITIES = (
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Apply the three pressures to the caliper and find its loop in each."""
+    """Apply the three pressures to the caliper and identify its hysteresis loop in each."""
     recipes = [bench.load_bench(bench.recipe_path(name)) for name in TESTS]
     tests = dict(zip(TESTS, stop_runner.map(bench.run_test, recipes), strict=True))
     lines_by_test = {name: lines_of(recording) for name, recording in tests.items()}

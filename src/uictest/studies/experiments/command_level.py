@@ -27,7 +27,7 @@ QUANTITIES = (
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Find the slopes at every command level."""
+    """Identify the slopes at every command level."""
     stop_loops = loops(stop_runner, stop_runner.cases("wet-80-command"))
     forces = [StudyValue(loop.lines.largest_force / KILONEWTON) for loop in stop_loops]
     return StudyFindings(

@@ -18,7 +18,7 @@ SEEDS = range(5)
 _EVERY = 20
 
 AFTER = 2.0
-"""The paper's bound on the error behind the cylinder dynamics, % of maximum pressure."""
+"""The paper's bound on the error after the cylinder dynamics, % of maximum pressure."""
 
 QUANTITIES = (
     StudyQuantity(
@@ -74,7 +74,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def largest_errors(recording: Recording, top: float) -> tuple[float, float]:
-    """Return how far tank 2 gets from cylinder 1, without and with the filter, shares of `top` Pa."""
+    """Return the largest differences of tank 2 from cylinder 1, unfiltered and filtered, over `top` Pa."""
     cylinder = recording["tank_pressure_1"]
     before = np.abs(recording["tank_pressure_2"] - cylinder).max() / top
     after = np.abs(recording["cylinder_pressure_2"] - cylinder).max() / top

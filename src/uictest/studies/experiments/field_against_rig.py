@@ -1,4 +1,4 @@
-"""The real train's stop as the only data: friction profiles that agree with it, the rig's stop beside it."""
+"""Find friction profiles with which the rig's stop agrees with four values of the real train's stop."""
 
 from __future__ import annotations
 
@@ -36,15 +36,15 @@ TOLERANCES = {
     "minimum_deceleration": 0.1,
     "maximum_deceleration": 0.1,
 }
-"""Ours: 2 % of time and distance, and what the unknown filter behind the decelerations may do."""
+"""Chosen: 2 % of time and distance, and the possible effect of the unknown filter of the decelerations."""
 
 LEVELS = (0.11, 0.12, 0.13, 0.14, 0.15, 0.16, 0.17, 0.18)
 DRY = 0.30
-"""Nothing slides on it, however strong the pads here are: more friction would change nothing."""
+"""No wheelset slides at this friction, whatever the pads: more friction changes nothing."""
 BREAKS = (110.0, 140.0, 170.0)
-"""Places, m, where friction may change; a stop takes about 200 m."""
+"""Positions, m, at which the friction may change; a stop takes about 200 m."""
 PAD_FACTORS = (1.0, 1.1, 1.2)
-"""On the friction of the rig's pads: the paper does not say how strong the real train's brake was."""
+"""Factors on the pad friction of the rig: the paper does not give the brake force of the real train."""
 
 _CAVEAT = (
     "Four figures do not determine a profile: friction, its place and the strength of the brake stand in for"
@@ -65,7 +65,7 @@ QUANTITIES = (
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """Friction before and after a place on the track (m; None: constant), and the pads' strength."""
+    """Friction before and after a position (m; None: constant friction), and the factor on the pads."""
 
     before: float
     after: float
@@ -73,7 +73,7 @@ class Profile:
     pad_factor: float
 
     def __str__(self) -> str:
-        """Return the profile for a reader."""
+        """Return the profile in words."""
         pads = f", pads x {self.pad_factor:g}"
         if self.place is None:
             return f"{self.before:g} everywhere{pads}"
@@ -81,7 +81,7 @@ class Profile:
 
 
 def profiles() -> Iterator[Profile]:
-    """Yield constant friction, dry before slippery track and after it, with all strengths of the pads."""
+    """Yield constant friction, and dry track before or after slippery track, with each factor on the pads."""
     for factor in PAD_FACTORS:
         yield from (Profile(level, level, None, factor) for level in (*LEVELS, DRY))
         for level, place in itertools.product(LEVELS, BREAKS):
@@ -90,7 +90,7 @@ def profiles() -> Iterator[Profile]:
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Stop on every profile, and keep those that agree with the real train."""
+    """Simulate a stop on every profile, and select those that agree with the real train."""
     base = stop_runner.cases("slide-80")[0]
     tried = list(profiles())
     stops = stop_runner.map(_stop, [_on(base, profile) for profile in tried])
@@ -118,7 +118,10 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def _what_time_and_distance_tell() -> str:
-    """Say after which delay an even deceleration gives T = v / a + delay and D = v (T + delay) / 2."""
+    """Return the note on the delay for which a constant deceleration gives the paper's time and distance.
+
+    T = v / a + delay and D = v (T + delay) / 2.
+    """
     delay = 2.0 * REAL_TRAIN["braking_distance"] / _INITIAL_SPEED - REAL_TRAIN["braking_time"]
     return (
         f"After a delay of {delay:.2f} s an even deceleration would take the paper's time and distance: less"
@@ -127,7 +130,7 @@ def _what_time_and_distance_tell() -> str:
 
 
 def misfit(stop: rig.SimulatedStop) -> dict[str, float]:
-    """Return how far each figure of a stop is from the real train's, in tolerances."""
+    """Return the difference of each measure of a stop from the real train's, in tolerances."""
     measures = {name: float(stop.measures[name]) for name in REAL_TRAIN}
     off = {name: abs(measures[name] - REAL_TRAIN[name]) / TOLERANCES[name] for name in REAL_TRAIN}
     return {name: value if np.isfinite(value) else float("inf") for name, value in off.items()}

@@ -49,7 +49,7 @@ CHANNELS = {"module_1": "computed_force_1"} | {
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Replay the commands of module 1 in the slide test and compute its force in every way."""
+    """Replay the commands of module 1 in the slide test, and compute its force with each setting."""
     case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
     stops = stop_runner.recordings(cases, CYCLE)
@@ -69,7 +69,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def largest_error(recording: Recording, channel: str) -> float:
-    """Return the largest difference of a force from that of the loadcells, a share of their largest."""
+    """Return the largest difference of a force from that of the loadcells, over their largest."""
     measured = recording["clamping_force_1"]
     return float(np.abs(recording[channel] - measured).max() / measured.max())
 

@@ -30,7 +30,7 @@ QUANTITIES = tuple(
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Find the four lines in module 1 of a slide test, the brake released after the standstill."""
+    """Identify the four lines in module 1 of a slide test; the brake is released after standstill."""
     case = stop_runner.cases("slide-80")[0]
     stop = stop_runner.recordings([case], CYCLE)[0]
     recording = replayed(case, stop, 1, release=True)

@@ -29,7 +29,7 @@ QUANTITIES = (
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Find the slopes at every friction coefficient, and how far the train runs."""
+    """Identify the slopes at every friction coefficient, and the braking distances."""
     cases = stop_runner.cases("wet-80-friction")
     stop_loops = loops(stop_runner, cases)
     stops = stop_runner.repeated(cases, [0])

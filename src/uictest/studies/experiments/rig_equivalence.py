@@ -17,7 +17,7 @@ from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT, in_unit, normal_volume
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
-"""The settings of the rig with one caliper, and the rig with four against itself: what chance alone does."""
+"""The settings of the rig with one caliper, and the rig with four, whose spread is that of chance."""
 TRAIN = 0
 """Number of the wheelset for a measure of the train."""
 
@@ -48,7 +48,7 @@ ERRORS = (
 
 @dataclass(frozen=True, slots=True)
 class RigDifference:
-    """What repeats of one rig show at one point, less the median of the rig with four calipers."""
+    """The values of repeats on one rig at one point, less the median on the rig with four calipers."""
 
     rig: str
     friction: str

@@ -1,4 +1,4 @@
-"""Whether the ordering of the valve actuations holds next to the calibrated slide test."""
+"""Check the order of the valve actuations at points around the calibrated slide test."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from uictest.studies.study import Study, StudyFindings, Table
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 _APART = 1.3
-"""From this ratio to the actuations with a caliper on, those without compensation are clearly apart."""
+"""Ratio to the actuations with a caliper above which those without compensation are clearly different."""
 
 QUANTITIES = (
     StudyQuantity(

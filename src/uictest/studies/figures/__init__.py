@@ -1,1 +1,1 @@
-"""Figures of the studies. They draw into a figure that is given; only writing one needs matplotlib."""
+"""Figures of the studies. The functions draw into a figure; only writing one imports matplotlib."""

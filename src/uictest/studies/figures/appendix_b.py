@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 _LOW_SPEED = 30.0 * KILOMETRE_PER_HOUR
-"""The slides of a train slower than this are not drawn: near standstill a slide says nothing."""
+"""Slides below this train speed are not drawn: near standstill a slide has no meaning."""
 
 
 def draw(

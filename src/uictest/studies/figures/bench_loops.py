@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def draw(tests: Mapping[str, Recording], hysteresis: identification.HysteresisResult, figure: Figure) -> None:
-    """Draw the bench tests; the lines found under triangular pressure are laid over its loop."""
+    """Draw the bench tests, and the identified lines over the loop of triangular pressure."""
     figure.set_size_inches(WIDTH, 4.3)
     axes = figure.subplots(
         2, len(tests), squeeze=False, height_ratios=(1.0, 2.4), sharey="row", sharex="none"

@@ -1,4 +1,4 @@
-"""Pressures under the same valve commands, and how far they are from that of the cylinder."""
+"""Pressures under the same valve commands, and their differences from that of the cylinder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Computed beside measured force, and their difference."""
+"""Computed and measured force, and their difference."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Force over pressure in a stop with sliding: samples by phase, and the lines found in them."""
+"""Force over pressure in a stop with sliding: samples by phase, and the lines identified from them."""
 
 from __future__ import annotations
 

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 _EVERY = 10
 _WIDTHS = {"bc": 2.6, "ws": 1.0}
-"""The lines of the WSP lie over those of the BC, which stay visible beneath."""
+"""Line widths: the lines of the WSP are drawn over the wider ones of the BC."""
 
 
 def draw(stop_loops: Sequence[Loop], title: str, figure: Figure) -> None:
-    """Draw one panel per stop; `title` takes the level in place of its braces."""
+    """Draw one panel per stop; the level replaces the braces in `title`."""
     figure.set_size_inches(WIDTH, 3.1)
     panels = figure.subplots(1, len(stop_loops), sharex=True, sharey=True)
     for axes, loop in zip(panels, stop_loops, strict=True):

@@ -29,7 +29,7 @@ Pressure and force:
 largest error of a stop"""
 _ROW = 0.16
 _MOST = (0.1, 0.9)
-"""Quantiles between which the bar is thick; it is thin from the least to the greatest."""
+"""Quantiles between which the bar is thick; it is thin from the minimum to the maximum."""
 _NOTE: Any = {"ha": "center", "color": MUTED, "fontsize": 7.0}
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def draw(recording: Recording, real_train: float, figure: Figure) -> None:
-    """Draw one stop, and a mark where the real train (braking time in s) stood."""
+    """Draw one stop, and a mark at the braking time of the real train, s."""
     figure.set_size_inches(WIDTH, 4.6)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.5, 1.0))
     time = recording["time"]

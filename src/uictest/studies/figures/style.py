@@ -1,4 +1,4 @@
-"""How every figure looks: sizes for a printed page, one palette, a colour for each part throughout."""
+"""Style of the figures: sizes for a printed page, one palette, one colour for each part in all figures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ INK = "#22303c"
 MUTED = "#7b8894"
 BAND = "#e4eef5"
 BLUE, ORANGE, GREEN, PINK, SKY = "#0b6fb3", "#d4580a", "#0a8f6c", "#b8518f", "#6fb1dd"
-"""After Okabe and Ito, darkened for print: told apart by readers who see few colours."""
+"""After Okabe and Ito, darkened for print: distinguishable with colour vision deficiency."""
 
 MEASURED = INK
 WHEELSETS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
@@ -63,7 +63,7 @@ RC: Any = {
 
 
 def from_zero(axes: Axes, *, across: bool = True, up: bool = True) -> None:
-    """Let axes begin at zero."""
+    """Start the axes at zero."""
     if across:
         axes.set_xlim(left=0.0)
     if up:
@@ -71,7 +71,7 @@ def from_zero(axes: Axes, *, across: bool = True, up: bool = True) -> None:
 
 
 def title_and_legend(axes: Axes, title: str, columns: int) -> None:
-    """Put the title above the axes and the legend, in one row, between the two: it covers nothing."""
+    """Put the title above the axes, and the legend in one row between title and axes."""
     axes.set_title(title, pad=17.0)
     axes.legend(
         loc="lower left",

@@ -1,4 +1,4 @@
-"""Pressure of a module over time with its vents, a panel for each way of getting the clamping force."""
+"""Pressure of a module over time with its vents, a panel for each origin of the clamping force."""
 
 from __future__ import annotations
 

@@ -191,7 +191,7 @@ def _fill(
 
 
 def _stacked(laws: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return friction laws as one array; a law ends where its record says, whatever follows."""
+    """Return friction laws as one array; the record of a law has its length."""
     stacked = np.zeros((len(laws), 4, max(law.shape[1] for law in laws)))
     for place, law in enumerate(laws):
         stacked[place, :, : law.shape[1]] = law

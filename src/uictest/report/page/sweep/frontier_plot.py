@@ -16,7 +16,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
 _SIDES = ((_LEFT, _RIGHT), (_BOTTOM, _TOP))
 _MOST_SERIES = 6
 Point = tuple[float, float, str]
-"""Where a flip is drawn, and what it says."""
+"""Position of a flip, and its tooltip."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class _Flip:
-    """A flip on both axes, the series that it belongs to, its direction, and what it says."""
+    """A flip on both axes, the series that it belongs to, its direction, and its tooltip."""
 
     at: float
     middle: float
