@@ -26,7 +26,7 @@ def test_the_last_pattern_that_fits_counts(texts: list[str], quantity: str, expe
 
 @pytest.mark.parametrize("text", ["", "x", "-1", "1 m", "a=", "a=b", "nan", "inf", "1..2", "=1", "1e999"])
 def test_what_is_no_tolerance_is_named(text: str) -> None:
-    with pytest.raises(ValueError, match="is no tolerance"):
+    with pytest.raises(ValueError, match="is not a tolerance"):
         Tolerances.read([text])
 
 

@@ -71,8 +71,8 @@ for _name, _group in (("identify", identify), ("library", library)):
     app.add_typer(_group, name=_name, short_help=_group.info.help)
 
 
-def _show_version(wanted: bool) -> None:
-    if wanted:
+def _show_version(requested: bool) -> None:
+    if requested:
         data(f"uictest {__version__}")
         raise typer.Exit
 

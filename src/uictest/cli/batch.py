@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
 
-from uictest import campaign, comparison, report, rig, scenario
+from uictest import campaign, comparison, recording, report, rig, scenario
 from uictest.cli.display import Display
 from uictest.cli.drawing import Drawing
 from uictest.cli.output import message
@@ -17,7 +17,7 @@ from uictest.cli.progress import announce_compilation, progress
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """What is to be run, how, and where its reports go."""
+    """Cases to run, how to run them, and where their reports go."""
 
     cases: Sequence[scenario.Case]
     parts: campaign.PartsOfCases
@@ -31,7 +31,7 @@ class Batch:
     quiet: bool
     verbose: bool
     baseline: comparison.Baseline | None = None
-    """What to compare with; None where nothing is."""
+    """What to compare with, if anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,13 +46,13 @@ class Published:
 def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Published | None]:
     """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
 
-    Returns what came of it and its reports, None where there is nothing to report. Raises
-    OSError where the reports cannot be written; nothing is left behind then.
+    Returns the results, and the published run; None where there is nothing to report. Raises OSError where
+    the reports cannot be written, and removes what was written.
     """
     started = perf_counter()
     # The folder comes first: one that cannot be written should not cost a simulation.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
-        drawing = Drawing(batch.cases, batch.recording, wanted=report.draws_stops(batch.formats))
+        drawing = Drawing(batch.cases, batch.recording, needed=report.draws_stops(batch.formats))
         done = _simulate(batch, folder.path, display, drawing)
         if not done.results:
             message("uictest: interrupted before the first case was finished; there is nothing to report")
@@ -97,13 +97,13 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
     announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 
-        def take(examined: campaign.CaseRun) -> None:
-            drawing.take(examined)
-            if examined.recording is not None and batch.recording.wants(examined.result):
-                report.write_recording(folder, examined.result.id, examined.recording)
-            display.case(examined.result, _differences(batch, examined))
-            if batch.verbose and examined.traceback:
-                message(examined.traceback.rstrip())
+        def publish(case_run: campaign.CaseRun) -> None:
+            drawing.add(case_run)
+            if case_run.recording is not None and batch.recording.wants(case_run.result):
+                report.write_recording(folder, case_run.result.id, case_run.recording)
+            display.case(case_run.result, _differences(batch, case_run))
+            if batch.verbose and case_run.traceback:
+                message(case_run.traceback.rstrip())
             advance()
 
         return campaign.run_cases(
@@ -112,19 +112,17 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) ->
             recording=drawing.recording,
             maxfail=batch.maxfail,
             parts=batch.parts,
-            on_result=take,
+            on_result=publish,
         )
 
 
-def _differences(batch: Batch, examined: campaign.CaseRun) -> Sequence[report.Difference]:
-    return () if batch.baseline is None else batch.baseline.differences(examined.result)
+def _differences(batch: Batch, case_run: campaign.CaseRun) -> Sequence[report.Difference]:
+    return () if batch.baseline is None else batch.baseline.differences(case_run.result)
 
 
 def _write_junit(path: Path | None, content: report.RunContent) -> None:
-    from uictest.recording import write_text_atomic
-
     if path is not None:
-        write_text_atomic(path, report.junit_xml(content.results, content.baseline))
+        recording.write_text_atomic(path, report.junit_xml(content.results, content.baseline))
 
 
 def _sum_up(

@@ -1,4 +1,4 @@
-"""The stops that a page of a run draws: recorded on the way where all are drawn, else the worst once more."""
+"""The stops that the page of a run draws: recorded while they run, or the worst simulated again."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ class Drawing:
     """
 
     cases: Sequence[scenario.Case]
-    wish: campaign.RecordingRequest
-    wanted: bool
+    request: campaign.RecordingRequest
+    needed: bool
     traces: dict[str, report.Trace] = field(default_factory=dict)
 
     @property
     def recording(self) -> campaign.RecordingRequest:
         """What to record while the batch runs."""
-        return replace(self.wish, cases="all") if self._on_the_way else self.wish
+        return replace(self.request, cases="all") if self._while_running else self.request
 
-    def take(self, examined: campaign.CaseRun) -> None:
-        """Keep what is drawn of a case."""
-        if self._on_the_way and examined.recording is not None:
-            self.traces[examined.result.id] = report.trace_of(examined.recording, examined.result.criteria)
+    def add(self, case_run: campaign.CaseRun) -> None:
+        """Add what is drawn of a case."""
+        if self._while_running and case_run.recording is not None:
+            self.traces[case_run.result.id] = report.trace_of(case_run.recording, case_run.result.criteria)
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.Trace]:
         """Return what there is to draw, the worst cases of a large batch simulated again."""
-        if self.wanted and not self._on_the_way and not done.interrupted:
+        if self.needed and not self._while_running and not done.interrupted:
             ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]
             worst = {result.id: result for result in ranked[: page.DRAWN]}
             drawn_cases = campaign.by_id(self.cases, frozenset(worst))
@@ -44,10 +44,10 @@ class Drawing:
         return self.traces
 
     @property
-    def _on_the_way(self) -> bool:
-        return self.wanted and len(self.cases) <= page.DRAWN and self.wish.every <= self._interval
+    def _while_running(self) -> bool:
+        return self.needed and len(self.cases) <= page.DRAWN and self.request.every <= self._interval
 
     @property
     def _interval(self) -> float:
         """Time between two samples of what is drawn, s."""
-        return min(self.wish.every, campaign.shortest_cycle(self.cases))
+        return min(self.request.every, campaign.shortest_cycle(self.cases))

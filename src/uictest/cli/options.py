@@ -183,14 +183,14 @@ def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
         raise typer.BadParameter(str(error), param_hint="--tolerance") from error
 
 
-def junit_file(path: Path | None, made: Path) -> Path | None:
-    """Return where `--junitxml` writes. Raises typer.BadParameter for what is no place for a file.
+def junit_file(path: Path | None, output: Path) -> Path | None:
+    """Return where `--junitxml` writes. Raises typer.BadParameter where no file can be.
 
-    A folder in or above `made` may still be missing: the command makes that one itself.
+    A folder in or above `output` may be missing: the command makes it.
     """
     if path is None:
         return None
-    folder, own = path.absolute().parent, made.absolute()
+    folder, own = path.absolute().parent, output.absolute()
     expected = own.is_relative_to(folder) or folder.is_relative_to(own)
     if path.is_dir():
         raise typer.BadParameter(f"{path} is a folder", param_hint="--junitxml")

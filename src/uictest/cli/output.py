@@ -12,14 +12,14 @@ from typing import TextIO
 from uictest.report import printable
 
 _losses: list[OSError] = []
-"""Why stdout took no more, the first time that it did not."""
+"""Why stdout did not accept data."""
 
 
 def data(text: str) -> bool:
     """Write data to stdout at once, a line feed at its end.
 
-    Returns whether it was taken: who has much more to write need not go on where it was not. A reader that
-    has gone (`| head`) is no error; any other reason is one, which :func:`lost_data` keeps for the end.
+    Returns whether stdout accepted it: if not, the caller can stop. A reader that has gone (`| head`) is no
+    error; any other reason is, and :func:`lost_data` returns it at the end.
     """
     try:
         sys.stdout.write(f"{text}\n")
@@ -39,7 +39,7 @@ def terminal_width(stream: TextIO) -> int | None:
 
 
 def lost_data() -> str:
-    """Return why stdout did not take everything since the last call; nothing where it did."""
+    """Return why stdout did not accept everything since the last call; empty where it did."""
     reasons = [error.strerror or str(error) for error in _losses]
     _losses.clear()
     return f"stdout: {reasons[0]}" if reasons else ""

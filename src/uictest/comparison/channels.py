@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
+from uictest import recording
 from uictest.report import PLOT_QUANTITIES, names_of
 from uictest.scenario.yaml import nearest
 from uictest.units import SIZES
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
 
 _SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
 """Unit of a recording -> unit that every page shows it in."""
@@ -22,16 +20,14 @@ _PER_CENT: Final = frozenset(
 """Channels that every page shows in per cent."""
 
 
-def in_shown_units(recording: Recording) -> Recording:
-    """Return the recording in the units of the page: km/h, bar, kN, slides in %."""
-    from uictest.recording import Recording
-
-    units = {name: _shown_unit(name, unit) for name, unit in recording.units.items()}
+def in_shown_units(record: recording.Recording) -> recording.Recording:
+    """Return a recording in the units of the page: km/h, bar, kN, slides in %."""
+    units = {name: _shown_unit(name, unit) for name, unit in record.units.items()}
     channels = {
-        name: samples if units[name] == recording.units[name] else samples / SIZES[units[name]]
-        for name, samples in recording.channels.items()
+        name: samples if units[name] == record.units[name] else samples / SIZES[units[name]]
+        for name, samples in record.channels.items()
     }
-    return Recording(channels, units, recording.metadata)
+    return recording.Recording(channels, units, record.metadata)
 
 
 def _shown_unit(channel: str, unit: str) -> str:

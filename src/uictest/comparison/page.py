@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from uictest.comparison.difference import Comparison
 from uictest.comparison.wording import verdict_line
 from uictest.report import listed, number, value_text
 from uictest.report.page import overlay_view, render
-
-if TYPE_CHECKING:
-    from uictest.comparison.difference import Comparison
 
 
 def comparison_html(comparison: Comparison) -> str:

@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import recording
 from uictest.comparison.channels import common_channels, in_shown_units, select_channels
 from uictest.comparison.difference import Comparison
-from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.overlay import default_channels, overlay_of
-from uictest.comparison.tolerance import Tolerances
+from uictest.comparison.tolerance import Tolerances, compare_numbers
 from uictest.report import Difference, number
-
-if TYPE_CHECKING:
-    from uictest.recording import Recording
 
 Samples = NDArray[np.float64]
 
 
 def compare_recordings(
-    first: Recording,
-    second: Recording,
+    first: recording.Recording,
+    second: recording.Recording,
     names: tuple[str, str],
     tolerances: Tolerances,
     channels: Sequence[str] = (),
@@ -44,26 +40,30 @@ def compare_recordings(
 
     """
     first, second = in_shown_units(first), in_shown_units(second)
-    found = [_durations(first, second, tolerances), *_channels(first, second, tolerances)]
-    differences = [difference for difference in found if difference is not None]
+    quantities = [_durations(first, second, tolerances), *_channels(first, second, tolerances)]
+    differences = [difference for difference in quantities if difference is not None]
     common = common_channels(first.units, second.units)
     remarkable = [difference.quantity for difference in differences if not difference.within]
     drawn = select_channels(channels, common) if channels else default_channels(remarkable, common)
     overlay = overlay_of("Recordings", first, second, names, drawn)
-    return Comparison(*names, len(found), differences, overlays=[overlay])
+    return Comparison(*names, len(quantities), differences, overlays=[overlay])
 
 
-def _durations(first: Recording, second: Recording, tolerances: Tolerances) -> Difference | None:
-    ours, theirs = (float(recording["time"][-1]) for recording in (first, second))
+def _durations(
+    first: recording.Recording, second: recording.Recording, tolerances: Tolerances
+) -> Difference | None:
+    ours, theirs = (float(record["time"][-1]) for record in (first, second))
     return compare_numbers("", "duration", ours, theirs, tolerances, unit="s")
 
 
-def _channels(first: Recording, second: Recording, tolerances: Tolerances) -> Iterator[Difference | None]:
+def _channels(
+    first: recording.Recording, second: recording.Recording, tolerances: Tolerances
+) -> Iterator[Difference | None]:
     """Yield one item per channel compared: None where both sides are the same."""
     for name in dict.fromkeys([*first.channels, *second.channels]):
         if name == "time":
             continue
-        ours, theirs = (recording.units.get(name, "none") for recording in (first, second))
+        ours, theirs = (record.units.get(name, "none") for record in (first, second))
         if ours != theirs:
             remark = "different units" if "none" not in (ours, theirs) else "only one side has the channel"
             yield Difference("", name, ours, theirs, within=False, remark=remark)
@@ -72,7 +72,7 @@ def _channels(first: Recording, second: Recording, tolerances: Tolerances) -> It
 
 
 def _channel(
-    name: str, unit: str, first: Recording, second: Recording, tolerances: Tolerances
+    name: str, unit: str, first: recording.Recording, second: recording.Recording, tolerances: Tolerances
 ) -> Difference | None:
     time, ours, theirs = common_samples(name, first, second)
     apart = np.abs(theirs - ours)
@@ -96,7 +96,9 @@ def _channel(
     )
 
 
-def common_samples(name: str, first: Recording, second: Recording) -> tuple[Samples, Samples, Samples]:
+def common_samples(
+    name: str, first: recording.Recording, second: recording.Recording
+) -> tuple[Samples, Samples, Samples]:
     """Return the common times and the samples of a channel of both recordings at these."""
     time, other = first["time"], second["time"]
     common = (time >= other[0]) & (time <= other[-1])

@@ -7,9 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from uictest import evaluation, report
 from uictest.comparison.difference import Comparison
-from uictest.comparison.numbers import compare_numbers
 from uictest.comparison.parameters import parameter_changes
-from uictest.comparison.tolerance import Tolerances
+from uictest.comparison.tolerance import Tolerances, compare_numbers
 from uictest.measures import column_unit
 from uictest.report import Difference, wheelset_quantity
 

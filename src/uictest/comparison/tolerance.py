@@ -1,4 +1,4 @@
-"""How far two values may lie apart."""
+"""How far two values may lie apart, and whether two numbers do."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+
+from uictest.report import Difference
 
 _WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)\s*(?P<share>%?)")
 
@@ -46,17 +48,18 @@ class Tolerances:
     def read(cls, texts: Iterable[str]) -> Tolerances:
         """Return the tolerances that texts like `0.5 %`, `braking_*=2` and `slide_1=0.01` stand for.
 
-        A bare number is absolute, one with a per cent sign relative; both may be given for the same name. The
-        absolute part that is not given stays the default one, the relative part is none then: nobody means
-        the last digits of a figure near zero. Raises ValueError naming the text that cannot be read.
+        A bare number is absolute, one with a per cent sign relative; both may be set for the same name. An
+        absolute part that is not set has its default, so that the last digits of a figure near zero do not
+        count; a relative part that is not set is 0. Raises ValueError naming the text that cannot be read.
         """
-        given: dict[str | None, dict[str, float]] = {}
+        parts_by_name: dict[str | None, dict[str, float]] = {}
         for text in texts:
             name, part, number = _read(text)
-            given[name] = {**given.pop(name, {}), part: number}  # to the end: the last one that fits counts
-        written = {name: _tolerance(**parts) for name, parts in given.items()}
-        general = written.pop(None, DEFAULT)
-        return cls(general, tuple((name, each) for name, each in written.items() if name is not None))
+            # To the end: the last pattern that matches counts.
+            parts_by_name[name] = {**parts_by_name.pop(name, {}), part: number}
+        tolerances = {name: _tolerance(**parts) for name, parts in parts_by_name.items()}
+        general = tolerances.pop(None, DEFAULT)
+        return cls(general, tuple((name, each) for name, each in tolerances.items() if name is not None))
 
 
 def _tolerance(absolute: float = DEFAULT.absolute, relative: float = 0.0) -> Tolerance:
@@ -65,12 +68,26 @@ def _tolerance(absolute: float = DEFAULT.absolute, relative: float = 0.0) -> Tol
 
 def _read(text: str) -> tuple[str | None, str, float]:
     """Return the name, the part (absolute or relative) and the number of a tolerance."""
-    found = _WRITTEN.fullmatch(text.strip())
+    match = _WRITTEN.fullmatch(text.strip())
     try:
-        number = float(found["number"]) if found else math.nan
+        number = float(match["number"]) if match else math.nan
     except ValueError:
         number = math.nan
-    if found is None or not math.isfinite(number):
-        raise ValueError(f"{text!r} is no tolerance; write '0.5' (absolute), '1%' (relative) or NAME=...")
-    name = found["name"] and found["name"].strip()
-    return (name, "relative", number / 100) if found["share"] else (name, "absolute", number)
+    if match is None or not math.isfinite(number):
+        raise ValueError(f"{text!r} is not a tolerance; write '0.5' (absolute), '1%' (relative) or NAME=...")
+    name = match["name"] and match["name"].strip()
+    return (name, "relative", number / 100) if match["share"] else (name, "absolute", number)
+
+
+def compare_numbers(
+    case: str, quantity: str, first: float, second: float, tolerances: Tolerances, unit: str = ""
+) -> Difference | None:
+    """Return how two figures differ, None where they are the same. No number equals only no number."""
+    if first == second or (math.isnan(first) and math.isnan(second)):
+        return None
+    if not (math.isfinite(first) and math.isfinite(second)):
+        remark = "there is one on one side only"
+        return Difference(case, quantity, first, second, within=False, unit=unit, remark=remark)
+    deviation = abs(second - first)
+    allowed = tolerances.of(quantity).allowed(max(abs(first), abs(second)))
+    return Difference(case, quantity, first, second, deviation <= allowed, unit, deviation, allowed)

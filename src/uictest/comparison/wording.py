@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 from uictest import report
+from uictest.comparison.difference import Comparison
 from uictest.comparison.parameters import parameter_lines
 from uictest.report import (
     Column,
@@ -22,9 +22,6 @@ from uictest.report import (
     worst_of_wheelsets,
     wrapped_name,
 )
-
-if TYPE_CHECKING:
-    from uictest.comparison.difference import Comparison
 
 _MOST_PARAMETERS = 20
 """Changed parameters that are listed without `-v`; two vehicles differ in some 25."""

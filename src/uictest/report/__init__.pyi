@@ -4,8 +4,7 @@ from .baseline import (
     case_word as case_word,
     not_compared_sentences as not_compared_sentences,
 )
-from .case_description import CaseDescription as CaseDescription
-from .content import RunContent as RunContent
+from .content import CaseDescription as CaseDescription, RunContent as RunContent
 from .csv_text import Cell as Cell, csv_text as csv_text
 from .difference import (
     Difference as Difference,

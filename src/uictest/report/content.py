@@ -8,12 +8,25 @@ from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
-from uictest.report.case_description import CaseDescription
 from uictest.report.difference import Difference
 from uictest.report.manifest import RunManifest
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import Trace
+
+
+@dataclass(frozen=True, slots=True)
+class CaseDescription:
+    """What a case is about, in the user's words: title, tags and main settings, name -> text.
+
+    `settings` holds what a simulated stop was run with; of a recorded one it holds the conditions that it was
+    judged by, and `recorded`, else empty, says where its samples come from.
+    """
+
+    title: str = ""
+    tags: tuple[str, ...] = ()
+    settings: Mapping[str, str] = field(default_factory=dict)
+    recorded: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from pydantic import (
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison
-from uictest.report.case_description import CaseDescription
+from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference
 
 _CONFIG: Final = ConfigDict(extra="forbid", defer_build=True)

@@ -5,17 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from uictest import evaluation
-from uictest.report.baseline import case_explanation, case_word, difference_sentences
+from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
+from uictest.report.difference import Difference
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.part_wording import changes_line
 from uictest.report.wording import DIFFERS
-
-if TYPE_CHECKING:
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.difference import Difference
 
 LIMIT = 1_000_000
 """Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""

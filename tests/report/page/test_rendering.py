@@ -1,8 +1,13 @@
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
+from jinja2 import DictLoader, Environment
 from markupsafe import Markup
 
 from uictest.report.page import rendering
+from uictest.report.page.rendering import TemplateCache
 
 
 def test_what_cannot_be_seen_is_spelled_out_and_markup_of_ours_is_left_alone() -> None:
@@ -10,3 +15,28 @@ def test_what_cannot_be_seen_is_spelled_out_and_markup_of_ours_is_left_alone() -
     ours = Markup("<b>\n</b>")
     assert rendering._visible(ours) is ours
     assert rendering._visible(3) == 3
+
+
+def _rendered(source: str) -> str:
+    environment = Environment(
+        loader=DictLoader({"page": source}), bytecode_cache=TemplateCache(), autoescape=True
+    )
+    return environment.get_template("page").render(name="WSP")
+
+
+def test_a_template_is_compiled_once(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert _rendered("the {{ name }}") == "the WSP"
+    monkeypatch.setattr(Environment, "compile", lambda *_: pytest.fail("compiled again"))
+    assert _rendered("the {{ name }}") == "the WSP"
+
+
+def test_another_source_is_compiled_anew(cache: Path) -> None:
+    assert [_rendered("the {{ name }}"), _rendered("a {{ name }}")] == ["the WSP", "a WSP"]
+
+
+def test_damaged_code_is_compiled_anew(cache: Path) -> None:
+    """Half a template is still something that Python would load and run."""
+    _rendered("the {{ name }}")
+    (kept,) = cache.iterdir()
+    kept.write_bytes(kept.read_bytes().replace(b"the ", b"THE "))
+    assert _rendered("the {{ name }}") == "the WSP"

@@ -11,14 +11,13 @@ import numpy as np
 
 from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word
-from uictest.report.case_description import CaseDescription
+from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference
-from uictest.report.page.script_json import script_json
 from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import marks_of
 from uictest.report.page.stop.overlay_view import panel_form
-from uictest.report.page.stop.packing import packed
+from uictest.report.page.stop.packing import packed, script_json
 from uictest.report.page.stop.sketch import Sketch, sketch_of
 from uictest.report.traces.quantities import (
     LOOPS,

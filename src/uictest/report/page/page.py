@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
-from uictest.report.baseline import baseline_summary, not_compared_sentences
+from uictest import evaluation
+from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
+from uictest.report.content import RunContent
 from uictest.report.difference import value_text
 from uictest.report.page.case_view import CaseView, case_view, figures_of, gauge_of, plots_json
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
-from uictest.report.page.ranking import DRAWN, worst_first
 from uictest.report.page.rendering import render
 from uictest.report.wording import CASE_WORDS, counted, failing_first, number, tone
 
-if TYPE_CHECKING:
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.content import RunContent
+DRAWN = 18
+"""Cases drawn on one page. Each takes up to 270 kB, and a page must still open from a mail attachment."""
 
 
 def page_html(content: RunContent) -> str:
@@ -93,3 +92,13 @@ def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:
             "those with the narrowest margins. Every criterion of every case is in criteria.csv."
         )
     return f"{counted(missing, 'case')} not drawn: there is no recording of it here, or the stop failed."
+
+
+def worst_first(results: Iterable[evaluation.CaseResult]) -> list[evaluation.CaseResult]:
+    """Return the results with those not as expected first, then those with the narrowest margins."""
+    return sorted(results, key=_rank)
+
+
+def _rank(result: evaluation.CaseResult) -> tuple[bool, bool, float]:
+    margin, _ = evaluation.narrowest_margin(result)
+    return result.met, result.outcome == "pass", 1.0 if margin is None else margin

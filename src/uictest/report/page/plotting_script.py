@@ -54,7 +54,7 @@ def digest(script: str) -> str:
 
 def _source() -> Path:
     # The package is not imported: that takes a second.
-    found = find_spec("plotly")
-    if found is None or found.origin is None:
+    package = find_spec("plotly")
+    if package is None or package.origin is None:
         raise ModuleNotFoundError("plotly is not installed, and the page needs its script", name="plotly")
-    return Path(found.origin).parent / "package_data" / "plotly.min.js"
+    return Path(package.origin).parent / "package_data" / "plotly.min.js"

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from jinja2 import DictLoader, Environment, StrictUndefined
+from jinja2.bccache import Bucket, BytecodeCache, bc_magic
+from markupsafe import Markup
+
+from uictest import user_cache
 from uictest.report.escaping import printable
 from uictest.report.page.plotting_script import digest, plotting_script
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 
 def render(template: str, *, with_plots: bool, **context: Any) -> str:
     """Return a template of this package filled in; `with_plots` puts the plotting script into the page."""
-    from markupsafe import Markup
-
     page, plotly = _own_text("page.js"), plotting_script() if with_plots else None
     return (
         _environment()
@@ -42,13 +42,9 @@ def _policy(*digests: str) -> str:
 
 @cache
 def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment as JinjaEnvironment, StrictUndefined
-
-    from uictest.report.page.template_cache import TemplateCache
-
     folder = resources.files(__package__) / "templates"
     sources = {file.name: file.read_text("utf-8") for file in folder.iterdir() if file.name.endswith(".j2")}
-    environment = JinjaEnvironment(
+    environment = Environment(
         loader=DictLoader(sources),
         autoescape=True,
         undefined=StrictUndefined,
@@ -72,3 +68,21 @@ def _figure(value: float | None, form: str = ".4g") -> str:
 
 def _own_text(name: str) -> str:
     return (resources.files(__package__) / "templates" / name).read_text("utf-8")
+
+
+class TemplateCache(BytecodeCache):
+    """Keeps compiled templates in the user's cache, from one run to the next."""
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Fill the bucket of a template if its code is there."""
+        code = user_cache.read("template", _inputs(bucket))
+        if code is not None:
+            bucket.bytecode_from_string(code)
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep the code of a template."""
+        user_cache.write("template", _inputs(bucket), bucket.bytecode_to_string())
+
+
+def _inputs(bucket: Bucket) -> bytes:
+    return bc_magic + f"{bucket.key} {bucket.checksum}".encode()

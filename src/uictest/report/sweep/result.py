@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, TypeAdapter
 
 from uictest import evaluation
 from uictest.evaluation import NamedParts, Number, required
-from uictest.report.case_description import CaseDescription
+from uictest.report.content import CaseDescription
 from uictest.report.sweep.values import SweptValue, Written
 
 SWEEP_SCHEMA: Final = "uictest/sweep-result/1"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from uictest import evaluation
-from uictest.report.baseline import case_explanation, case_word, difference_sentences
+from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
+from uictest.report.difference import Difference
 from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences
 from uictest.report.wording import (
@@ -17,10 +17,6 @@ from uictest.report.wording import (
     listed,
     number,
 )
-
-if TYPE_CHECKING:
-    from uictest.report.baseline import BaselineComparison
-    from uictest.report.difference import Difference
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
 

@@ -171,7 +171,7 @@ def test_the_first_phase_is_a_window_with_its_limit_and_what_was_found(marks: Ma
         ("speed", "window", 5.0, 8.0, None),
         ("deceleration", "window", 5.0, 8.0, None),
         ("deceleration", "limit", 5.0, 8.0, 0.08),
-        ("deceleration", "found", 5.0, 8.0, 0.06),
+        ("deceleration", "mean", 5.0, 8.0, 0.06),
     ]
 
 

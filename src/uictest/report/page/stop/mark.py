@@ -11,14 +11,14 @@ from uictest import evaluation
 from uictest.report.escaping import printable
 from uictest.report.wording import quantity
 
-Kind = Literal["limit", "found", "window", "band", "instant", "point", "interval"]
+Kind = Literal["limit", "mean", "window", "band", "instant", "point", "interval"]
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
     """Something drawn into a plot, in the plot's units.
 
-    limit, found: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
+    limit, mean: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
     where it has no end. instant: an upright line at `x0`. point: the place `x0`, `y`. interval: from `x0` to
     `x1` in row `y` of a strip.
     """

@@ -6,8 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from uictest.report.page.script_json import script_json
-from uictest.report.page.stop.packing import packed
+from uictest.report.page.stop.packing import packed, script_json
 from uictest.report.page.stop.sketch import Sketch, panels_over_time
 from uictest.report.traces.quantities import Panel, PlotLine
 from uictest.report.traces.trace import Trace

@@ -1,8 +1,9 @@
-"""Lines as text inside a page: a byte or two per sample, deflated."""
+"""Data as text inside a page: JSON, and lines with a byte or two per sample, deflated."""
 
 from __future__ import annotations
 
 import base64
+import json
 import zlib
 from collections.abc import Mapping
 from typing import Any
@@ -18,6 +19,12 @@ _MISSING = 32767
 Series = NDArray[np.float64]
 Scale = tuple[float, float]
 """Offset and step: value = offset + step x number."""
+
+
+def script_json(content: Any) -> str:
+    """Return JSON that can stand inside a script element, whatever texts it holds."""
+    text = json.dumps(content, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 def packed(curves: Mapping[str, Curve], interval: float = 0.0) -> dict[str, Any]:

@@ -28,7 +28,7 @@ def mean_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mar
     yield from limit_marks(verdict, "deceleration", scale=STANDARD_GRAVITY)
     if verdict.value is not None:
         label = f"mean {quantity(verdict.value, verdict.unit)}"
-        yield Mark("deceleration", "found", label, y=verdict.value / STANDARD_GRAVITY)
+        yield Mark("deceleration", "mean", label, y=verdict.value / STANDARD_GRAVITY)
 
 
 def standstill(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
@@ -48,7 +48,7 @@ def initial_adhesion(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark
     yield from limit_marks(verdict, "deceleration", x0=start, x1=end)
     if verdict.value is not None:
         label = f"mean {verdict.value:.4g} {verdict.unit}"
-        yield Mark("deceleration", "found", label, start, end, verdict.value)
+        yield Mark("deceleration", "mean", label, start, end, verdict.value)
 
 
 def minimum_deceleration(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:

@@ -182,8 +182,8 @@
       return { type: "rect", layer: "below", ...upright, opacity: 0.75, line: { width: 0 },
                fillcolor: colour(mark.kind === "window" && mark.status === "fail" ? "bad-wash" : "window") };
     return { type: "line", xref: across, yref, x0, x1, y0: mark.y, y1: mark.y,
-             line: { color: inkOf(mark), width: mark.kind === "found" ? 2.6 : 1.5,
-                     dash: mark.kind === "found" ? "solid" : "dash" } };
+             line: { color: inkOf(mark), width: mark.kind === "mean" ? 2.6 : 1.5,
+                     dash: mark.kind === "mean" ? "solid" : "dash" } };
   };
 
   /* A label stands behind its mark, else before it, and inside where there is room on neither side. */

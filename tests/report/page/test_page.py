@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
-from uictest.report.page.ranking import worst_first
+from uictest.report.page.page import worst_first
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
