@@ -8,7 +8,7 @@ import pytest
 from numba.core.errors import TypingError
 
 from uictest import lanes
-from uictest.lanes import lane, put, take, vectors
+from uictest.lanes import copy_from_lane, copy_to_lane, lane, vectors
 
 LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8"), ("load", "f8")]))
 WIDTHS = [2, 4, 8, 16]
@@ -84,7 +84,7 @@ def test_integers_keep_all_their_bits() -> None:
 def test_put_copies_every_field_of_a_record() -> None:
     @numba.njit
     def copy(block: Any, records: Any) -> None:
-        put(lane(block, 5)[2], records[0])
+        copy_to_lane(lane(block, 5)[2], records[0])
 
     block = counted(8)
     record = np.array([(1.5, BIG, -0.0)], LAYOUT)
@@ -95,7 +95,7 @@ def test_put_copies_every_field_of_a_record() -> None:
 def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
     @numba.njit
     def copy(records: Any, block: Any) -> None:
-        take(records[1], lane(block, 5)[2])
+        copy_from_lane(records[1], lane(block, 5)[2])
 
     block = counted(8)
     block["mode"][2, 5] = BIG
@@ -109,9 +109,9 @@ def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
 def test_a_record_without_a_field_of_the_lane_takes_nothing() -> None:
     @numba.njit
     def copy(records: Any, block: Any) -> None:
-        take(records[0], lane(block, 0))
+        copy_from_lane(records[0], lane(block, 0))
 
-    with pytest.raises(TypingError, match="take"):
+    with pytest.raises(TypingError, match="copy_from_lane"):
         copy(np.zeros(1, np.dtype([("speed", "f8")])), counted(8))
 
 

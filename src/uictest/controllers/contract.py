@@ -29,6 +29,26 @@ def parameter(kind: str, description: str, *, at_least: str, at_most: str) -> An
     return Parameter(kind, description, at_least, at_most)
 
 
+def duration(description: str, *, at_least: str = "1 ms") -> Any:
+    """Declare a time of up to a minute."""
+    return parameter("time", description, at_least=at_least, at_most="60 s")
+
+
+def acceleration(description: str) -> Any:
+    """Declare the size of an acceleration or deceleration."""
+    return parameter("acceleration", description, at_least="0.001 m/s2", at_most="100 m/s2")
+
+
+def share(description: str) -> Any:
+    """Declare a share of up to one."""
+    return parameter("share", description, at_least="0 %", at_most="100 %")
+
+
+def low_speed(description: str) -> Any:
+    """Declare a speed or difference of speeds that is not zero."""
+    return parameter("speed", description, at_least="0.001 km/h", at_most="100 km/h")
+
+
 class ControllerCycle(Record):
     """The parameter that a controller shares with the rig."""
 
@@ -38,17 +58,11 @@ class ControllerCycle(Record):
 class ControllerParameters(ControllerCycle):
     """Parameters that every controller has, SI units. Its docstring describes the controller to users."""
 
-    reference_deceleration: float = parameter(
-        "acceleration",
-        "Fastest fall of the estimate of the train's speed (positive number).",
-        at_least="0.001 m/s2",
-        at_most="100 m/s2",
+    reference_deceleration: float = acceleration(
+        "Fastest fall of the estimate of the train's speed (positive number)."
     )
-    minimum_speed: float = parameter(
-        "speed",
-        "Estimated train speed below which the controller leaves the brake alone.",
-        at_least="0.001 km/h",
-        at_most="100 km/h",
+    minimum_speed: float = low_speed(
+        "Estimated train speed below which the controller leaves the brake alone."
     )
 
 

@@ -8,5 +8,10 @@ from .functions import (
     sqrt as sqrt,
 )
 from .host import fuses as fuses, register_width as register_width
-from .records import lane as lane, put as put, take as take, vectors as vectors
+from .records import (
+    copy_from_lane as copy_from_lane,
+    copy_to_lane as copy_to_lane,
+    lane as lane,
+    vectors as vectors,
+)
 from .stack import align_stack as align_stack

@@ -50,7 +50,7 @@ def lane(typing: Any, block: Any, number: Any) -> Any:
 
 
 @in_compiled_code
-def put(typing: Any, place: Any, record: Any) -> Any:
+def copy_to_lane(typing: Any, place: Any, record: Any) -> Any:
     """Set every field of one lane's record to that of an ordinary record, which must have them all."""
     if not _has_fields_of(record, place):
         return None
@@ -65,7 +65,7 @@ def put(typing: Any, place: Any, record: Any) -> Any:
 
 
 @in_compiled_code
-def take(typing: Any, record: Any, place: Any) -> Any:
+def copy_from_lane(typing: Any, record: Any, place: Any) -> Any:
     """Set those fields of an ordinary record that one lane's record has; it must have them all."""
     if not _has_fields_of(record, place):
         return None

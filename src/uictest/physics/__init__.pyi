@@ -1,4 +1,11 @@
-from .arithmetic import fma as fma, maximum as maximum, minimum as minimum, select as select, sqrt as sqrt
+from .arithmetic import (
+    floor as floor,
+    fma as fma,
+    maximum as maximum,
+    minimum as minimum,
+    select as select,
+    sqrt as sqrt,
+)
 from .brake_operating_unit import demanded_pressure as demanded_pressure, relay_opening as relay_opening
 from .caliper import (
     clamping_force as clamping_force,

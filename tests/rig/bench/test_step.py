@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.bench import loading as bench_loading
+from uictest.rig.bench.applied import bench_input
 from uictest.rig.bench.inputs import BenchInput, joined, stepwise, triangular
 from uictest.rig.bench.loading import load_bench, recipe_path
-from uictest.rig.bench.run import clock_of, run_bench
+from uictest.rig.bench.rig import clock_of
+from uictest.rig.bench.run import run_bench
 from uictest.rig.bench.step import run_bench_test
 from uictest.rig.bench.trace import BENCH_CHANNELS
 from uictest.rig.simulation import simulate
@@ -100,7 +101,7 @@ def test_a_recorded_stop_repeats_its_commands_and_pressures(tmp_path):
     rail = test.case.scenario.rail.model_copy(update={"friction": test.recipe.inputs[0].friction})
     scenario = test.case.scenario.model_copy(update={"rail": rail, "seed": 3})
     stop = simulate(replace(test.case, scenario=scenario), 0.01).recording
-    bench_record = run_bench(test.case, bench_loading.bench_input(test))
+    bench_record = run_bench(test.case, bench_input(test))
     same = bench_record["tank_pressure_1"][:: clock_of(test.case).steps_per_cycle]
     assert np.array_equal(bench_record["valve_command_1"][20::20], stop["valve_command_1"][1:])
     # Two modules draw from the line instead of four, so that it sags a little less.

@@ -13,7 +13,7 @@ from uictest.controllers.contract import (
     Controller,
     ControllerParameters,
     TrainMemory,
-    parameter,
+    share,
 )
 from uictest.physics import FILL, HOLD, VENT, maximum
 
@@ -21,12 +21,8 @@ from uictest.physics import FILL, HOLD, VENT, maximum
 class Parameters(ControllerParameters):
     """Fill below a lower slide, vent above an upper one, hold between them."""
 
-    lower_slide: float = parameter(
-        "share", "Slide below which the tank is filled.", at_least="0 %", at_most="100 %"
-    )
-    upper_slide: float = parameter(
-        "share", "Slide above which the tank is vented.", at_least="0 %", at_most="100 %"
-    )
+    lower_slide: float = share("Slide below which the tank is filled.")
+    upper_slide: float = share("Slide above which the tank is vented.")
 
 
 def conflicts(parameters: Parameters) -> Iterator[Conflict]:

@@ -15,7 +15,11 @@ from uictest.controllers.contract import (
     Controller,
     ControllerParameters,
     TrainMemory,
+    acceleration,
+    duration,
+    low_speed,
     parameter,
+    share,
 )
 from uictest.physics import FILL, HOLD, VENT, maximum, minimum
 
@@ -23,108 +27,35 @@ from uictest.physics import FILL, HOLD, VENT, maximum, minimum
 class Parameters(ControllerParameters):
     """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
 
-    slip_threshold: float = parameter(
-        "speed",
-        "Slip speed from which a wheelset counts as sliding.",
-        at_least="0.001 km/h",
-        at_most="100 km/h",
+    slip_threshold: float = low_speed("Slip speed from which a wheelset counts as sliding.")
+    slide_threshold: float = share("Share of the estimated train speed that is added to the slip threshold.")
+    deep_slide: float = share("Relative slide beyond which a vent goes on until the wheelset gains speed.")
+    vent_deceleration: float = acceleration(
+        "Deceleration of a wheelset (positive number) beyond which its tank is vented."
     )
-    slide_threshold: float = parameter(
-        "share",
-        "Share of the estimated train speed that is added to the slip threshold.",
-        at_least="0 %",
-        at_most="100 %",
+    hold_deceleration: float = acceleration(
+        "Deceleration of a wheelset (positive number) below which a vent turns into a hold."
     )
-    deep_slide: float = parameter(
-        "share",
-        "Relative slide beyond which a vent goes on until the wheelset gains speed.",
-        at_least="0 %",
-        at_most="100 %",
-    )
-    vent_deceleration: float = parameter(
-        "acceleration",
-        "Deceleration of a wheelset (positive number) beyond which its tank is vented.",
-        at_least="0.001 m/s2",
-        at_most="100 m/s2",
-    )
-    hold_deceleration: float = parameter(
-        "acceleration",
-        "Deceleration of a wheelset (positive number) below which a vent turns into a hold.",
-        at_least="0.001 m/s2",
-        at_most="100 m/s2",
-    )
-    reacceleration_threshold: float = parameter(
-        "acceleration",
-        "Acceleration of a wheelset from which it counts as regaining speed.",
-        at_least="0.001 m/s2",
-        at_most="100 m/s2",
+    reacceleration_threshold: float = acceleration(
+        "Acceleration of a wheelset from which it counts as regaining speed."
     )
     acceleration_filter_time: float = parameter(
-        "time",
-        "Time constant of the filter of wheelset acceleration.",
-        at_least="0 s",
-        at_most="1 s",
+        "time", "Time constant of the filter of wheelset acceleration.", at_least="0 s", at_most="1 s"
     )
-    holding_deceleration: float = parameter(
-        "acceleration",
-        "Fall of the estimate of the train's speed while every wheelset slides (positive number).",
-        at_least="0.001 m/s2",
-        at_most="100 m/s2",
+    holding_deceleration: float = acceleration(
+        "Fall of the estimate of the train's speed while every wheelset slides (positive number)."
     )
-    rolling_time: float = parameter(
-        "time",
-        "Time in which a wheelset must not have slid to show the train's speed.",
-        at_least="1 ms",
-        at_most="60 s",
+    rolling_time: float = duration("Time in which a wheelset must not have slid to show the train's speed.")
+    sounding_interval: float = duration(
+        "Time without a rolling wheelset after which one is released to find the train's speed."
     )
-    sounding_interval: float = parameter(
-        "time",
-        "Time without a rolling wheelset after which one is released to find the train's speed.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
-    sounding_time: float = parameter(
-        "time",
-        "Shortest vent of a wheelset that is released to find the train's speed.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
-    recovery_share: float = parameter(
-        "share",
-        "Share of the slide threshold below which a wheelset has caught up.",
-        at_least="0 %",
-        at_most="100 %",
-    )
-    vent_watchdog: float = parameter(
-        "time",
-        "Longest vent; then the tank is filled again.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
-    hold_limit: float = parameter(
-        "time",
-        "Longest hold; then the tank is vented or filled.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
-    fill_pulse_on: float = parameter(
-        "time",
-        "Filling time of one pulse while the pressure is restored in steps.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
-    fill_pulse_off: float = parameter(
-        "time",
-        "Pause after such a pulse.",
-        at_least="0 s",
-        at_most="60 s",
-    )
-    refill_time: float = parameter(
-        "time",
-        "Time of filling in pulses after which the tank fills freely.",
-        at_least="1 ms",
-        at_most="60 s",
-    )
+    sounding_time: float = duration("Shortest vent of a wheelset that is released to find the train's speed.")
+    recovery_share: float = share("Share of the slide threshold below which a wheelset has caught up.")
+    vent_watchdog: float = duration("Longest vent; then the tank is filled again.")
+    hold_limit: float = duration("Longest hold; then the tank is vented or filled.")
+    fill_pulse_on: float = duration("Filling time of one pulse while the pressure is restored in steps.")
+    fill_pulse_off: float = duration("Pause after such a pulse.", at_least="0 s")
+    refill_time: float = duration("Time of filling in pulses after which the tank fills freely.")
 
 
 class Train(TrainMemory):
@@ -152,13 +83,13 @@ PROBING = 4
 
 def conflicts(parameters: Parameters) -> Iterator[Conflict]:
     """Yield durations too short for the controller to see, and thresholds in the wrong order."""
-    durations = (
+    times = (
         ("vent_watchdog", parameters.vent_watchdog),
         ("hold_limit", parameters.hold_limit),
         ("fill_pulse_on", parameters.fill_pulse_on),
     )
-    for name, duration in durations:
-        if duration < parameters.cycle_time:
+    for name, time in times:
+        if time < parameters.cycle_time:
             yield Conflict(name, f"{{{name}}} is shorter than one controller cycle ({{cycle_time}})")
     if parameters.holding_deceleration > parameters.reference_deceleration:
         yield Conflict("holding_deceleration", "it must not exceed reference_deceleration")
@@ -194,8 +125,8 @@ def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) 
 def _differentiate(wheelset: Wheelset, parameters: Parameters) -> None:
     """Differentiate the measured speed and filter the acceleration (first order)."""
     change = (wheelset.measured_speed - wheelset.previous_speed) / parameters.cycle_time
-    share = parameters.cycle_time / (parameters.cycle_time + parameters.acceleration_filter_time)
-    wheelset.measured_acceleration += share * (change - wheelset.measured_acceleration)
+    weight = parameters.cycle_time / (parameters.cycle_time + parameters.acceleration_filter_time)
+    wheelset.measured_acceleration += weight * (change - wheelset.measured_acceleration)
     wheelset.previous_speed = wheelset.measured_speed
 
 

@@ -18,7 +18,9 @@ from typing import Any, cast
 
 import numpy as np
 
+from uictest import lanes
 from uictest.controllers import Controller
+from uictest.physics import fma
 from uictest.rig.model.controller import begin, decide
 
 Function = Callable[..., Any]
@@ -29,10 +31,7 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline":
 
 def compiled_operations() -> dict[Function, Any]:
     """Return what takes the place of plain functions in code compiled for the processor."""
-    from uictest import lanes
-    from uictest.physics import arithmetic
-
-    return {arithmetic.fma: lanes.fma} if lanes.fuses() else {}
+    return {fma: lanes.fma} if lanes.fuses() else {}
 
 
 def with_controller(

@@ -7,7 +7,7 @@ by lane once per controller cycle; everything else runs in all lanes at once. A 
 
 from typing import Any, NamedTuple
 
-from uictest.lanes import align_stack, lane, put, take, vectors
+from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
@@ -41,7 +41,7 @@ class Lanes(NamedTuple):
 
 
 class Cases(NamedTuple):
-    """What stops are given and the records that take their measures, an entry for each case."""
+    """Inputs of stops and the records that receive their measures, an entry for each case."""
 
     parameters: Any
     rail: Any
@@ -56,53 +56,55 @@ def run_queue(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any) 
         lanes: blocks, all of as many lanes.
         blank: records of zeros, with which a lane begins.
         cases: parameters and measures of all cases.
-        queue: numbers of the cases to be run, in the order in which they begin; at least one, and all with
+        queue: numbers of the cases to be run, in the order in which they start; at least one, and all with
             the same number of steps in a controller cycle.
         running: for each lane, the number of its case; set here.
     """
     align_stack()
-    begun = 0
+    started = 0
     for k in range(running.size):
         # A lane that finds the queue empty steps this case, and so meets no numbers that a case does not.
-        _set(lanes, blank, cases.parameters[queue[0]], k)
-        begun = _take(lanes, blank, cases, queue, running, begun, k)
+        _set_to_start(lanes, blank, cases.parameters[queue[0]], k)
+        started = _start_next_case(lanes, blank, cases, queue, running, started, k)
     ended = 0
     while ended < queue.size:
         _run_cycle(lanes, cases, running)
         for k in range(running.size):
-            if running[k] != _IDLE and _ends(lanes, cases, running[k], k):
+            if running[k] != _IDLE and _finish_if_stopped(lanes, cases, running[k], k):
                 ended += 1
-                begun = _take(lanes, blank, cases, queue, running, begun, k)
+                started = _start_next_case(lanes, blank, cases, queue, running, started, k)
 
 
-def _take(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any, begun: int, k: int) -> int:
-    """Let lane ``k`` begin the next case, or idle when none waits; return how many have begun."""
-    if begun == queue.size:
+def _start_next_case(
+    lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any, started: int, k: int
+) -> int:
+    """Start the next case in lane ``k``, or leave it idle when none waits; return how many have started."""
+    if started == queue.size:
         running[k] = _IDLE
-        return begun
-    case = queue[begun]
+        return started
+    case = queue[started]
     running[k] = case
-    _set(lanes, blank, cases.parameters[case], k)
+    _set_to_start(lanes, blank, cases.parameters[case], k)
     begin_tables(cases.measures[case], cases.wheelset_measures[case])
-    return begun + 1
+    return started + 1
 
 
-def _set(lanes: Lanes, blank: Rig, p: Any, k: int) -> None:
+def _set_to_start(lanes: Lanes, blank: Rig, p: Any, k: int) -> None:
     """Set lane ``k`` to the instant of the brake command."""
     rig = lanes.rig
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
-    put(lane(lanes.settings, k), p)
-    put(car, blank.car[0])
+    copy_to_lane(lane(lanes.settings, k), p)
+    copy_to_lane(car, blank.car[0])
     for j in range(2):
-        put(bogies[j], blank.bogies[j])
+        copy_to_lane(bogies[j], blank.bogies[j])
     for i in range(4):
-        put(wheelsets[i], blank.wheelsets[i])
+        copy_to_lane(wheelsets[i], blank.wheelsets[i])
     start(car, bogies, wheelsets, p)
     begin_stop_measures(car, lane(lanes.measures, k), lane(lanes.wheelset_measures, k), p)
 
 
 def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
-    """Step all lanes through a controller cycle; the controllers of lanes that run no case keep still."""
+    """Step all lanes through a controller cycle; idle lanes skip their controller."""
     rig = lanes.rig
     car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
     settings = vectors(lanes.settings)
@@ -120,8 +122,8 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
     observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
 
 
-def _ends(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
-    """Take in the end of a cycle of lane ``k``; whether its stop has ended, which completes its measures."""
+def _finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
+    """Keep the tables after a cycle of lane ``k``; complete the measures and return True after the last."""
     p, rig = cases.parameters[case], lanes.rig
     measures, wheelset_measures = cases.measures[case], cases.wheelset_measures[case]
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
@@ -129,8 +131,8 @@ def _ends(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
     if car.stopped == 0.0 and car.cycle < p.cycles:
         return False
-    take(measures, samples)
+    copy_from_lane(measures, samples)
     for i in range(4):
-        take(wheelset_measures[i], wheelset_samples[i])
+        copy_from_lane(wheelset_measures[i], wheelset_samples[i])
     close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
     return True

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import lanes as vector_functions
 from uictest.controllers import Controller
 from uictest.lanes import block, register_width
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.physics import arithmetic
+from uictest.physics import floor, maximum, minimum, select, sqrt
 from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
 from uictest.rig.backends.compiled import (
     OPTIONS,
@@ -22,9 +23,12 @@ from uictest.rig.backends.compiled import (
     with_controller,
 )
 from uictest.rig.backends.machine_code import address, is_kept, native_function
+from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.step import step
+from uictest.rig.model.stop import observe_cycle
 
 _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
@@ -157,19 +161,15 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
 
     What has no branches is translated for lanes, the rest for one.
     """
-    from uictest import lanes
-    from uictest.rig.backends.lane_stops import Cases, Lanes, Rig, run_queue
-    from uictest.rig.model.cycle import command_valves, read_sensors
-    from uictest.rig.model.step import step
-    from uictest.rig.model.stop import observe_cycle
+    from uictest.rig.backends.lane_stops import Cases, Lanes, Rig, run_queue  # loads numba
 
     in_lanes: dict[Function, Any] = {
         **compiled_operations(),
-        arithmetic.select: lanes.select,
-        arithmetic.minimum: lanes.minimum,
-        arithmetic.maximum: lanes.maximum,
-        arithmetic.sqrt: lanes.sqrt,
-        arithmetic.floor: lanes.floor,
+        select: vector_functions.select,
+        minimum: vector_functions.minimum,
+        maximum: vector_functions.maximum,
+        sqrt: vector_functions.sqrt,
+        floor: vector_functions.floor,
     }
     without_branches = (read_sensors, command_valves, step, observe_cycle)
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}

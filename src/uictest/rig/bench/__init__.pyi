@@ -1,3 +1,4 @@
+from .applied import bench_input as bench_input
 from .inputs import (
     BenchInput as BenchInput,
     Clock as Clock,
@@ -10,8 +11,8 @@ from .loading import (
     load_bench as load_bench,
     recipe_names as recipe_names,
     recipe_path as recipe_path,
-    run_test as run_test,
     trace_recipe as trace_recipe,
 )
 from .native import is_compiled as is_compiled
-from .run import clock_of as clock_of, run_bench as run_bench
+from .rig import clock_of as clock_of
+from .run import run_bench as run_bench, run_test as run_test

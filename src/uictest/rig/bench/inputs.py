@@ -1,7 +1,5 @@
 """What a bench test applies: a demanded brake-line pressure and valve commands over time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What a bench recipe says: the rig it is made for and the inputs that are applied one after the other."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field

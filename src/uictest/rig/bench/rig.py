@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from uictest.rig.assembly import assemble
+from uictest.rig.bench.inputs import Clock
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
 from uictest.scenario import Case
@@ -33,6 +34,12 @@ class BenchRig(NamedTuple):
     computed: Sequence[Wheelset]
     settings: Sequence[Parameters]
     loadcell_errors: MutableSequence[float]
+
+
+def clock_of(case: Case) -> Clock:
+    """Return the base step and the controller cycle of a case."""
+    step = float(case.scenario.simulation.time_step)
+    return Clock(step, round(float(case.scenario.controller.cycle_time) / step))
 
 
 def bench_rig(case: Case) -> BenchRig:

@@ -5,18 +5,15 @@ from typing import Any
 
 import numpy as np
 
+import uictest
 from uictest.recording import ORIGIN, Recording
-from uictest.rig.bench.inputs import BenchInput, Clock
+from uictest.rig.bench.applied import bench_input
+from uictest.rig.bench.inputs import BenchInput
+from uictest.rig.bench.loading import BenchTest
 from uictest.rig.bench.native import run_compiled
 from uictest.rig.bench.rig import bench_rig
 from uictest.rig.bench.trace import BENCH_CHANNELS, BENCH_SAMPLE
 from uictest.scenario import Case
-
-
-def clock_of(case: Case) -> Clock:
-    """Return the base step and the controller cycle of a case."""
-    step = float(case.scenario.simulation.time_step)
-    return Clock(step, round(float(case.scenario.controller.cycle_time) / step))
 
 
 def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_compiled) -> Recording:
@@ -34,3 +31,14 @@ def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_co
     run(bench_rig(case), applied.demanded_pressures, applied.valve_commands, trace)
     channels = {name: trace[name].copy() for name, _ in BENCH_CHANNELS}
     return Recording(channels, dict(BENCH_CHANNELS), {ORIGIN: "simulated caliper", "bench": case.id})
+
+
+def run_test(test: BenchTest) -> Recording:
+    """Run a recipe; the recording names the files it was made from and the version of the program."""
+    recording = run_bench(test.case, bench_input(test))
+    facts = {
+        **recording.metadata,
+        "version": uictest.__version__,
+        **{f"sha256 of {name}": value for name, value in test.case.inputs.items()},
+    }
+    return Recording(recording.channels, recording.units, facts)

@@ -1,0 +1,88 @@
+"""What a bench test applies, from the inputs of its recipe."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from uictest import identification
+from uictest.rig.bench.inputs import (
+    BenchInput,
+    Clock,
+    joined,
+    random_pressure,
+    recorded,
+    stepwise,
+    triangular,
+    wsp_cycling,
+)
+from uictest.rig.bench.loading import BenchTest
+from uictest.rig.bench.recipe import (
+    FileReplay,
+    Input,
+    Random,
+    Rest,
+    Stepwise,
+    StopReplay,
+    Triangular,
+    WspCycling,
+)
+from uictest.rig.bench.rig import clock_of
+from uictest.rig.simulation import simulate
+from uictest.scenario import Case
+from uictest.units import BAR
+
+
+def bench_input(test: BenchTest) -> BenchInput:
+    """Return demanded pressures and valve commands of a recipe; stops that it replays are simulated.
+
+    Raises as reading a recording does.
+    """
+    clock = clock_of(test.case)
+    return joined(_segment(segment, test, clock) for segment in test.recipe.inputs)
+
+
+def _segment(segment: Input, test: BenchTest, clock: Clock) -> BenchInput:
+    match segment:
+        case StopReplay():
+            return _simulated_stop(segment, test.case, clock)
+        case FileReplay():
+            return _recorded_file(segment, test.folder, clock)
+        case WspCycling():
+            return _wsp_cycling(segment, clock)
+        case Rest(duration=duration):
+            return stepwise([0.0], duration, clock)
+        case Stepwise(levels=levels, hold=hold):
+            return stepwise(levels, hold, clock)
+        case Triangular(peaks=peaks, floor=floor, ramp=ramp):
+            return triangular(peaks, floor, BAR / ramp, clock)
+        case Random(lowest=lowest, highest=highest):
+            return random_pressure(lowest, highest, segment.interval, segment.duration, segment.seed, clock)
+
+
+def _wsp_cycling(segment: WspCycling, clock: Clock) -> BenchInput:
+    return wsp_cycling(
+        segment.pressure,
+        segment.lead,
+        segment.cycles,
+        segment.vent,
+        segment.hold,
+        segment.fill,
+        segment.seed,
+        clock,
+    )
+
+
+def _simulated_stop(segment: StopReplay, case: Case, clock: Clock) -> BenchInput:
+    rail = case.scenario.rail.model_copy(update={"friction": segment.friction})
+    scenario = case.scenario.model_copy(update={"rail": rail, "seed": segment.seed})
+    recording = simulate(replace(case, scenario=scenario), clock.cycle_time).recording
+    assert recording is not None
+    commands = recording[f"valve_command_{segment.wheelset}"]
+    return recorded(recording["time"], recording["demanded_pressure"], commands, clock)
+
+
+def _recorded_file(segment: FileReplay, folder: Path, clock: Clock) -> BenchInput:
+    names = {"pressure": segment.pressure}
+    if segment.command is not None:
+        names["command"] = segment.command
+    channels = identification.read_record(folder / segment.file, names).channels
+    return recorded(channels["time"], channels["pressure"], channels.get("command"), clock)
