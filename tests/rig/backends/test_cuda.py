@@ -35,8 +35,7 @@ parameters["cycles"] = 2
 measures, wheelsets = np.zeros(1, STOP_MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
 batch = np.array([parameters], dtype=parameters.dtype)
 with np.errstate(invalid="ignore"):
-    no_trace = np.zeros(1, TRAIN_SAMPLE), np.zeros((1, 1), WHEELSET_SAMPLE)
-    cuda.kernel(controller)[1, 1](batch, rail[None], measures, wheelsets, *no_trace)
+    cuda.kernel(controller)[1, 1](batch, rail[None], measures, wheelsets, *cuda.constant_arguments())
     plain = run_to_end(plain_stop(controller), inputs)
 same = measures[0].tobytes() == plain.measures.tobytes()
 same_wheelsets = wheelsets[0].tobytes() == plain.wheelset_measures.tobytes()
@@ -53,6 +52,7 @@ from uictest.controllers import CONTROLLERS
 from uictest.rig.backends import cuda
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 
 kernel = cuda.kernel(CONTROLLERS["threshold"])
 # What a machine without a GPU cannot say of itself: the capability to compile for.
@@ -61,6 +61,7 @@ record = numba.from_dtype
 signature = numba.void(
     record(PARAMETERS)[::1], numba.float64[:, :, ::1], record(STOP_MEASURES)[::1],
     record(WHEELSET_MEASURES)[:, ::1],
+    record(CAR)[::1], record(BOGIE)[::1], record(WHEELSET)[::1],
     record(TRAIN_SAMPLE)[::1], record(WHEELSET_SAMPLE)[:, ::1],
 )
 

@@ -47,14 +47,27 @@ def kernel(controller: Controller) -> Any:
     run_on_device = translate(run_stop, device, with_controller(controller, device, _operations()))
 
     def run_stops(
-        parameters: Any, rail: Any, measures: Any, wheelset_measures: Any, no_train: Any, no_wheelsets: Any
+        parameters: Any,
+        rail: Any,
+        measures: Any,
+        wheelset_measures: Any,
+        zeroed_car: Any,
+        zeroed_bogies: Any,
+        zeroed_wheelsets: Any,
+        no_train: Any,
+        no_wheelsets: Any,
     ) -> None:
         i = cuda.grid(1)
         if i < parameters.shape[0]:
-            # States live in the thread's own memory.
+            # States live in the thread's own memory, which holds whatever was there before.
             car = cuda.local.array(1, CAR)
             bogies = cuda.local.array(2, BOGIE)
             wheelsets = cuda.local.array(4, WHEELSET)
+            car[0] = zeroed_car[0]
+            for j in range(2):
+                bogies[j] = zeroed_bogies[j]
+            for j in range(4):
+                wheelsets[j] = zeroed_wheelsets[j]
             run_on_device(
                 car[0],
                 bogies,
@@ -68,6 +81,12 @@ def kernel(controller: Controller) -> Any:
             )
 
     return cuda.jit(run_stops)
+
+
+def constant_arguments() -> tuple[NDArray[Any], ...]:
+    """Return the last arguments of a kernel: a rig of zeros, with which a stop begins, and an empty trace."""
+    rig = np.zeros(1, CAR), np.zeros(2, BOGIE), np.zeros(4, WHEELSET)
+    return *rig, np.zeros(1, TRAIN_SAMPLE), np.zeros((1, 1), WHEELSET_SAMPLE)
 
 
 def run_on_gpu(
@@ -105,8 +124,7 @@ def _run(controller: Controller, parameters: Any, rail: NDArray[np.float64]) -> 
             cuda.to_device(rail),
             measures,
             wheelset_measures,
-            cuda.device_array(1, TRAIN_SAMPLE),
-            cuda.device_array((1, 1), WHEELSET_SAMPLE),
+            *(cuda.to_device(array) for array in constant_arguments()),
         )
     return measures.copy_to_host(), wheelset_measures.copy_to_host()
 
