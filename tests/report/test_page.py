@@ -154,6 +154,18 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
     assert f"{1000 - DRAWN} cases not drawn" in html
 
 
+def test_a_criterion_whose_measure_has_no_drawing_is_listed(
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+) -> None:
+    broken = make_verdict(id="short-flats", measure="flat_length", status="fail", value=5.0, margin=-1.0)
+    result = make_result(outcome="fail", criteria=(broken,))
+    content = make_content(result, traces={result.id: trace_of(make_recording())})
+    assert "short-flats" in Page(page_html(content)).text
+
+
 def test_a_verdict_that_hangs_on_a_definition_says_so(
     make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:

@@ -55,7 +55,7 @@ def test_what_is_no_run_or_no_format_is_refused(call: Call, run: Path, arguments
             "scenarios holds no run: it has no results.json; report takes the folder of a finished",
         ),
         ("missing", "there is no missing; report takes the folder of a finished run or sweep"),
-        ("study", "study holds a sweep that is not finished: give its command again"),
+        ("study", "study holds a sweep that is not finished: run its command again"),
     ],
 )
 def test_a_folder_is_named_for_what_it_is(call: Call, run: Path, place: str, said: str) -> None:
