@@ -14,6 +14,7 @@ import typer
 
 from uictest import field_data, identification, library, recording, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.identified_text import cylinder_text, hysteresis_text
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
@@ -131,7 +132,7 @@ def hysteresis(
     recorded = _record(record, roles)
     acting = _wsp_acting(recorded, acting_intervals, acting_time)
     result = _hysteresis(record, recorded, acting, transition_time, held_out)
-    data(_hysteresis_report(result))
+    data(hysteresis_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         text = identification.with_hysteresis(
@@ -161,7 +162,7 @@ def cylinder(
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
     result = _cylinder(record, recorded, criterion, held_out)
-    data(_cylinder_report(result))
+    data(cylinder_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         _write(output, identification.with_cylinder(kept, part_name, result, provenance))
@@ -284,37 +285,3 @@ def _write(output: Path, text: str) -> None:
         raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
     recording.write_text_atomic(output, text)
     message(f"uictest: wrote {output}")
-
-
-def _hysteresis_report(result: identification.HysteresisResult) -> str:
-    lines = [
-        f"{phase:<16}{line.slope * 100:9.4f} kN/bar +-{line.slope_confidence * 100:8.4f}"
-        f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
-        for phase, line in result.lines.items()
-    ]
-    lines += [
-        f"{kind} loop width {width / 1e5:.4f} bar at {result.high_force / 1e3:.2f} kN"
-        for kind, width in result.loop_widths.items()
-    ]
-    largest, rms = 100.0 * result.largest_error, 100.0 * result.rms_error
-    force = result.largest_force / 1e3
-    lines.append(f"force error, held out: largest {largest:.2f} %, rms {rms:.2f} % of {force:.2f} kN")
-    return "\n".join(lines)
-
-
-def _cylinder_report(result: identification.CylinderResult) -> str:
-    model = result.transfer_function
-    before, after = 100.0 * result.largest_before, 100.0 * result.largest_after
-    pressure = result.largest_pressure / 1e5
-    poles = ", ".join(f"{pole.real:.6f}{pole.imag:+.6f}j" for pole in model.poles)
-    return "\n".join(
-        [
-            f"sampling time {model.sampling_time * 1e3:g} ms",
-            f"numerator {', '.join(map(repr, model.numerator))}",
-            f"denominator 1.0, {', '.join(map(repr, model.denominator))}",
-            f"poles {poles}",
-            f"gain within 3 dB up to {model.band:.4g} Hz",
-            f"fit, held out: {result.fit:.2f} %",
-            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
-        ]
-    )

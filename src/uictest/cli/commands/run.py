@@ -88,9 +88,7 @@ def run(
     batch = Batch(
         cases=selected,
         parts=parts,
-        manifest=report.run_manifest(
-            context.obj.arguments, seed, _inputs(selected), len(selected), parts.values()
-        ),
+        manifest=_manifest(context.obj.arguments, seed, selected, parts),
         recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
         jobs=min(jobs, len(selected)),
         maxfail=1 if exit_first else maxfail,
@@ -102,8 +100,7 @@ def run(
         baseline=None if accept else accepted,
     )
     done, published = run_batch(batch, chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0))
-    if durations is not None:
-        _show_slowest(done.results, durations or len(done.results))
+    _show_slowest(done.results, durations)
     return worst(of_batch(done), accept_or_compare(choice, accepted, done, published, quiet=quiet))
 
 
@@ -115,12 +112,24 @@ def _selected(
     return selected if last_run is None else failed_last(selected, last_run)
 
 
+def _manifest(
+    arguments: Sequence[str],
+    seed: int | None,
+    cases: Sequence[scenario.Case],
+    parts: campaign.PartsOfCases,
+) -> report.RunManifest:
+    return report.run_manifest(arguments, seed, _inputs(cases), len(cases), parts.values())
+
+
 def _inputs(cases: Sequence[scenario.Case]) -> dict[str, str]:
     return {name: digest for case in cases for name, digest in case.inputs.items()}
 
 
-def _show_slowest(results: Sequence[evaluation.CaseResult], count: int) -> None:
-    slowest = sorted(results, key=lambda result: result.duration, reverse=True)[:count]
+def _show_slowest(results: Sequence[evaluation.CaseResult], count: int | None) -> None:
+    """Show the slowest cases on stderr: `count` of them, all for 0, none for None."""
+    if count is None:
+        return
+    slowest = sorted(results, key=lambda result: result.duration, reverse=True)[: count or len(results)]
     message(f"uictest: the slowest {len(slowest)} of {len(results)} cases")
     for result in slowest:
         message(f"{result.duration:9.3f} s  {result.id}")
