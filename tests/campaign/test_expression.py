@@ -58,7 +58,7 @@ def test_a_malformed_expression_says_where(text: str, message: str) -> None:
     assert str(caught.value) == message
 
 
-def test_an_absurd_nesting_is_refused_before_the_stack_is_full() -> None:
+def test_an_absurd_nesting_is_rejected_before_the_stack_is_full() -> None:
     with pytest.raises(ExpressionError, match="inside each other"):
         parse("(" * 100_000)
 

@@ -18,7 +18,7 @@ def test_tables_lie_in_the_folder_of_their_study(made_up: StudyResult, tmp_path:
     assert (tmp_path / "made-up" / "data.csv").read_text() == 'time_s,what\n0.0,"a, b"\n0.5,\n'
 
 
-def test_columns_of_different_lengths_are_refused() -> None:
+def test_columns_of_different_lengths_are_rejected() -> None:
     with pytest.raises(ValueError, match="shorter"):
         table_text({"a": [1, 2], "b": [1]})
 

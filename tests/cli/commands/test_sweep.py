@@ -145,7 +145,7 @@ def test_a_shard_run_from_another_working_folder_is_merged(
     assert contents("merged/study") == contents("whole/study")
 
 
-def test_changed_inputs_are_refused_until_told_otherwise(call: Call, study: Path, counted: list[int]) -> None:
+def test_changed_inputs_are_rejected_without_restart(call: Call, study: Path, counted: list[int]) -> None:
     call("sweep", study)
     scenario = Path("scenarios/stop.yaml")
     scenario.write_text(scenario.read_text() + "seed: 5\n")
@@ -292,7 +292,7 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     assert 'failures="3"' in Path("junit.xml").read_text()
 
 
-def test_cases_that_no_criterion_applies_to_are_told(call: Call, study: Path) -> None:
+def test_cases_that_no_criterion_applies_to_are_counted(call: Call, study: Path) -> None:
     done = call("sweep", study, "--set", "criteria=[uic-541-05-appendix-b]", "-k", "friction=0.12")
     assert done.code == 0
     assert "32 cases: 32 skipped" in done.err
@@ -312,7 +312,7 @@ def test_quiet_shows_what_is_missed_and_nothing_else(call: Call, study: Path) ->
     assert last == "and 86 more, see summary.csv"
 
 
-def test_junit_with_no_place_is_refused_before_the_first_case(
+def test_junit_with_no_place_is_rejected_before_the_first_case(
     call: Call, study: Path, counted: list[int]
 ) -> None:
     for file, said in (("no/junit.xml", "there is no folder no"), ("scenarios", "scenarios is a folder")):
@@ -323,7 +323,7 @@ def test_junit_with_no_place_is_refused_before_the_first_case(
     assert call("sweep", study, "-k", "friction=0.09", "--junitxml", "reports/junit.xml").code == 0
 
 
-def test_nothing_is_said_to_be_kept_where_nothing_is(call: Call, study: Path) -> None:
+def test_no_chunks_are_reported_where_there_are_none(call: Call, study: Path) -> None:
     Path("reports").write_text("")
     answer = call("sweep", study)
     assert answer.code == 3

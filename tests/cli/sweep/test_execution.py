@@ -33,7 +33,7 @@ def folder(scenario: Write) -> Path:
 
 
 @pytest.mark.parametrize("options", [(), ("--restart",), ("--shard", "1/2"), ("--shard", "1/2", "--restart")])
-def test_a_second_one_is_refused_and_touches_nothing(call: Call, folder: Path, options: tuple[str]) -> None:
+def test_a_second_one_is_rejected_and_touches_nothing(call: Call, folder: Path, options: tuple[str]) -> None:
     with FolderLock(folder):
         answer = call(*COMMAND, *options)
         assert answer.code == 4

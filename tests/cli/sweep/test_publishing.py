@@ -41,7 +41,7 @@ def test_reports_are_written_in_the_formats_asked_for(call: Call, pads: Path) ->
     assert (FOLDER / "report.xlsx").read_bytes().startswith(b"PK")
 
 
-def test_a_format_there_is_not_is_refused_before_anything_runs(call: Call, pads: Path) -> None:
+def test_a_format_there_is_not_is_rejected_before_anything_runs(call: Call, pads: Path) -> None:
     answer = call("sweep", pads, "--report", "pdf")
     assert (answer.code, answer.out, FOLDER.exists()) == (4, "", False)
 
@@ -56,7 +56,7 @@ def test_a_finished_sweep_gives_further_formats(call: Call, pads: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["sweep.json", "summary.parquet"])
-def test_a_damaged_sweep_is_refused(call: Call, pads: Path, name: str) -> None:
+def test_a_damaged_sweep_is_rejected(call: Call, pads: Path, name: str) -> None:
     call("sweep", pads, "--report", "csv")
     (FOLDER / name).write_text("{}")
     answer = call("report", FOLDER, "--format", "xlsx")

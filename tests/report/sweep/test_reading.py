@@ -42,14 +42,14 @@ def test_its_recordings_are_read_where_they_are_to_be_drawn(
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{", '{"schema": "uictest/result/1"}'])
-def test_what_is_no_sweep_is_refused(folder: Path, text: str) -> None:
+def test_what_is_no_sweep_is_rejected(folder: Path, text: str) -> None:
     (folder / "sweep.json").write_text(text)
     with pytest.raises(ValueError, match=r"sweep\.json"):
         read_sweep(folder)
 
 
 @pytest.mark.parametrize("worst", [[{}], [1], 1])
-def test_a_case_that_is_none_is_refused(folder: Path, worst: object) -> None:
+def test_a_case_that_is_none_is_rejected(folder: Path, worst: object) -> None:
     document = json.loads((folder / "sweep.json").read_text())
     (folder / "sweep.json").write_text(json.dumps(document | {"worst": worst}))
     with pytest.raises(ValueError, match="not the result of a sweep"):

@@ -45,7 +45,7 @@ def test_cases_that_no_criterion_applies_to_are_counted_as_skipped() -> None:
         ([], ""),
     ],
 )
-def test_what_is_swept_is_said_by_its_ends(values: list[SweptValue], shown: str) -> None:
+def test_what_is_swept_is_described_by_its_ends(values: list[SweptValue], shown: str) -> None:
     assert swept_words(values) == shown
 
 
@@ -63,7 +63,7 @@ def test_no_case_has_no_share() -> None:
     assert (share_words(0, 0), bar(0, 0)) == ("–", "")  # noqa: RUF001 - a dash on paper
 
 
-def test_a_flip_is_said_in_the_direction_it_has() -> None:
+def test_a_flip_is_described_in_its_direction() -> None:
     low, high = WrittenValue("0.10"), WrittenValue("0.11")
     assert flip_words(Flip(low, high, met_at_low=True)) == "met up to 0.10, not met from 0.11"
     assert flip_words(Flip(low, high, met_at_low=False)) == "not met up to 0.10, met from 0.11"
@@ -74,7 +74,7 @@ def test_circumstances_are_listed() -> None:
     assert circumstances_words({}) == "all cases"
 
 
-def test_one_case_alone_is_worked_out_as_in_the_sweep_in_a_folder_of_its_own() -> None:
+def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own() -> None:
     manifest = {"file": "my study.sweep.yaml", "set": ["brake.command=80 %"], "seed": 3}
     words = shlex.split(command_alone(manifest))
     assert words[:3] == ["uictest", "sweep", "my study.sweep.yaml"]

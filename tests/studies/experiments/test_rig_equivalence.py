@@ -39,7 +39,7 @@ def test_a_rig_against_itself_shows_its_scatter(point: Point) -> None:
         assert (reading.low, reading.value, reading.high) == (-1.0, 0.0, 1.0)
 
 
-def test_differences_are_told_for_the_train_and_for_each_wheelset(point: Point) -> None:
+def test_differences_are_computed_for_the_train_and_for_each_wheelset(point: Point) -> None:
     found = list(differences(point))
     assert overall(found, "braking_distance", "none").value == -5.0
     vents = {

@@ -163,7 +163,7 @@ def test_choices_of_one_label_are_two_where_they_are_written_differently(load: L
 
 
 @pytest.mark.parametrize("text", ["", "[1, 2]\n", "schema: uictest/sweep/2\nname: a\n", "name: a\n"])
-def test_what_is_no_sweep_is_told_how_a_sweep_starts(load: Load, text: str) -> None:
+def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str) -> None:
     load()
     Path("other.sweep.yaml").write_text(text)
     with pytest.raises(ScenarioErrors, match="a sweep starts with `schema: uictest/sweep/1`"):
@@ -183,12 +183,12 @@ def test_what_is_no_sweep_is_told_how_a_sweep_starts(load: Load, text: str) -> N
         ),
     ],
 )
-def test_a_normal_without_spread_between_its_ends_is_refused(load: Load, normal: str, expected: str) -> None:
+def test_a_normal_without_spread_between_its_ends_is_rejected(load: Load, normal: str, expected: str) -> None:
     with pytest.raises(ScenarioErrors, match=rf"rail\.friction\.normal\.{expected}"):
         load(f"sample: {{size: 3, parameters: {{rail.friction: {{normal: {normal}}}}}}}\n")
 
 
-def test_all_errors_are_told_at_once(load: Load) -> None:
+def test_all_errors_are_reported_at_once(load: Load) -> None:
     with pytest.raises(ScenarioErrors) as caught:
         load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
     assert [error.line for error in caught.value.diagnostics] == [5, 6]
@@ -223,7 +223,7 @@ def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, 
     assert expected in error.message
 
 
-def test_the_error_of_an_axis_counts_the_values_that_are_refused_too(load: Load) -> None:
+def test_the_error_of_an_axis_counts_the_values_that_are_rejected_too(load: Load) -> None:
     with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
         load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
     with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
@@ -232,7 +232,7 @@ def test_the_error_of_an_axis_counts_the_values_that_are_refused_too(load: Load)
         load("grid: {rail.frictoin: [1, 2, 3]}\n")
 
 
-def test_only_the_first_refused_value_is_read_as_a_scenario(
+def test_only_the_first_rejected_value_is_read_as_a_scenario(
     load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read: list[object] = []
@@ -243,14 +243,14 @@ def test_only_the_first_refused_value_is_read_as_a_scenario(
     assert len(read) == 1
 
 
-def test_what_a_value_makes_of_an_option_is_told_at_the_value(load: Load) -> None:
+def test_what_a_value_does_to_an_option_is_reported_at_the_value(load: Load) -> None:
     with pytest.raises(
         ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' is inconsistent with initial_speed"
     ):
         load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
 
 
-def test_errors_inside_a_part_are_told_in_its_file(load: Load) -> None:
+def test_errors_inside_a_part_are_reported_in_its_file(load: Load) -> None:
     load()
     Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
     with pytest.raises(ScenarioErrors) as caught:

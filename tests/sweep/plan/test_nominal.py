@@ -35,7 +35,7 @@ def test_the_ends_are_those_of_the_draws(load: Load) -> None:
         assert (each.low, each.high) == (first.content, last.content)
 
 
-def test_a_range_beside_the_nominal_is_told_from_one_around_it(load: Load) -> None:
+def test_a_range_beside_the_nominal_is_distinguished_from_one_around_it(load: Load) -> None:
     inside = {each.key: each.contains_nominal for each in drawn_ranges(load(TEXT))}
     assert inside == {"rail.friction": False, "brake.command": True, "initial_speed": True}
     sentences = list(map(str, drawn_ranges(load(TEXT))))

@@ -73,7 +73,7 @@ def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
     assert found == [2]
 
 
-def test_a_scheduler_that_does_not_answer_is_said(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_does_not_answer_is_reported(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
     from uictest.sweep.running import cluster as module
 
     monkeypatch.setattr(module, "_TIMEOUT", "1s")
@@ -83,7 +83,7 @@ def test_a_scheduler_that_does_not_answer_is_said(load: Load, monkeypatch: pytes
         )
 
 
-def test_who_waits_for_workers_is_told_so_once(load: Load) -> None:
+def test_waiting_for_workers_is_reported_once(load: Load) -> None:
     from uictest.sweep.running.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
@@ -132,7 +132,7 @@ def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
 
 
 @pytest.mark.parametrize("address", ["foo", "foo:x", "tcp://127.0.0.1:", "127.0.0.1:99999", ":8786", ""])
-def test_what_is_no_address_is_refused(load: Load, capsys: pytest.CaptureFixture[str], address: str) -> None:
+def test_what_is_no_address_is_rejected(load: Load, capsys: pytest.CaptureFixture[str], address: str) -> None:
     from uictest.cli.entry import execute
 
     assert execute(["sweep", load(TEXT).file, "--dask", address]) == 4

@@ -67,7 +67,7 @@ def test_several_flips_are_all_found_and_noted(load: Load) -> None:
     assert found[0].note == "flips 2 times"
 
 
-def test_no_flip_is_said(load: Load) -> None:
+def test_no_flip_is_noted(load: Load) -> None:
     plan = load(TEXT)
     assert {scan.note for scan in search(plan, lambda mu, command: True)} == {"met at all 4 values"}
     assert {scan.note for scan in search(plan, lambda mu, command: False)} == {"met at none of the 4 values"}

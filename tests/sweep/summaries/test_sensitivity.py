@@ -82,7 +82,7 @@ def test_why_there_are_none(load: Load) -> None:
 
 
 @pytest.mark.parametrize(("width", "doubted"), [(0.15, False), (0.75, True)])
-def test_wide_intervals_are_told(width: float, doubted: bool) -> None:
+def test_wide_intervals_are_noted(width: float, doubted: bool) -> None:
     narrow, index = SobolIndex(0.5, 0.45, 0.55), SobolIndex(0.5, 0.5 - width / 2, 0.5 + width / 2)
     found = [SobolSensitivity("met", {}, "rail.friction", narrow, index)]
     assert bool(uncertainty_note(found)) == doubted
