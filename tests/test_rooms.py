@@ -1,0 +1,99 @@
+"""How the rooms of the package depend on each other."""
+
+import ast
+from collections.abc import Callable, Iterator
+from functools import cache
+from graphlib import TopologicalSorter
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import uictest
+
+PACKAGE = Path(uictest.__file__).parent
+LONGEST = 300
+"""Lines that a file may have: beyond, it holds two ideas."""
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(path): path for path in PACKAGE.rglob("*.py")}
+FACES = {
+    name: path.with_suffix(".pyi") for name, path in MODULES.items() if path.with_suffix(".pyi").is_file()
+}
+
+
+def room(module: str) -> str:
+    """Return the room or the module of the top level that a module belongs to."""
+    return ".".join(module.split(".")[:2])
+
+
+@cache
+def names_of_face(module: str) -> list[str]:
+    """Return the names that a face offers, none where a module is no face."""
+    if module not in FACES:
+        return []
+    nodes = ast.parse(FACES[module].read_text("utf-8")).body
+    return [alias.name for node in nodes if isinstance(node, ast.ImportFrom) for alias in node.names]
+
+
+@cache
+def imports(module: str) -> frozenset[str]:
+    """Return the modules of the package that a module imports anywhere, for types alone included."""
+    return frozenset(_imports(ast.parse(MODULES[module].read_text("utf-8"))))
+
+
+def _imports(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "uictest":
+            for alias in node.names:
+                name = f"{node.module}.{alias.name}"
+                of_a_face = alias.name in names_of_face(str(node.module))
+                yield name if name in MODULES and not of_a_face else str(node.module)
+
+
+def test_rooms_import_each_other_by_their_faces() -> None:
+    past_the_face = [
+        f"{module} imports {imported}"
+        for module in MODULES
+        for imported in imports(module)
+        if room(imported) not in (room(module), "uictest")
+        and imported not in FACES
+        and imported != room(imported)
+    ]
+    assert past_the_face == []
+
+
+@pytest.mark.parametrize("part", [room, str], ids=["rooms", "modules"])
+def test_imports_run_in_one_direction(part: Callable[[str], str]) -> None:
+    graph: dict[str, set[str]] = {}
+    for module in MODULES:
+        needed = {part(imported) for imported in imports(module)} - {part(module), "uictest"}
+        graph.setdefault(part(module), set()).update(needed)
+    # Raises CycleError, which names the circle.
+    assert len(list(TopologicalSorter(graph).static_order())) > 1
+
+
+@pytest.mark.parametrize("face", FACES)
+def test_every_name_of_a_face_is_there(face: str) -> None:
+    names = names_of_face(face)
+    module = import_module(face)
+    assert sorted(module.__all__) == sorted(names)
+    assert [name for name in names if not resolves(module, name)] == []
+
+
+def resolves(module: object, name: str) -> bool:
+    """Return whether a name of a face leads somewhere; one that needs an extra may lack the extra."""
+    try:
+        return hasattr(module, name)
+    except ModuleNotFoundError as error:
+        return not str(error.name).startswith("uictest")
+
+
+def test_no_file_is_too_long() -> None:
+    lengths = {name: len(path.read_text("utf-8").splitlines()) for name, path in MODULES.items()}
+    assert {name: length for name, length in lengths.items() if length > LONGEST} == {}
