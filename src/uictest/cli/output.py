@@ -65,3 +65,8 @@ def coloured(choice: str, stream: TextIO) -> bool:
         return choice == "always"
     plain = os.environ.get("NO_COLOR", "") != "" or os.environ.get("TERM") == "dumb"
     return stream.isatty() and not plain
+
+
+def interactive(stream: TextIO) -> bool:
+    """Return whether a person watches the stream: it is a terminal, and not one of a CI service."""
+    return stream.isatty() and os.environ.get("CI", "").lower() in ("", "0", "false")

@@ -8,8 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from time import monotonic
 
-from uictest.cli.display import interactive
-from uictest.cli.output import message
+from uictest.cli.output import interactive, message
 
 HEARTBEAT = 30.0  # seconds between two signs of life where nobody watches
 

@@ -9,8 +9,7 @@ from typing import Annotated
 import typer
 
 from uictest import campaign, field_data, recording, report, scenario as scenarios
-from uictest.cli import options, recorded_batch, recordings
-from uictest.cli.display import chosen_display
+from uictest.cli import options, recordings, running
 from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_batch
 from uictest.cli.output import data, message
 from uictest.recording import formats
@@ -77,15 +76,15 @@ def evaluate(
         return _list(files, mapped)
     statements = [*_statements(criteria, rail, position, wsp), *(overrides or ())]
     case_of = _case_of_stop(scenario, expression, statements, trusted)
-    stops = recorded_batch.read_files(files, mapped)
+    stops = running.read_files(files, mapped)
     cases = [_case(stop, case_of, inputs) for stop in stops]
     request = campaign.RecordingRequest(recorded.value)
-    batch = recorded_batch.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit)
-    done, place = recorded_batch.run_recorded(
-        batch, chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    batch = running.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit)
+    done, place = running.run_recorded(
+        batch, running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     )
     if not quiet:
-        recorded_batch.write_preparation(stops)
+        running.write_preparation(stops)
         message(f"uictest: {report.tally(done.results)}; reports in {place}")
     return of_batch(done)
 
@@ -105,7 +104,7 @@ def _case_of_stop(
     expression: str | None,
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
-) -> recorded_batch.CaseOfStop:
+) -> running.CaseOfStop:
     """Return what makes a case of a recording. Raises InvalidInputError where too little is stated."""
     if scenario is not None:
         case = recordings.one_case(scenario, expression, statements, trusted)
@@ -121,9 +120,7 @@ def _case_of_stop(
     return lambda name, speed: field_data.stated_case(name, speed, statements, trusted or ())
 
 
-def _case(
-    stop: recorded_batch.RecordedFile, case_of: recorded_batch.CaseOfStop, inputs: dict[str, str]
-) -> scenarios.Case:
+def _case(stop: running.RecordedFile, case_of: running.CaseOfStop, inputs: dict[str, str]) -> scenarios.Case:
     try:
         return stop.case(case_of, inputs)
     except yaml.ScenarioErrors as errors:

@@ -11,10 +11,9 @@ from typing import Annotated
 import typer
 
 from uictest import controllers, rig, studies
-from uictest.cli.display import interactive
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Colour, Colouring, Jobs, PlainFormat, Quiet, Verbosity
-from uictest.cli.output import coloured, data, message
+from uictest.cli.output import coloured, data, interactive, message
 from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
 

@@ -9,9 +9,7 @@ from typing import Annotated
 import typer
 
 from uictest import campaign, evaluation, report, scenario
-from uictest.cli import options
-from uictest.cli.baseline import BaselineChoice, accept_or_compare, open_baseline, scope_of
-from uictest.cli.batch import Batch, run_batch
+from uictest.cli import options, running
 from uictest.cli.cases import (
     case_lines,
     cases_json,
@@ -20,9 +18,7 @@ from uictest.cli.cases import (
     scenario_paths,
     select_cases,
 )
-from uictest.cli.display import chosen_display
 from uictest.cli.exit_codes import ExitCode, of_batch, worst
-from uictest.cli.last_failed import failed_last
 from uictest.cli.output import data, message
 
 LastFailed = Annotated[
@@ -73,7 +69,7 @@ def run(
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
     names = options.report_formats(formats, "--report", report.format_names())
-    choice = BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
+    choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     cases = load_cases(paths, overrides, seed, trusted)
     selected = _selected(cases, expression, tag, output if last_failed else None)
     if not selected:
@@ -83,9 +79,9 @@ def run(
         data(cases_json(selected) if shown is options.Format.JSON else case_lines(selected))
         return ExitCode.MET
     searched = () if expression or tag or last_failed else scenario_paths(paths)
-    accepted = open_baseline(choice, scope_of(selected, searched))
+    accepted = running.open_baseline(choice, running.scope_of(selected, searched))
     parts = campaign.parts_of_cases(selected)
-    batch = Batch(
+    batch = running.Batch(
         cases=selected,
         parts=parts,
         manifest=_manifest(context.obj.arguments, seed, selected, parts),
@@ -99,9 +95,11 @@ def run(
         verbose=verbosity > 0,
         baseline=None if accept else accepted,
     )
-    done, published = run_batch(batch, chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0))
+    done, published = running.run_batch(
+        batch, running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    )
     _show_slowest(done.results, durations)
-    return worst(of_batch(done), accept_or_compare(choice, accepted, done, published, quiet=quiet))
+    return worst(of_batch(done), running.accept_or_compare(choice, accepted, done, published, quiet=quiet))
 
 
 def _selected(
@@ -109,7 +107,7 @@ def _selected(
 ) -> list[scenario.Case]:
     """Return the cases selected by expression and tag, and by their last run below `last_run`, if given."""
     selected = select_cases(cases, expression, tag)
-    return selected if last_run is None else failed_last(selected, last_run)
+    return selected if last_run is None else running.failed_last(selected, last_run)
 
 
 def _manifest(

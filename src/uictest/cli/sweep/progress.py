@@ -8,8 +8,7 @@ from collections.abc import Callable, Iterator
 from time import monotonic
 
 from uictest.cli import progress as steps
-from uictest.cli.display import interactive
-from uictest.cli.output import message
+from uictest.cli.output import interactive, message
 
 Advance = Callable[[int], None]
 

@@ -111,7 +111,7 @@ def test_a_terminal_table_marks_the_case_that_differs(
 ) -> None:
     scenario("a", DIFFERENT)
     monkeypatch.setenv("COLUMNS", "120")
-    monkeypatch.setattr("uictest.cli.display.interactive", lambda stream: True)
+    monkeypatch.setattr("uictest.cli.running.display.interactive", lambda stream: True)
     shown = call("run", "--baseline", baseline, "--color", "never").out
     assert ["a", "differs", "fail"] in [line.split()[:3] for line in shown.splitlines()]
     assert "baseline: outcome was pass, is fail" in shown

@@ -8,9 +8,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from uictest import campaign, field_data, recording, report, scenario
-from uictest.cli.display import Display
 from uictest.cli.output import message
 from uictest.cli.recordings import each_file, names_of
+from uictest.cli.running.display import Display
 from uictest.scenario import yaml
 from uictest.units import KILOMETRE_PER_HOUR
 

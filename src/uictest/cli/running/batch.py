@@ -9,10 +9,10 @@ from pathlib import Path
 from time import perf_counter
 
 from uictest import campaign, comparison, recording, report, rig, scenario
-from uictest.cli.display import Display
-from uictest.cli.drawing import Drawing
 from uictest.cli.output import message
 from uictest.cli.progress import announce_compilation, progress
+from uictest.cli.running.display import Display
+from uictest.cli.running.drawing import Drawing
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ import pytest
 
 from uictest import campaign
 from uictest.campaign import BatchResult, CaseRun, RecordingRequest
-from uictest.cli.drawing import Drawing
+from uictest.cli.running.drawing import Drawing
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
 from uictest.report.page import DRAWN

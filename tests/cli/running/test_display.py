@@ -5,8 +5,9 @@ from contextlib import redirect_stdout
 
 import pytest
 
-from uictest.cli.display import Annotations, Document, Lines, VerdictTable, chosen_display, interactive
 from uictest.cli.options import Colour, Format
+from uictest.cli.output import interactive
+from uictest.cli.running.display import Annotations, Document, Lines, VerdictTable, chosen_display
 from uictest.evaluation import CaseResult
 from uictest.report import RunContent
 

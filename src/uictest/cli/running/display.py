@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Sequence
-from typing import Protocol, TextIO
+from typing import Protocol
 
 from uictest import evaluation, report
 from uictest.cli.options import Colour, Format
-from uictest.cli.output import coloured, data
+from uictest.cli.output import coloured, data, interactive
 
 _ANSI = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _ANSI_END = "\x1b[0m"
@@ -137,8 +136,3 @@ def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool)
 
 def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
     return [result for result in content.results if not (quiet and content.passes(result))]
-
-
-def interactive(stream: TextIO) -> bool:
-    """Return whether a person watches the stream: it is a terminal, and not one of a CI service."""
-    return stream.isatty() and os.environ.get("CI", "").lower() in ("", "0", "false")

@@ -10,9 +10,9 @@ from pathlib import Path
 import typer
 
 from uictest import campaign, comparison, evaluation, recording, report, scenario
-from uictest.cli.batch import Published
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.output import message
+from uictest.cli.running.batch import Published
 from uictest.scenario import yaml
 
 
