@@ -1,19 +1,22 @@
 """Plain Python and compiled code give the same bits."""
 
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.controllers import CONTROLLERS
+from uictest.controllers import CONTROLLERS, Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics.arithmetic import maximum
 from uictest.physics.flow import mass_flow, orifice_law
-from uictest.rig.backends.compiled import translate, with_controller
+from uictest.rig.backends.compiled import sources, translate, with_controller
 from uictest.rig.backends.finished_stop import empty_trace
+from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop
+from uictest.rig.bench.step import run_bench_test
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 
@@ -103,6 +106,22 @@ def test_a_stop_with_one_controller_compiles_no_other(rig: Any) -> None:
     translate(run_stop, note, with_controller(CONTROLLERS["threshold"], note, {}))
     assert "uictest.controllers.built_in.threshold" in functions
     assert "uictest.controllers.built_in.slip_band" not in functions
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS.values(), ids=lambda controller: controller.name)
+def test_every_translated_function_decides_whether_code_is_compiled_anew(controller: Controller) -> None:
+    """Else a change of its source would run the code of before."""
+    files: set[Path] = set()
+
+    def note(function: Any) -> Any:
+        files.add(Path(function.__code__.co_filename))
+        return function
+
+    done = with_controller(controller, note, {})
+    for function in (run_stop, run_bench_test, run_queue):
+        translate(function, note, done)
+    assert len(files) > 10
+    assert files <= set(sources())
 
 
 def test_a_stop_made_without_a_controller_says_so(rig: Any) -> None:

@@ -25,7 +25,12 @@ from uictest.rig.model.controller import begin, decide
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
-_SOURCES = ("record.py", "physics", "controllers", "measures", "lanes", "rig")
+_SOURCES = (
+    "record.py",
+    *("physics", "controllers", "lanes", "rig"),
+    *("measures/records.py", "measures/layouts.py", "measures/train.py", "measures/wheelset.py"),
+)
+"""Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
 
 
@@ -101,9 +106,11 @@ def callback(function: Function, *arguments: Any) -> Any:
 def compiler_inputs() -> bytes:
     """Return everything that compiled code depends on beside the processor: sources, options, versions."""
     versions = (sys.version_info[:2], *(metadata.version(name) for name in ("numba", "llvmlite", "numpy")))
+    return b"".join([repr((OPTIONS, versions)).encode(), *(source.read_bytes() for source in sources())])
+
+
+def sources() -> list[Path]:
+    """Return the files that compiled code is made from."""
     package = Path(__file__).parents[2]
-    rooms = (package / name for name in _SOURCES)
-    sources = [
-        source for room in rooms for source in (sorted(room.rglob("*.py")) if room.is_dir() else [room])
-    ]
-    return b"".join([repr((OPTIONS, versions)).encode(), *(source.read_bytes() for source in sources)])
+    places = [package / name for name in _SOURCES]
+    return [file for place in places for file in (sorted(place.rglob("*.py")) if place.is_dir() else [place])]

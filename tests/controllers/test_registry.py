@@ -1,0 +1,74 @@
+"""A controller is one module: found, offered to scenarios and run without a further edit."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.controllers import CONTROLLERS, built_in, registry
+from uictest.physics import VENT
+from uictest.rig import StopInputs, assemble
+from uictest.rig.backends.finished_stop import run_to_end
+from uictest.rig.backends.plain import plain_stop
+from uictest.scenario import ScenarioErrors, load
+from uictest.scenario.parts.controller import CONTROLLER_MODELS, _model
+
+MODULE = '''
+from uictest.controllers import ControlledWheelset, Controller, ControllerParameters, TrainMemory
+from uictest.controllers.contract import share
+from uictest.physics import VENT
+
+
+class Parameters(ControllerParameters):
+    """Vent whatever happens."""
+
+    lower_slide: float = share("Not used.")
+
+
+def begin(train, wheelsets, speed):
+    train.reference_speed = speed
+
+
+def decide(train, wheelsets, parameters):
+    for i in range(4):
+        wheelsets[i].valve_command = VENT
+
+
+CONTROLLER = Controller("always-vents", Parameters, TrainMemory, ControlledWheelset, begin, decide)
+'''
+STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
+
+
+def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "always_vents.py").write_text(MODULE)
+    (tmp_path / "stop.yaml").write_text(STOP)
+    monkeypatch.setattr(built_in, "__path__", [*built_in.__path__, str(tmp_path)])
+    controller = registry._built_in()["always-vents"]
+    monkeypatch.delitem(sys.modules, "uictest.controllers.built_in.always_vents")
+    model = _model(controller)
+    assert model.__name__ == "AlwaysVentsController"
+    assert {
+        "cycle_time",
+        "reference_deceleration",
+        "minimum_speed",
+        "lower_slide",
+    } <= model.model_fields.keys()
+    inputs = StopInputs(*assemble(load([tmp_path / "stop.yaml"])[0])[:2], controller)
+    inputs.parameters.cycles = 1
+    with np.errstate(invalid="ignore"):  # no air is drawn within one cycle
+        finished = run_to_end(plain_stop(controller), inputs)
+    assert finished.wheelsets.valve_command.tolist() == [VENT] * 4
+
+
+def test_every_controller_has_a_model_that_scenarios_choose_by_its_name() -> None:
+    assert CONTROLLER_MODELS.keys() == CONTROLLERS.keys()
+    for name, model in CONTROLLER_MODELS.items():
+        assert model.__doc__ == CONTROLLERS[name].parameters.__doc__
+
+
+def test_a_conflict_shows_values_as_the_user_wrote_them(tmp_path: Path) -> None:
+    path = tmp_path / "stop.yaml"
+    path.write_text(STOP + "controller: {extends: threshold, hold_limit: 9 ms}\n")
+    with pytest.raises(ScenarioErrors, match="9 ms is shorter than one controller cycle \\(10 ms\\)"):
+        load([path])
