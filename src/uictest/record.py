@@ -5,9 +5,11 @@ the layout in memory from it. A function annotated with ``Car`` is passed a nump
 a record of compiled code or any object with these attributes: annotations are not evaluated.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from inspect import get_annotations
+from types import MappingProxyType
 from typing import Any, get_args, get_origin, get_type_hints
 
 Conversion = Callable[[float], float]
@@ -60,9 +62,15 @@ def units_of(record: type[Record]) -> tuple[tuple[str, str], ...]:
     return tuple((name, getattr(record, name)) for name in fields_of(record))
 
 
-def fields_of(record: type[Record]) -> dict[str, Any]:
+def fields_of(record: type[Record]) -> Mapping[str, Any]:
     """Return the annotated fields of a record in the order of their declaration, those of its bases first."""
-    return get_type_hints(record, include_extras=True)
+    declaration: Any = record  # mypy does not take a class for hashable
+    return _fields_of(declaration)
+
+
+@cache
+def _fields_of(record: Any) -> Mapping[str, Any]:
+    return MappingProxyType(get_type_hints(record, include_extras=True))
 
 
 def layout_of(record: type[Record], *additions: type[Record]) -> Any:
