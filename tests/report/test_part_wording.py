@@ -125,9 +125,15 @@ def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once(
 def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
     make_sweep: Callable[..., SweepContent],
 ) -> None:
-    steady = dataclasses.replace(make_sweep(varied=["rail.friction"]), base={"controller": CONTROLLER})
+
+    def of_varied(key: str) -> SweepContent:
+        content = make_sweep(varied=[key])
+        result = dataclasses.replace(content.result, base={"controller": CONTROLLER})
+        return dataclasses.replace(content, result=result)
+
+    steady = of_varied("rail.friction")
     assert f"changed in every case: {CHANGE}" in sweep_page_html(steady)
-    swept = dataclasses.replace(make_sweep(varied=[SLIP.key]), base={"controller": CONTROLLER})
+    swept = of_varied(SLIP.key)
     html = sweep_page_html(swept)
     assert "changed in every case" not in html
     assert "3 km/h <small>varied</small>" in html

@@ -76,7 +76,7 @@ def comparison_json(comparison: Comparison) -> str:
 
 
 def verdict_line(comparison: Comparison) -> str:
-    """Return one line that says how the comparison came out."""
+    """Return the result of the comparison on one line."""
     count = counted(comparison.compared, "quantity").replace("quantitys", "quantities")
     if not comparison.differences:
         return f"{count} compared, no difference"

@@ -59,7 +59,7 @@ def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) 
 
 
 def case_explanation(result: evaluation.CaseResult, differences: Sequence[Difference]) -> list[str]:
-    """Return why a case came out as it did, and which quantities left their tolerance."""
+    """Return the reasons for the outcome of a case, and the quantities out of tolerance."""
     outcome, *reasons = explanation(result)
     if differences:
         outcome += ", differs from the baseline"

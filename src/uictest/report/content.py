@@ -69,7 +69,7 @@ class RunContent:
         return case_word(result, self.differences(result.id))
 
     def explanation(self, result: evaluation.CaseResult) -> list[str]:
-        """Return why a case came out as it did, and what of it differs from the baseline."""
+        """Return the reasons for the outcome of a case, and its differences from the baseline."""
         return case_explanation(result, self.differences(result.id))
 
     @property

@@ -15,7 +15,7 @@ _AS_EXPECTED: Final = ("pass", "expected fail", "expected invalid", "skipped")
 _NOT_AS_EXPECTED: Final = ("fail", "invalid", "inconclusive", "unexpected pass", "unexpected skip", "error")
 
 CASE_WORDS: Final = (*_AS_EXPECTED, *_NOT_AS_EXPECTED, DIFFERS)
-"""Words that say how a case came out, in the order in which they are counted."""
+"""Words for cases, by outcome and expectation, in the order in which they are counted."""
 
 _NAMED = 3
 """Names that a list shows before it counts the rest."""
@@ -71,7 +71,7 @@ def definition_sentence(verdict: evaluation.Verdict) -> str:
 
 
 def explanation(result: evaluation.CaseResult) -> list[str]:
-    """Return why a case came out as it did: expectation, reason, and each criterion that decided it."""
+    """Return the reasons for an outcome: expectation, reason, and each criterion that decided it."""
     deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
     # With criteria the reason of a result repeats theirs; without any it is all there is.
     reason = [printable(result.reason)] if result.reason and not deciding else []
@@ -94,7 +94,7 @@ def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
 
 
 def outcome_word(outcome: str, *, met: bool) -> str:
-    """Return how a case came out: its outcome, and whether that is against the ordinary.
+    """Return the word for an outcome that was expected, or was not.
 
     A case that is expected to fail, or to be invalid, and does so is an `expected fail` or `expected
     invalid`. A case that should not pass and does is an `unexpected pass`; one to which no criterion applies
@@ -111,7 +111,7 @@ def outcome_word(outcome: str, *, met: bool) -> str:
 
 
 def result_word(result: evaluation.CaseResult) -> str:
-    """Return the word of `CASE_WORDS` that says how a case came out, whatever its baseline."""
+    """Return the word of a case of `CASE_WORDS`, without regard to a baseline."""
     return outcome_word(result.outcome, met=result.met)
 
 

@@ -83,7 +83,7 @@ class Document:
 
 
 class VerdictTable:
-    """A table at the end, and below it why cases came out otherwise than expected."""
+    """A table at the end, and below it the reasons of cases that are not as expected."""
 
     def __init__(self, *, colour: bool, quiet: bool, verbose: bool) -> None:
         self._colour = colour

@@ -44,7 +44,7 @@ def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
 
 
 def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per case and criterion, with the definitions its verdict rests on."""
+    """Return one row per case and criterion, with the definitions that its verdict depends on."""
     return csv_text(["id", "criterion", *_CRITERION_FIELDS, "definition"], _criterion_rows(results))
 
 

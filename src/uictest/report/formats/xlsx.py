@@ -53,7 +53,7 @@ def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row
 
 
 def result_row(result: evaluation.CaseResult) -> Row:
-    """Return how a case came out, its figures, its parameters and the reason."""
+    """Return the word of a case, its outcome, figures, parameters and reason."""
     row: Row = {"verdict": result_word(result)}
     row |= {"outcome": result.outcome, "expect": result.expect}
     row |= result.measures or {}

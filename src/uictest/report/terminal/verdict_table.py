@@ -80,7 +80,7 @@ def _largest(result: evaluation.CaseResult, figure: str) -> float | None:
 def explanation_text(
     content: RunContent, result: evaluation.CaseResult, *, every_criterion: bool = False
 ) -> Text:
-    """Return why a case came out as it did, or what every criterion found, as lines below its id."""
+    """Return the reasons for the outcome of a case, or all its verdicts, as lines below its id."""
     from rich.text import Text
 
     word = content.word(result)
