@@ -1,7 +1,8 @@
-"""What happens once per controller cycle: sensors are read, the controller decides, the valves are told.
+"""What happens once per controller cycle: read the sensors, let the controller decide, set the valves.
 
-Sensors are read and valves are told without branches, in lanes too; what lies between is scalar code that may
-branch and look up tables. Between two cycles :func:`uictest.rig.model.step.step` runs alone.
+Reading sensors and setting valves has no branches and runs in lanes, too; the controller between them is
+scalar code that may branch and look up tables. Between two cycles :func:`uictest.rig.model.step.step` runs
+alone.
 """
 
 from collections.abc import Sequence
@@ -37,7 +38,7 @@ def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
-    """Find the friction under each wheelset and let the controller decide on what was sensed.
+    """Look up the friction under each wheelset and let the controller decide from the sensor readings.
 
     Args:
         car: car record.
@@ -54,7 +55,7 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
 
 
 def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Set the valve targets for the steps of the cycle, which begins now."""
+    """Set the valve targets of all wheelsets for the steps of this cycle."""
     command_valve(wheelsets[0], p)
     command_valve(wheelsets[1], p)
     command_valve(wheelsets[2], p)
@@ -85,7 +86,7 @@ def sensor_noise(p: Parameters, cycle: int, channel: int) -> float:
 
 
 def command_valve(wheelset: Wheelset, p: Parameters) -> None:
-    """Put the newest command into the register and find what the delay lets through in this cycle."""
+    """Register the newest command and set the targets that take effect in this cycle, after the delay."""
     command = select(p.wsp_active == 0, FILL, wheelset.valve_command)
     register = remember(wheelset.command_register, command)
     wheelset.valve_command = command

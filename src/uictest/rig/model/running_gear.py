@@ -36,7 +36,7 @@ HIGHEST_LOAD = 2.5
 
 
 def clear_forces(frame: Frame) -> None:
-    """Forget the forces on a bogie or the car body before they are summed anew."""
+    """Clear the forces on a bogie or the car body before they are summed anew."""
     frame.longitudinal_force = 0.0
     frame.vertical_force = 0.0
     frame.moment = 0.0
@@ -106,7 +106,7 @@ def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -
 def bracket_slip(wheelset: Wheelset, p: Parameters) -> None:
     """Bracket the slip speed at the end of the step and begin from the last one.
 
-    The brake is taken to turn the wheelset with its full torque; a lock is found when the step is done.
+    The full brake torque is assumed to act on a turning wheelset; a lock is detected at the end of the step.
     """
     load_ratio = minimum(wheelset.wheel_load * p.load_scale, HIGHEST_LOAD)
     wheelset.contact_stiffness = contact_stiffness(p.creep_stiffness, load_ratio)

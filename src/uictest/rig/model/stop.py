@@ -39,8 +39,8 @@ def run_stop(
 ) -> int:
     """Run one stop on zeroed records, fill the measures and return the number of rows written to ``trace``.
 
-    Steps run in whole controller cycles. Standstill is found within the step and the cycle is finished,
-    so that a stop runs the same steps alone or beside others. ``trace`` has a row for every
+    Steps run in whole controller cycles. Standstill is interpolated within the step and the cycle is
+    finished, so that a stop runs the same steps alone or beside others. ``trace`` has a row for every
     ``steps_per_sample`` steps; with 0 nothing is recorded. Recording reads the state and never changes it.
     """
     start(car, bogies, wheelsets, p)
