@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import uictest
 from uictest.sweep import CaseSelection, Plan, load_sweep, sweep_manifest
-from uictest.sweep.running.manifest import differences
+from uictest.sweep.running.manifest import SOURCES, differences
 
 Load = Callable[..., Plan]
+PACKAGE = Path(uictest.__file__).parent
+WITHOUT_INFLUENCE = {"campaign", "identification", "library", "recording", "report", "user_cache"}
+"""Rooms that select cases, serve the bench, keep files or write reports; the library's files are inputs."""
 
 
 def manifest(plan: Plan) -> dict[str, Any]:
@@ -52,3 +57,25 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
 )
 def test_differences_are_named_as_users_know_them(name: str, one: Any, other: Any, message: str) -> None:
     assert list(differences({name: one}, {name: other})) == [message]
+
+
+def imported_rooms(path: Path) -> set[str]:
+    """Return the rooms and modules of the top level that a module imports."""
+    rooms = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module == "uictest":
+            rooms |= {alias.name for alias in node.names if alias.name != "__version__"}
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("uictest."):
+            rooms.add(str(node.module).split(".")[1])
+    return rooms
+
+
+def test_the_digest_of_the_program_covers_what_its_sources_import() -> None:
+    covered = {name.removesuffix(".py") for name in SOURCES}
+    modules = [
+        path
+        for name in SOURCES
+        for path in ([PACKAGE / name] if name.endswith(".py") else (PACKAGE / name).rglob("*.py"))
+    ]
+    imported = set().union(*map(imported_rooms, modules))
+    assert imported <= covered | WITHOUT_INFLUENCE

@@ -12,7 +12,7 @@ from uictest.scenario.yaml import Inconsistency, Model
 def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
     """Return the scenario with other values at the dotted keys of `settings`.
 
-    Nothing is validated: the values must be valid, and their combination is checked by :func:`refusals`.
+    Nothing is validated: the values must be valid, and `inconsistencies` checks their combination.
     """
     for key in outermost_first(settings):
         scenario = _changed(scenario, key.split("."), settings[key])

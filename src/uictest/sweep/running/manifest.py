@@ -16,7 +16,11 @@ from uictest.report import named_parts
 from uictest.sweep.running.case_selection import CaseSelection
 
 SCHEMA: Final = "uictest/sweep-manifest/1"
-_ROOMS: Final = ("physics", "controllers", "measures", "lanes", "rig", "evaluation", "scenario", "sweep")
+SOURCES: Final = (
+    *("physics", "controllers", "measures", "lanes", "rig", "evaluation", "scenario", "sweep"),
+    *("record.py", "units.py"),
+)
+"""Rooms and modules of the package that determine the result of a case."""
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
 _LIBRARY: Final = "library:"
 _LABELS: Final = {
@@ -107,8 +111,9 @@ def program_digest() -> str:
     """Return a digest of the sources that determine the result of a case."""
     digest = hashlib.sha256()
     package = Path(__file__).parents[2]
-    for room in _ROOMS:
-        for source in sorted((package / room).rglob("*.py")):
+    for name in SOURCES:
+        place = package / name
+        for source in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
             digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
     return digest.hexdigest()[:16]
 
