@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.campaign import subjects_of
+from uictest.campaign import descriptions_of
 from uictest.report import CaseDescription, subjects_form
 from uictest.report.document import read_subjects
 from uictest.scenario import load
@@ -15,7 +15,7 @@ _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\nin
 def _subject(tmp_path: Path, text: str = "") -> CaseDescription:
     path = tmp_path / "stop.yaml"
     path.write_text(_TEXT + text)
-    return subjects_of(load([path]))["stop"]
+    return descriptions_of(load([path]))["stop"]
 
 
 def test_a_subject_is_in_the_users_words(tmp_path: Path) -> None:

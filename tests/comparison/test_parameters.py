@@ -6,7 +6,7 @@ from typing import Any
 
 from uictest.comparison import (
     ParameterChange,
-    ParameterValue,
+    ParameterOfRun,
     Tolerances,
     compare_runs,
     comparison_html,
@@ -39,8 +39,8 @@ def test_the_parameter_that_changed_is_named(make_run: MakeRun) -> None:
     assert found.parameters == [
         ParameterChange(
             "controller.slip_threshold",
-            ParameterValue(4 / 3.6, "m/s", "4 km/h"),
-            ParameterValue(3 / 3.6, "m/s", "3 km/h"),
+            ParameterOfRun(4 / 3.6, "m/s", "4 km/h"),
+            ParameterOfRun(3 / 3.6, "m/s", "3 km/h"),
             ("dry-120",),
         )
     ]

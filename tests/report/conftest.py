@@ -16,7 +16,7 @@ from uictest.recording import Recording
 from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.result import read_sweep_document
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 
@@ -72,7 +72,7 @@ def make_sweep(tmp_path: Path) -> Callable[..., SweepContent]:
     def make(
         worst: tuple[CaseResult, ...] = (),
         text: str = "90 %",
-        traces: Mapping[str, Trace] | None = None,
+        traces: Mapping[str, PlotTrace] | None = None,
         **findings: object,
     ) -> SweepContent:
         (tmp_path / "sweep").mkdir(exist_ok=True)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.report.manifest import RunManifest, digest, manifest_form, read_manifest, run_manifest
+from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest, run_manifest
 
 
 def test_folders_of_the_machine_are_not_part_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -41,9 +41,9 @@ def test_versions_of_what_decides_the_numbers_are_named() -> None:
 
 def test_the_digest_is_short_and_follows_the_content() -> None:
     here, there = {"a": "1", "b": "2"}, {"b": "2", "a": "1"}
-    assert digest(RunManifest(inputs=here)) == digest(RunManifest(inputs=there))
-    assert digest(RunManifest(seed=1)) != digest(RunManifest(seed=2))
-    assert len(digest(RunManifest())) == 8
+    assert manifest_digest(RunManifest(inputs=here)) == manifest_digest(RunManifest(inputs=there))
+    assert manifest_digest(RunManifest(seed=1)) != manifest_digest(RunManifest(seed=2))
+    assert len(manifest_digest(RunManifest())) == 8
 
 
 def test_it_is_read_back_and_what_is_none_is_rejected() -> None:

@@ -3,17 +3,17 @@ from __future__ import annotations
 from hypothesis import given, strategies as st
 from markdown_it import MarkdownIt
 
-from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
+from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 
 
 def _table(rows: list[str]) -> MarkdownTable:
-    return MarkdownTable(("case", "figure"), "lr", rows, "more are elsewhere.")
+    return MarkdownTable(("case", "number_cell"), "lr", rows, "more are elsewhere.")
 
 
 def test_a_table_says_which_columns_are_figures() -> None:
-    assert _table([row(["a", "1"])]).within(1000) == "| case | figure |\n|---|--:|\n| a | 1 |\n"
+    assert _table([row(["a", "1"])]).within(1000) == "| case | number_cell |\n|---|--:|\n| a | 1 |\n"
 
 
 def test_rows_without_room_are_counted() -> None:
@@ -22,7 +22,7 @@ def test_rows_without_room_are_counted() -> None:
 
 
 def test_without_rows_a_table_shows_its_columns() -> None:
-    assert _table([]).within(1000) == "| case | figure |\n|---|--:|\n"
+    assert _table([]).within(1000) == "| case | number_cell |\n|---|--:|\n"
 
 
 @given(st.lists(st.text(max_size=50)), st.integers(-100, 3000))
@@ -48,5 +48,5 @@ def test_prose_holds_no_markup(text: str) -> None:
 
 
 def test_no_figure_is_a_dash() -> None:
-    shown = [figure(value, ".1f") for value in (1.25, None, float("nan"))]
+    shown = [number_cell(value, ".1f") for value in (1.25, None, float("nan"))]
     assert shown == ["1.2", "–", "–"]  # noqa: RUF001 - a dash on paper

@@ -1,6 +1,6 @@
 from .batch import BatchResult as BatchResult, run_cases as run_cases
 from .case import CaseRun as CaseRun, RecordingRequest as RecordingRequest, run_case as run_case
-from .descriptions import subjects_of as subjects_of
+from .descriptions import descriptions_of as descriptions_of
 from .expression import ExpressionError as ExpressionError, parse as parse
 from .parts import (
     PartsOfCases as PartsOfCases,

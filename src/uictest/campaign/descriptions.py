@@ -8,12 +8,12 @@ from uictest import report
 from uictest.scenario import Case, Scenario, is_changed, yaml
 
 
-def subjects_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
+def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
     """Return the description of every case by its id."""
-    return {case.id: subject_of(case.scenario) for case in cases}
+    return {case.id: description_of(case.scenario) for case in cases}
 
 
-def subject_of(scenario: Scenario) -> report.CaseDescription:
+def description_of(scenario: Scenario) -> report.CaseDescription:
     """Return title, tags and the main settings of a scenario."""
     return report.CaseDescription(scenario.title, tuple(scenario.tags), _settings(scenario))
 

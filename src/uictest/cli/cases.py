@@ -11,7 +11,7 @@ import typer
 
 from uictest import campaign, scenario
 from uictest.cli.exit_codes import InvalidInputError
-from uictest.report import Column, aligned, columns_not_shown, counted, fitted, printable
+from uictest.report import TableColumn, aligned, columns_not_shown, counted, fitted, printable
 from uictest.scenario import yaml
 
 DEFAULT_FOLDER = Path("scenarios")
@@ -72,9 +72,9 @@ def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> st
 def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
     """Yield ids, titles and tags as a table in lines of at most so many characters."""
     columns = [
-        Column("case", [printable(case.id) for case in cases], wraps=True),
-        Column("title", [printable(case.scenario.title) for case in cases], rank=1, wraps=True),
-        Column("tags", [printable(" ".join(case.scenario.tags)) for case in cases], rank=2, wraps=True),
+        TableColumn("case", [printable(case.id) for case in cases], wraps=True),
+        TableColumn("title", [printable(case.scenario.title) for case in cases], rank=1, wraps=True),
+        TableColumn("tags", [printable(" ".join(case.scenario.tags)) for case in cases], rank=2, wraps=True),
     ]
     shown, given_way = fitted(columns, width)
     yield from aligned(shown)

@@ -120,7 +120,7 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
     return results
 
 
-def names_of(paths: Sequence[Path]) -> list[str]:
+def stop_names(paths: Sequence[Path]) -> list[str]:
     """Return a name for each file, safe as a file name and all different."""
     names: list[str] = []
     for path in paths:

@@ -8,14 +8,14 @@ from types import MappingProxyType
 from typing import Final
 
 from uictest import recording
-from uictest.report import PLOT_QUANTITIES, names_of
+from uictest.report import PLOT_QUANTITIES, channel_names
 from uictest.scenario.yaml import nearest
 from uictest.units import SIZES
 
 _SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
 """Unit of a recording -> unit that every page shows it in."""
 _PER_CENT: Final = frozenset(
-    name for key, quantity in PLOT_QUANTITIES.items() if quantity.unit == "%" for name in names_of(key)
+    name for key, quantity in PLOT_QUANTITIES.items() if quantity.unit == "%" for name in channel_names(key)
 )
 """Channels that every page shows in per cent."""
 

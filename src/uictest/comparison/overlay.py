@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from uictest import recording
 from uictest.comparison.channels import common_channels, only_in
-from uictest.report import Curve, Panel, PlotLine, Trace, curve_of, interval_of, printable
+from uictest.report import Curve, Panel, PlotLine, PlotTrace, curve_of, interval_of, printable
 
 DRAWN = 12
 """Channels drawn where none are chosen."""
@@ -24,7 +24,7 @@ class Overlay:
     """
 
     title: str
-    trace: Trace
+    trace: PlotTrace
     panels: Sequence[tuple[Panel, Sequence[PlotLine]]]
     not_drawn: Sequence[str] = ()
     only_first: Sequence[str] = ()
@@ -67,9 +67,9 @@ def overlay_of(
     )
 
 
-def _trace(first: recording.Recording, second: recording.Recording, curves: Mapping[str, Curve]) -> Trace:
+def _trace(first: recording.Recording, second: recording.Recording, curves: Mapping[str, Curve]) -> PlotTrace:
     times = first["time"], second["time"]
     intervals = {interval_of(time) for time in times}
     start, end = (float(pick(time[place] for time in times)) for pick, place in ((min, 0), (max, -1)))
     # Times of another interval than the other side's would be rounded to it.
-    return Trace(start, end, intervals.pop() if len(intervals) == 1 else 0.0, curves)
+    return PlotTrace(start, end, intervals.pop() if len(intervals) == 1 else 0.0, curves)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from uictest.comparison.difference import Comparison
 from uictest.comparison.wording import verdict_line
-from uictest.report import listed, number, value_text
+from uictest.report import listed, number, side_text
 from uictest.report.page import overlay_view, render
 
 
@@ -20,7 +20,7 @@ def comparison_html(comparison: Comparison) -> str:
         overlays=overlays,
         verdict_line=verdict_line(comparison),
         number=number,
-        value_text=value_text,
+        side_text=side_text,
         listed=listed,
         with_plots=bool(overlays),
     )

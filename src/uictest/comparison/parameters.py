@@ -10,7 +10,7 @@ from uictest.report import listed, printable
 
 
 @dataclass(frozen=True, slots=True)
-class ParameterValue:
+class ParameterOfRun:
     """What one run has for a parameter, or for the name of a part.
 
     `value` is in `unit`, an SI unit; a setting or a name has none. `written` is the value as its file has it.
@@ -29,8 +29,8 @@ class ParameterChange:
     """
 
     key: str
-    first: ParameterValue | None
-    second: ParameterValue | None
+    first: ParameterOfRun | None
+    second: ParameterOfRun | None
     cases: tuple[str, ...]
 
     @property
@@ -50,7 +50,7 @@ def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
         yield printable(f"parameter {change_text(change)} (in {listed(change.cases)})")
 
 
-Change = tuple[str, ParameterValue | None, ParameterValue | None]
+Change = tuple[str, ParameterOfRun | None, ParameterOfRun | None]
 """Key, and what both runs have."""
 
 
@@ -81,7 +81,7 @@ def _changes(
 def _changes_of_part(
     role: str, first: evaluation.EffectivePart | None, second: evaluation.EffectivePart | None
 ) -> Iterator[Change]:
-    names = [None if part is None else ParameterValue(part.name, "", part.name) for part in (first, second)]
+    names = [None if part is None else ParameterOfRun(part.name, "", part.name) for part in (first, second)]
     if names[0] != names[1]:
         yield role, names[0], names[1]
     if first is None or second is None:
@@ -93,11 +93,11 @@ def _changes_of_part(
             yield key, _value(one), _value(other)
 
 
-def _value(parameter: evaluation.Parameter | None) -> ParameterValue | None:
+def _value(parameter: evaluation.Parameter | None) -> ParameterOfRun | None:
     if parameter is None:
         return None
-    return ParameterValue(parameter.value, parameter.unit, parameter.written)
+    return ParameterOfRun(parameter.value, parameter.unit, parameter.written)
 
 
-def _text(value: ParameterValue | None) -> str:
+def _text(value: ParameterOfRun | None) -> str:
     return "none" if value is None else value.written

@@ -1,4 +1,4 @@
-"""Two runs: case by case outcome, verdicts and figures."""
+"""Two runs: case by case outcome, verdicts and measures."""
 
 from __future__ import annotations
 
@@ -59,10 +59,10 @@ def case_differences(
     verdicts, others = _verdicts(first), _verdicts(second)
     for name in dict.fromkeys([*verdicts, *others]):
         yield _texts(case_id, f"criterion {name}", verdicts.get(name, "none"), others.get(name, "none"))
-    figures, theirs = _figures(first), _figures(second)
-    for name in dict.fromkeys([*figures, *theirs]):
-        pair = figures.get(name, math.nan), theirs.get(name, math.nan)
-        yield compare_numbers(case_id, name, pair[0], pair[1], tolerances, column_unit(name))
+    ours, theirs = _measures(first), _measures(second)
+    for name in dict.fromkeys([*ours, *theirs]):
+        sides = ours.get(name, math.nan), theirs.get(name, math.nan)
+        yield compare_numbers(case_id, name, *sides, tolerances, column_unit(name))
 
 
 def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference | None:
@@ -73,11 +73,11 @@ def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
     return {verdict.id: verdict.status.replace("_", " ") for verdict in result.criteria}
 
 
-def _figures(result: evaluation.CaseResult) -> dict[str, float]:
-    figures = dict(result.measures or {})
+def _measures(result: evaluation.CaseResult) -> dict[str, float]:
+    measures = dict(result.measures or {})
     for position, wheelset in enumerate(result.wheelsets, start=1):
-        figures |= {wheelset_quantity(name, position): value for name, value in wheelset.items()}
-    return figures
+        measures |= {wheelset_quantity(name, position): value for name, value in wheelset.items()}
+    return measures
 
 
 def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:

@@ -10,14 +10,14 @@ from fnmatch import fnmatchcase
 
 from uictest.report import Difference
 
-_WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)\s*(?P<share>%?)")
+_WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)\s*(?P<per_cent>%?)")
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
     """An allowance: the larger of `absolute` (in the unit of what is compared) and `relative` times a range.
 
-    The range is that of a channel in the first recording; for a single figure its larger magnitude.
+    The range is that of a channel in the first recording; for a single number its larger magnitude.
     """
 
     absolute: float
@@ -49,7 +49,7 @@ class Tolerances:
         """Return the tolerances that texts like `0.5 %`, `braking_*=2` and `slide_1=0.01` stand for.
 
         A bare number is absolute, one with a per cent sign relative; both may be set for the same name. An
-        absolute part that is not set has its default, so that the last digits of a figure near zero do not
+        absolute part that is not set has its default, so that the last digits of a number near zero do not
         count; a relative part that is not set is 0. Raises ValueError naming the text that cannot be read.
         """
         parts_by_name: dict[str | None, dict[str, float]] = {}
@@ -76,13 +76,13 @@ def _read(text: str) -> tuple[str | None, str, float]:
     if match is None or not math.isfinite(number):
         raise ValueError(f"{text!r} is not a tolerance; write '0.5' (absolute), '1%' (relative) or NAME=...")
     name = match["name"] and match["name"].strip()
-    return (name, "relative", number / 100) if match["share"] else (name, "absolute", number)
+    return (name, "relative", number / 100) if match["per_cent"] else (name, "absolute", number)
 
 
 def compare_numbers(
     case: str, quantity: str, first: float, second: float, tolerances: Tolerances, unit: str = ""
 ) -> Difference | None:
-    """Return how two figures differ, None where they are the same. No number equals only no number."""
+    """Return how two numbers differ, None where they are the same. No number equals only no number."""
     if first == second or (math.isnan(first) and math.isnan(second)):
         return None
     if not (math.isfinite(first) and math.isfinite(second)):

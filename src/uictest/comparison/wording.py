@@ -10,15 +10,15 @@ from uictest import report
 from uictest.comparison.difference import Comparison
 from uictest.comparison.parameters import parameter_lines
 from uictest.report import (
-    Column,
+    TableColumn,
     aligned,
     columns_not_shown,
     counted,
     fitted,
     number,
     printable,
+    side_text,
     table_width,
-    value_text,
     worst_of_wheelsets,
     wrapped_name,
 )
@@ -32,7 +32,7 @@ def comparison_lines(
 ) -> Iterator[str]:
     """Yield a table of the differences out of tolerance, then what is known to differ.
 
-    Of a figure that the wheelsets of a stop have, the worst stands for all. `every`: all of all differences.
+    Of a measure that the wheelsets of a stop have, the worst stands for all. `every`: all of all differences.
     The table keeps to `width` characters, None for any width.
     """
     shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
@@ -58,7 +58,7 @@ def _table(differences: Sequence[report.Difference], width: int | None) -> Itera
     if width is None or table_width(columns) <= width:
         yield from aligned(columns)
         return
-    given_way: dict[str, Column] = {}
+    given_way: dict[str, TableColumn] = {}
     for case_id, group in groupby(differences, key=lambda each: each.case):
         if case_id:
             yield from wrapped_name(printable(case_id), width)
@@ -84,21 +84,21 @@ def verdict_line(comparison: Comparison) -> str:
     return f"{count} compared: {len(comparison.beyond)} out of tolerance, {within} different within tolerance"
 
 
-def _columns(differences: Sequence[report.Difference]) -> list[Column]:
+def _columns(differences: Sequence[report.Difference]) -> list[TableColumn]:
     """Return the table of differences; without a case for recordings."""
     words = ["within" if difference.within else report.DIFFERS for difference in differences]
     # A word that all rows share is the first to give way.
     rank_of_words = 5 if len(set(words)) == 1 else 0
     cases = [printable(difference.case) for difference in differences]
     columns = [
-        Column("", words, rank_of_words),
-        Column("case", cases, wraps=True),
-        Column("quantity", [printable(difference.quantity) for difference in differences], wraps=True),
-        Column("first", [printable(value_text(difference.first)) for difference in differences]),
-        Column("second", [printable(value_text(difference.second)) for difference in differences]),
-        Column("deviation", [number(difference.deviation) for difference in differences], rank=2),
-        Column("allowed", [number(difference.allowed) for difference in differences], rank=3),
-        Column("unit", [printable(difference.unit) or "-" for difference in differences], rank=1),
-        Column("remark", [printable(difference.remark) for difference in differences], rank=4),
+        TableColumn("", words, rank_of_words),
+        TableColumn("case", cases, wraps=True),
+        TableColumn("quantity", [printable(difference.quantity) for difference in differences], wraps=True),
+        TableColumn("first", [printable(side_text(difference.first)) for difference in differences]),
+        TableColumn("second", [printable(side_text(difference.second)) for difference in differences]),
+        TableColumn("deviation", [number(difference.deviation) for difference in differences], rank=2),
+        TableColumn("allowed", [number(difference.allowed) for difference in differences], rank=3),
+        TableColumn("unit", [printable(difference.unit) or "-" for difference in differences], rank=1),
+        TableColumn("remark", [printable(difference.remark) for difference in differences], rank=4),
     ]
     return [column for column in columns if any(column.cells)]

@@ -8,7 +8,7 @@ from .content import CaseDescription as CaseDescription, RunContent as RunConten
 from .csv_text import Cell as Cell, csv_text as csv_text
 from .difference import (
     Difference as Difference,
-    value_text as value_text,
+    side_text as side_text,
     wheelset_quantity as wheelset_quantity,
     worst_of_wheelsets as worst_of_wheelsets,
 )
@@ -89,7 +89,7 @@ from .terminal.case_lines import (
     part_lines as part_lines,
 )
 from .terminal.fitted_columns import (
-    Column as Column,
+    TableColumn as TableColumn,
     aligned as aligned,
     aligned_rows as aligned_rows,
     columns_not_shown as columns_not_shown,
@@ -103,11 +103,11 @@ from .traces.quantities import (
     PLOT_QUANTITIES as PLOT_QUANTITIES,
     Panel as Panel,
     PlotLine as PlotLine,
-    names_of as names_of,
+    channel_names as channel_names,
 )
 from .traces.trace import (
     Curve as Curve,
-    Trace as Trace,
+    PlotTrace as PlotTrace,
     curve_of as curve_of,
     interval_of as interval_of,
     trace_of as trace_of,

@@ -12,7 +12,7 @@ from uictest.report.difference import Difference
 from uictest.report.manifest import RunManifest
 
 if TYPE_CHECKING:
-    from uictest.report.traces.trace import Trace
+    from uictest.report.traces.trace import PlotTrace
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class RunContent:
     manifest: RunManifest = field(default_factory=RunManifest)
     complete: bool = True
     subjects: Mapping[str, CaseDescription] = field(default_factory=dict)
-    traces: Mapping[str, Trace] = field(default_factory=dict)
+    traces: Mapping[str, PlotTrace] = field(default_factory=dict)
     baseline: BaselineComparison | None = None
 
     def subject(self, case_id: str) -> CaseDescription:

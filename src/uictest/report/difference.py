@@ -35,7 +35,7 @@ class Difference:
     remark: str = ""
 
 
-def value_text(value: Value) -> str:
+def side_text(value: Value) -> str:
     """Return one side of a difference without its unit."""
     return value if isinstance(value, str) else number(value)
 

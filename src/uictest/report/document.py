@@ -98,7 +98,7 @@ def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
     return form
 
 
-def read_baseline(document: Mapping[str, Any]) -> BaselineComparison | None:
+def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison | None:
     """Return how the run of a document compared with its baseline; None without one.
 
     Raises ValueError where the document holds something else.

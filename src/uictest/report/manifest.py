@@ -95,7 +95,7 @@ def named_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict
     return {part_id: part_sentence(part) for part_id, part in table if part.name}
 
 
-def digest(manifest: RunManifest) -> str:
+def manifest_digest(manifest: RunManifest) -> str:
     """Return the first eight hexadecimal digits of the SHA-256 of a manifest."""
     text = json.dumps(manifest_form(manifest), sort_keys=True)
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:8]

@@ -22,7 +22,7 @@ class MarkdownTable:
 
     Args:
         columns: their headings.
-        alignment: a letter for each column: `l` for texts, `r` for figures.
+        alignment: a letter for each column: `l` for texts, `r` for numbers.
         rows: see `row`.
         rest: what stands behind the number of rows that were left out, e.g. `more cases are in ...`.
         most: rows that a reader is to be given, None for all.
@@ -73,11 +73,11 @@ def code(text: str) -> str:
 
 def prose(text: str) -> str:
     """Return a text with every character that Markdown or HTML could act upon as an entity."""
-    return _ACTIVE.sub(lambda found: f"&#{ord(found.group())};", _cut(printable(text)))
+    return _ACTIVE.sub(lambda match: f"&#{ord(match.group())};", _cut(printable(text)))
 
 
-def figure(value: float | None, form: str) -> str:
-    """Return a figure in a format, a dash where there is none."""
+def number_cell(value: float | None, form: str) -> str:
+    """Return a number as a cell in a format, a dash where there is none."""
     return "–" if value is None or math.isnan(value) else format(value, form)  # noqa: RUF001 - a dash on paper
 
 

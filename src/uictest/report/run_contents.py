@@ -10,10 +10,10 @@ from typing import Any
 
 from uictest import evaluation, recording
 from uictest.report.content import RunContent
-from uictest.report.document import read_baseline, read_subjects
+from uictest.report.document import read_baseline_comparison, read_subjects
 from uictest.report.manifest import read_manifest
 from uictest.report.run_report import RECORDINGS, RESULTS
-from uictest.report.traces.trace import Trace, trace_of
+from uictest.report.traces.trace import PlotTrace, trace_of
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:
@@ -39,14 +39,14 @@ def run_content(document: Mapping[str, Any], name: str) -> RunContent:
         results = evaluation.results_of(document)
         subjects = read_subjects(document)
         manifest = read_manifest(document)
-        baseline = read_baseline(document)
+        baseline = read_baseline_comparison(document)
     except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error
     complete = bool(document.get("complete", True))
     return RunContent(name, results, manifest, complete, subjects, baseline=baseline)
 
 
-def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, Trace]:
+def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, PlotTrace]:
     """Return what there is to draw of the cases that have a recording in the folder, by id.
 
     Raises OSError, and ValueError where a recording is none.

@@ -10,7 +10,7 @@ from uictest import evaluation, recording
 from uictest.report.content import RunContent
 from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats
-from uictest.report.manifest import RunManifest, digest, manifest_form
+from uictest.report.manifest import RunManifest, manifest_digest, manifest_form
 
 RESULTS = "results.json"
 RECORDINGS = "recordings"
@@ -18,7 +18,7 @@ RECORDINGS = "recordings"
 
 def run_name(started: datetime, manifest: RunManifest) -> str:
     """Return the name of a run: its start in UTC and a short hash of its manifest."""
-    return f"{started.astimezone(UTC):%Y%m%dT%H%M%SZ}-{digest(manifest)}"
+    return f"{started.astimezone(UTC):%Y%m%dT%H%M%SZ}-{manifest_digest(manifest)}"
 
 
 def write_reports(folder: Path, content: RunContent) -> str:

@@ -17,7 +17,7 @@ TITLES = {
 """The phases of the paper's hysteresis model, in its order."""
 
 
-def lines_of(recording: Recording) -> identification.HysteresisResult:
+def identified_lines(recording: Recording) -> identification.HysteresisResult:
     """Return the lines of the caliper's force, identified as by `uictest identify hysteresis`."""
     return identification.identify_hysteresis(
         recording["time"],

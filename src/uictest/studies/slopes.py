@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from uictest import identification, scenario
 from uictest.recording import Recording
-from uictest.studies.phases import TITLES, lines_of
+from uictest.studies.phases import TITLES, identified_lines
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Table
@@ -33,7 +33,7 @@ def loops(stop_runner: StopRunner, cases: Sequence[scenario.Case]) -> list[Loop]
 
 def _loop(case: scenario.Case, stop: Recording) -> Loop:
     recording = replayed(case, stop, 1, release=True)
-    return Loop(" ".join(case.parameters.values()), recording, lines_of(recording))
+    return Loop(" ".join(case.parameters.values()), recording, identified_lines(recording))
 
 
 def slope_spread(stop_loops: Sequence[Loop]) -> float:

@@ -30,4 +30,4 @@ from .summaries.frontier import (
     verdicts_of as verdicts_of,
 )
 from .summaries.summary import SweepSummary as SweepSummary, summarize as summarize
-from .summaries.worst import cases_of as cases_of
+from .summaries.worst import full_cases as full_cases

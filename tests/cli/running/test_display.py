@@ -7,7 +7,7 @@ import pytest
 
 from uictest.cli.options import Colour, Format
 from uictest.cli.output import interactive
-from uictest.cli.running.display import Annotations, Document, Lines, VerdictTable, chosen_display
+from uictest.cli.running.display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
 from uictest.evaluation import CaseResult
 from uictest.report import RunContent
 
@@ -29,7 +29,8 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
 
 
 @pytest.mark.parametrize(
-    ("shown", "display"), [(Format.TEXT, VerdictTable), (Format.JSON, Document), (Format.GITHUB, Annotations)]
+    ("shown", "display"),
+    [(Format.TEXT, VerdictTable), (Format.JSON, ResultsDocument), (Format.GITHUB, Annotations)],
 )
 def test_text_is_a_table_on_a_terminal(terminal: Terminal, shown: Format, display: type) -> None:
     with redirect_stdout(terminal):

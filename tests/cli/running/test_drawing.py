@@ -9,7 +9,7 @@ import pytest
 
 from uictest import campaign
 from uictest.campaign import BatchResult, CaseRun, RecordingRequest
-from uictest.cli.running.drawing import Drawing
+from uictest.cli.running.drawing import TraceCollection
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
 from uictest.report.page import DRAWN
@@ -45,7 +45,7 @@ def replayed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_a_small_batch_is_recorded_as_it_runs(replayed: list[str]) -> None:
-    drawing = Drawing(_cases(2), RecordingRequest("none"), needed=True)
+    drawing = TraceCollection(_cases(2), RecordingRequest("none"), needed=True)
     assert drawing.recording.cases == "all"
     drawing.add(CaseRun(_result("case-0"), RECORDING))
     assert list(drawing.finish(BatchResult([_result("case-0")]), jobs=1)) == ["case-0"]
@@ -54,7 +54,7 @@ def test_a_small_batch_is_recorded_as_it_runs(replayed: list[str]) -> None:
 
 def test_of_a_large_batch_the_worst_are_simulated_again(replayed: list[str]) -> None:
     cases = _cases(DRAWN + 5)
-    drawing = Drawing(cases, RecordingRequest("failed"), needed=True)
+    drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True)
     assert drawing.recording == RecordingRequest("failed")
     outcomes = ["pass"] * DRAWN + ["fail"] * 4 + ["error"]
     results = [_result(case.id, outcome) for case, outcome in zip(cases, outcomes, strict=True)]
@@ -74,7 +74,7 @@ def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(
         return [(case, RECORDING) for case in cases]
 
     monkeypatch.setattr(campaign, "replay", replay)
-    drawing = Drawing(_cases(1), RecordingRequest("all", every=0.1), needed=True)
+    drawing = TraceCollection(_cases(1), RecordingRequest("all", every=0.1), needed=True)
     assert drawing.recording.every == 0.1
     drawing.add(CaseRun(_result("case-0"), RECORDING))
     assert list(drawing.finish(BatchResult([_result("case-0")]), jobs=1)) == ["case-0"]
@@ -85,10 +85,10 @@ def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(
 def test_nothing_is_drawn_unasked_or_after_an_interrupt(
     replayed: list[str], wanted: bool, interrupted: bool
 ) -> None:
-    drawing = Drawing(_cases(DRAWN + 1), RecordingRequest("failed"), needed=wanted)
+    drawing = TraceCollection(_cases(DRAWN + 1), RecordingRequest("failed"), needed=wanted)
     assert drawing.finish(BatchResult([_result("case-0")], interrupted=interrupted), jobs=1) == {}
     assert replayed == []
-    assert Drawing(_cases(1), RecordingRequest("failed"), needed=False).recording.cases == "failed"
+    assert TraceCollection(_cases(1), RecordingRequest("failed"), needed=False).recording.cases == "failed"
 
 
 def test_a_recording_made_for_the_page_alone_is_not_kept() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from uictest.report.page import plotting_script as module
-from uictest.report.page.plotting_script import packed, plotting_script
+from uictest.report.page.plotting_script import packed_script, plotting_script
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ def place(cache: Path) -> Iterator[Path]:
 
 
 def test_a_packed_script_is_the_script() -> None:
-    found = packed("draw();\n")
+    found = packed_script("draw();\n")
     assert zlib.decompress(base64.b64decode(found.packed)) == b"draw();\n"
     assert base64.b64decode(found.digest) == hashlib.sha256(b"draw();\n").digest()
 
@@ -29,7 +29,7 @@ def test_the_script_is_packed_once_and_kept(place: Path, monkeypatch: pytest.Mon
     first = plotting_script()
     assert len(list(place.iterdir())) == 1
     plotting_script.cache_clear()
-    monkeypatch.setattr(module, "packed", lambda script: pytest.fail("packed again"))
+    monkeypatch.setattr(module, "packed_script", lambda script: pytest.fail("packed again"))
     assert plotting_script() == first
 
 
@@ -39,7 +39,7 @@ def test_another_version_of_the_script_is_packed_anew(place: Path, monkeypatch: 
         source.write_text(version)
         monkeypatch.setattr(module, "_source", lambda found=source: found)
         plotting_script.cache_clear()
-        assert plotting_script() == packed(version)
+        assert plotting_script() == packed_script(version)
 
 
 def test_a_damaged_script_is_packed_anew(place: Path) -> None:

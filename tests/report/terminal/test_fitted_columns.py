@@ -3,20 +3,26 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.terminal.fitted_columns import Column, aligned, columns_not_shown, fitted, wrapped_name
+from uictest.report.terminal.fitted_columns import (
+    TableColumn,
+    aligned,
+    columns_not_shown,
+    fitted,
+    wrapped_name,
+)
 
 LONG = (
     "a-stop[rail.friction=0.10,brake.command=100 %,controller.slip_threshold=0.80,initial_speed=120 km-h,x=1]"
 )
 
 
-def _columns(*ids: str) -> list[Column]:
+def _columns(*ids: str) -> list[TableColumn]:
     rows = len(ids)
     return [
-        Column("case", ids, wraps=True),
-        Column("verdict", ["met"] * rows),
-        Column("distance", ["465.2"] * rows, rank=1, right=True),
-        Column("remark", ["largest at 12.3 s"] * rows, rank=2),
+        TableColumn("case", ids, wraps=True),
+        TableColumn("verdict", ["met"] * rows),
+        TableColumn("distance", ["465.2"] * rows, rank=1, right=True),
+        TableColumn("remark", ["largest at 12.3 s"] * rows, rank=2),
     ]
 
 

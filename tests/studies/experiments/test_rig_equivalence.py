@@ -9,7 +9,7 @@ import pytest
 
 from uictest.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
-from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences, overall
+from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
 from uictest.studies.experiments.robustness import actuations
 from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point
 
@@ -33,14 +33,14 @@ def point() -> Point:
 
 
 def test_a_rig_against_itself_shows_its_scatter(point: Point) -> None:
-    found = list(differences(point))
+    found = list(differences_at(point))
     for rig in ("full", FOUR_CALIPER):
         reading = overall(found, "braking_distance", rig)
         assert (reading.low, reading.value, reading.high) == (-1.0, 0.0, 1.0)
 
 
 def test_differences_are_computed_for_the_train_and_for_each_wheelset(point: Point) -> None:
-    found = list(differences(point))
+    found = list(differences_at(point))
     assert overall(found, "braking_distance", "none").value == -5.0
     vents = {
         each.wheelset: each for each in found if (each.measure, each.rig) == ("valve_actuations", "none")

@@ -11,7 +11,7 @@ import pytest
 
 import uictest
 from uictest.sweep import CaseSelection, Plan, load_sweep, sweep_manifest
-from uictest.sweep.running.manifest import SOURCES, differences
+from uictest.sweep.running.manifest import SOURCES, manifest_differences
 
 Load = Callable[..., Plan]
 PACKAGE = Path(uictest.__file__).parent
@@ -31,7 +31,7 @@ def test_a_sweep_has_one_manifest_from_every_working_folder(
     for folder, file in (("below", "../study.sweep.yaml"), ("/", str(Path("study.sweep.yaml").absolute()))):
         monkeypatch.chdir(folder)
         there = manifest(load_sweep(Path(file)))
-        assert list(differences(here, there)) == []
+        assert list(manifest_differences(here, there)) == []
         assert {**there, "file": here["file"]} == here
         monkeypatch.chdir(Path(file).absolute().parent)
 
@@ -39,7 +39,9 @@ def test_a_sweep_has_one_manifest_from_every_working_folder(
 def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
     inputs = {"left/a.csv": "1", "right/a.csv": "2"}
     exchanged = {"left/a.csv": "2", "right/a.csv": "1"}
-    assert list(differences({"inputs": inputs}, {"inputs": exchanged})) == ["inputs: left/a.csv, right/a.csv"]
+    assert list(manifest_differences({"inputs": inputs}, {"inputs": exchanged})) == [
+        "inputs: left/a.csv, right/a.csv"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -56,7 +58,7 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
     ],
 )
 def test_differences_are_named_as_users_know_them(name: str, one: Any, other: Any, message: str) -> None:
-    assert list(differences({name: one}, {name: other})) == [message]
+    assert list(manifest_differences({name: one}, {name: other})) == [message]
 
 
 def imported_rooms(path: Path) -> set[str]:

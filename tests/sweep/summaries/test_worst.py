@@ -13,7 +13,7 @@ from hypothesis import given, strategies as st
 from uictest.campaign import RecordingRequest, run_cases
 from uictest.evaluation import cases_document
 from uictest.sweep.running.chunk import chunk_runner
-from uictest.sweep.summaries.worst import MOST, WorstCases, cases_of
+from uictest.sweep.summaries.worst import MOST, WorstCases, full_cases
 
 from ..conftest import Load
 
@@ -56,7 +56,7 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     indices = [3, 0]
     block = runner.assembler.block(np.array(indices))
     by_lanes = runner.results(block)
-    alone = run_cases(cases_of(plan, indices), recording=RecordingRequest("all"))
+    alone = run_cases(full_cases(plan, indices), recording=RecordingRequest("all"))
     for one, other in zip(by_lanes, alone.results, strict=True):
         row, case = cases_document([one, other])
         for name in ("id", "outcome", "parameters", "measures", "wheelsets"):

@@ -12,7 +12,7 @@ from uictest import campaign, comparison, recording, report, rig, scenario
 from uictest.cli.output import message
 from uictest.cli.progress import announce_compilation, progress
 from uictest.cli.running.display import Display
-from uictest.cli.running.drawing import Drawing
+from uictest.cli.running.drawing import TraceCollection
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
     started = perf_counter()
     # The folder comes first: one that cannot be written should not cost a simulation.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
-        drawing = Drawing(batch.cases, batch.recording, needed=report.draws_stops(batch.formats))
+        drawing = TraceCollection(batch.cases, batch.recording, needed=report.draws_stops(batch.formats))
         done = _simulate(batch, folder.path, display, drawing)
         if not done.results:
             message("uictest: interrupted before the first case was finished; there is nothing to report")
@@ -70,11 +70,11 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
 
 
 def _write_reports(
-    batch: Batch, folder: report.RunFolder, done: campaign.BatchResult, traces: Mapping[str, report.Trace]
+    batch: Batch, folder: report.RunFolder, done: campaign.BatchResult, traces: Mapping[str, report.PlotTrace]
 ) -> tuple[report.RunContent, str]:
     """Write all reports; return what they show and the text of results.json."""
     complete = len(done.results) == len(batch.cases)
-    subjects = campaign.subjects_of(batch.cases)
+    subjects = campaign.descriptions_of(batch.cases)
     content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
@@ -93,7 +93,7 @@ def _append_step_summary(content: report.RunContent) -> None:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
-def _simulate(batch: Batch, folder: Path, display: Display, drawing: Drawing) -> campaign.BatchResult:
+def _simulate(batch: Batch, folder: Path, display: Display, drawing: TraceCollection) -> campaign.BatchResult:
     announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 

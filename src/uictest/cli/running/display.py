@@ -71,7 +71,7 @@ class Annotations(Lines):
             data(line)
 
 
-class Document:
+class ResultsDocument:
     """results.json and nothing else."""
 
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
@@ -125,7 +125,7 @@ def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
 def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool) -> Display:
     """Return the display for a format; `text` is a table where a person reads and lines elsewhere."""
     if shown is Format.JSON:
-        return Document()
+        return ResultsDocument()
     display: type[Lines | VerdictTable] = Lines
     if shown is Format.GITHUB:
         display = Annotations

@@ -10,7 +10,7 @@ from uictest.report import page
 
 
 @dataclass(slots=True)
-class Drawing:
+class TraceCollection:
     """Collects the traces of a batch.
 
     A batch of few cases is recorded as it runs. Of a large one the cases to draw are only known at its end;
@@ -21,7 +21,7 @@ class Drawing:
     cases: Sequence[scenario.Case]
     request: campaign.RecordingRequest
     needed: bool
-    traces: dict[str, report.Trace] = field(default_factory=dict)
+    traces: dict[str, report.PlotTrace] = field(default_factory=dict)
 
     @property
     def recording(self) -> campaign.RecordingRequest:
@@ -33,7 +33,7 @@ class Drawing:
         if self._while_running and case_run.recording is not None:
             self.traces[case_run.result.id] = report.trace_of(case_run.recording, case_run.result.criteria)
 
-    def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.Trace]:
+    def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
         """Return what there is to draw, the worst cases of a large batch simulated again."""
         if self.needed and not self._while_running and not done.interrupted:
             ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]

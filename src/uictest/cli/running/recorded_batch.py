@@ -9,7 +9,7 @@ from pathlib import Path
 
 from uictest import campaign, field_data, recording, report, scenario
 from uictest.cli.output import message
-from uictest.cli.recordings import each_file, names_of
+from uictest.cli.recordings import each_file, stop_names
 from uictest.cli.running.display import Display
 from uictest.scenario import yaml
 from uictest.units import KILOMETRE_PER_HOUR
@@ -75,7 +75,7 @@ def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> lis
         return RecordedFile(path, "", field_data.digest_of(path), stop, stop.defects)
 
     files = each_file(paths, read)
-    return [replace(file, name=name) for file, name in zip(files, names_of(paths), strict=True)]
+    return [replace(file, name=name) for file, name in zip(files, stop_names(paths), strict=True)]
 
 
 def run_recorded(batch: RecordedBatch, display: Display) -> tuple[campaign.BatchResult, Path]:

@@ -49,7 +49,7 @@ def _run_worst(
     Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt where it is
     interrupted.
     """
-    cases = sweep.cases_of(run.selection.plan, indices)
+    cases = sweep.full_cases(run.selection.plan, indices)
     shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
 
     def write_recording(case_run: campaign.CaseRun) -> None:
@@ -64,7 +64,7 @@ def _run_worst(
     )
     if batch.interrupted:
         raise KeyboardInterrupt
-    return tuple(batch.results), campaign.subjects_of(cases)
+    return tuple(batch.results), campaign.descriptions_of(cases)
 
 
 def _frontier(run: SweepRun, summary: sweep.SweepSummary, search: sweep.FrontierSearch) -> report.Frontier:

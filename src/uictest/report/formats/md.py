@@ -7,13 +7,13 @@ from functools import partial
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
-from uictest.report.difference import Difference, value_text, worst_of_wheelsets
+from uictest.report.difference import Difference, side_text, worst_of_wheelsets
 from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
+from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
 from uictest.report.part_wording import changed_parameters
 
-_FIGURES = {
+_MEASURES = {
     "braking_distance_m": ".1f",
     "braking_time_s": ".1f",
     "mean_deceleration_mps2": ".3f",
@@ -60,8 +60,8 @@ def _baseline(baseline: BaselineComparison, limit: int) -> str:
 
 
 def _difference_row(difference: Difference) -> str:
-    sides = (prose(value_text(side)) for side in (difference.first, difference.second))
-    sizes = (figure(size, ".5g") for size in (difference.deviation, difference.allowed))
+    sides = (prose(side_text(side)) for side in (difference.first, difference.second))
+    sizes = (number_cell(size, ".5g") for size in (difference.deviation, difference.allowed))
     unit, remark = prose(difference.unit), prose(difference.remark)
     return row([code(difference.case), code(difference.quantity), *sides, *sizes, unit, remark])
 
@@ -70,14 +70,14 @@ def _row(content: RunContent, result: evaluation.CaseResult) -> str:
     word, passes = content.word(result), content.passes(result)
     slide = max((wheelset["maximum_slide"] for wheelset in result.wheelsets), default=None)
     measures = result.measures or {}
-    figures = [figure(measures.get(name), form) for name, form in _FIGURES.items()]
-    figures.append(figure(None if slide is None else 100 * slide, ".1f"))
+    cells = [number_cell(measures.get(name), form) for name, form in _MEASURES.items()]
+    cells.append(number_cell(None if slide is None else 100 * slide, ".1f"))
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
     outcome = f"{result.outcome}{recorded}"
     changed = prose("; ".join(changed_parameters(result.parts)))
-    cells = (word if passes else f"**{word}**", code(result.id), outcome, *figures, changed, why)
-    return row(cells)
+    row_cells = (word if passes else f"**{word}**", code(result.id), outcome, *cells, changed, why)
+    return row(row_cells)
 
 
 def _files(content: RunContent) -> dict[str, bytes]:

@@ -29,10 +29,10 @@ from uictest.report.traces.quantities import (
     loop_lines,
     panel_lines,
 )
-from uictest.report.traces.trace import BINS, Curve, Trace
+from uictest.report.traces.trace import BINS, Curve, PlotTrace
 from uictest.report.wording import failing_first
 
-Figure = tuple[str, str, str]
+HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
 
 
@@ -58,7 +58,7 @@ class CaseView:
     subject: CaseDescription
     word: str
     explanation: Sequence[str]
-    figures: Sequence[Figure]
+    headline: Sequence[HeadlineMeasure]
     sketch: Sketch
     data: str
     marked: Sequence[tuple[evaluation.Verdict, Sequence[str]]]
@@ -69,7 +69,7 @@ def case_view(
     key: str,
     result: evaluation.CaseResult,
     subject: CaseDescription,
-    trace: Trace,
+    trace: PlotTrace,
     differences: Sequence[Difference] = (),
 ) -> CaseView:
     """Return the view of a case with its plots drawn; `differences` are those from the baseline."""
@@ -80,7 +80,7 @@ def case_view(
         subject,
         case_word(result, differences),
         case_explanation(result, differences) if differences or not result.met else (),
-        list(figures_of(result)),
+        list(headline_measures(result)),
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),
         list(_marked(result, marks)),
@@ -98,7 +98,7 @@ def _marked(
             yield verdict, [titles[plot] for plot in plots]
 
 
-def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: Trace) -> Iterator[str]:
+def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
     every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
     yield f"Sampled every {every}."
     if trace.interval * BINS < trace.end - trace.start:
@@ -119,8 +119,8 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: Trace
         )
 
 
-def figures_of(result: evaluation.CaseResult) -> Iterator[Figure]:
-    """Yield the figures that a brake engineer asks for first."""
+def headline_measures(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
+    """Yield the measures that a brake engineer asks for first."""
     measures = result.measures
     if measures is not None:
         yield "braking distance", _number(measures["braking_distance_m"]), "m"
@@ -167,7 +167,7 @@ def plots_json() -> str:
     return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": strips})
 
 
-def _data(trace: Trace, marks: Sequence[Mark]) -> dict[str, Any]:
+def _data(trace: PlotTrace, marks: Sequence[Mark]) -> dict[str, Any]:
     states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
     return {
         "start": trace.start,
@@ -180,5 +180,5 @@ def _data(trace: Trace, marks: Sequence[Mark]) -> dict[str, Any]:
 
 
 def _number(value: float) -> str:
-    """Return a figure for a headline: four significant digits, an empty text where there is none."""
+    """Return a number for a headline: four significant digits, an empty text where there is none."""
     return "" if value != value else f"{value:.4g}" if abs(value) < 1e4 else f"{value:.0f}"

@@ -9,7 +9,7 @@ from uictest import evaluation
 
 
 @dataclass(frozen=True, slots=True)
-class Map:
+class CaseMap:
     """Cases of a scenario by two keys; `cells[row][column]` is None where there is no such case."""
 
     scenario: str
@@ -20,7 +20,7 @@ class Map:
     cells: Sequence[Sequence[evaluation.CaseResult | None]]
 
 
-def maps_of(results: Iterable[evaluation.CaseResult]) -> list[Map]:
+def maps_of(results: Iterable[evaluation.CaseResult]) -> list[CaseMap]:
     """Return a map for every scenario whose cases vary in exactly two keys, two values of each or more."""
     by_sweep: dict[tuple[str, ...], list[evaluation.CaseResult]] = {}
     for result in results:
@@ -29,7 +29,7 @@ def maps_of(results: Iterable[evaluation.CaseResult]) -> list[Map]:
     return [case_map for case_map in maps if case_map is not None]
 
 
-def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResult]) -> Map | None:
+def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResult]) -> CaseMap | None:
     moving = [key for key in keys if len({case.parameters[key] for case in cases}) > 1]
     if len(moving) != 2:
         return None
@@ -39,7 +39,7 @@ def _map(scenario: str, keys: Sequence[str], cases: Sequence[evaluation.CaseResu
     if len(by_place) < len(cases):
         return None
     cells = [[by_place.get((row, column)) for column in columns] for row in rows]
-    return Map(scenario, row_key, column_key, rows, columns, cells)
+    return CaseMap(scenario, row_key, column_key, rows, columns, cells)
 
 
 def _ordered(key: str, cases: Iterable[evaluation.CaseResult]) -> list[str]:

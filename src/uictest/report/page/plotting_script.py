@@ -36,18 +36,18 @@ def plotting_script() -> PackedScript:
     if kept is not None:
         return PackedScript(*kept.decode("ascii").split())
     # Reading turns every line end into a line feed, as a browser does before it takes the digest.
-    script = packed(source.read_text("utf-8"))
+    script = packed_script(source.read_text("utf-8"))
     user_cache.write("plotly", inputs, "\n".join(script).encode("ascii"))
     return script
 
 
-def packed(script: str) -> PackedScript:
+def packed_script(script: str) -> PackedScript:
     """Return a script digested and packed, which takes as long as ten stops for one of this size."""
     text = script.encode("utf-8")
-    return PackedScript(digest(script), base64.b64encode(zlib.compress(text, 9)).decode("ascii"))
+    return PackedScript(script_digest(script), base64.b64encode(zlib.compress(text, 9)).decode("ascii"))
 
 
-def digest(script: str) -> str:
+def script_digest(script: str) -> str:
     """Return the SHA-256 of a script in Base64."""
     return base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
 

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from uictest import user_cache
 from uictest.report.escaping import printable
-from uictest.report.page.plotting_script import digest, plotting_script
+from uictest.report.page.plotting_script import plotting_script, script_digest
 
 
 def render(template: str, *, with_plots: bool, **context: Any) -> str:
@@ -25,7 +25,7 @@ def render(template: str, *, with_plots: bool, **context: Any) -> str:
             style=Markup(_own_text("page.css")),
             script=Markup(page),
             plotly=Markup(plotly.packed) if plotly else "",
-            policy=_policy(digest(page), *([plotly.digest] if plotly else [])),
+            policy=_policy(script_digest(page), *([plotly.digest] if plotly else [])),
             **context,
         )
     )

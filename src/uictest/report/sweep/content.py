@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from uictest.report.sweep.result import SweepResult
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,4 +26,4 @@ class SweepContent:
     folder: Path
     result: SweepResult
     manifest: Mapping[str, Any]
-    traces: Mapping[str, Trace] = field(default_factory=dict)
+    traces: Mapping[str, PlotTrace] = field(default_factory=dict)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.markdown_table import MarkdownTable, code, figure, prose, row
+from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.folding import folded, is_large, short_label
 from uictest.report.sweep.notable import NotableCase, notable_cases
@@ -111,8 +111,8 @@ def _case(case: NotableCase) -> str:
             word,
             code(case.id),
             prose(case.outcome),
-            figure(case.distance, ".1f"),
-            figure(case.margin, ".1f"),
+            number_cell(case.distance, ".1f"),
+            number_cell(case.margin, ".1f"),
             prose(case.criterion),
             prose(case.why),
         ]
@@ -172,7 +172,7 @@ def _sensitivities(sensitivities: Sequence[SobolSensitivity]) -> MarkdownTable:
 
 
 def _index(index: SobolIndex) -> tuple[str, str]:
-    value, low, high = (figure(number, ".3f") for number in (index.value, index.low, index.high))
+    value, low, high = (number_cell(number, ".3f") for number in (index.value, index.low, index.high))
     return value, f"{low} .. {high}"
 
 
@@ -183,7 +183,7 @@ def _measures(histograms: Sequence[MeasureHistogram]) -> MarkdownTable:
                 code(each.measure),
                 prose(each.unit),
                 str(each.cases),
-                *(figure(number, ".4g") for number in (each.minimum, each.mean, each.maximum)),
+                *(number_cell(number, ".4g") for number in (each.minimum, each.mean, each.maximum)),
             ]
         )
         for each in histograms

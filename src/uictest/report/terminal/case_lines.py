@@ -24,7 +24,7 @@ SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case; the explanation of one that is not met, or differs, stands at its end."""
     words = [line_word(case_word(result, differences)), printable(result.id)]
-    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_figures(result)]
+    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_measures(result)]
     if differences or not result.met:
         outcomes, *reasons = case_explanation(result, differences)
         words.append(f"reason={'; '.join(reasons or [outcomes])}")
@@ -68,7 +68,7 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
         yield f"part {role}{where}: {sentence}"
 
 
-def _figures(result: evaluation.CaseResult) -> Iterator[str]:
+def _measures(result: evaluation.CaseResult) -> Iterator[str]:
     for name in SHOWN_MEASURES:
         if result.measures is not None:
             yield f"{name}={number(result.measures[name])}"

@@ -14,7 +14,7 @@ _PIECE = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class TableColumn:
     """A column of a table.
 
     Args:
@@ -38,7 +38,7 @@ class Column:
         return max(map(len, (*self.title.split("\n"), *self.cells)))
 
 
-def fitted(columns: Sequence[Column], width: int | None) -> tuple[list[Column], list[Column]]:
+def fitted(columns: Sequence[TableColumn], width: int | None) -> tuple[list[TableColumn], list[TableColumn]]:
     """Return the columns as they fit into so many characters, and those that gave way.
 
     Columns give way until every text that wraps has its whole length, or half of the width shared with the
@@ -55,12 +55,12 @@ def fitted(columns: Sequence[Column], width: int | None) -> tuple[list[Column], 
     return _wrapped(shown, width), [column for column in columns if column in given_way]
 
 
-def table_width(columns: Sequence[Column]) -> int:
+def table_width(columns: Sequence[TableColumn]) -> int:
     """Return how wide the lines of a table are."""
     return sum(column.width for column in columns) + len(GAP) * (len(columns) - 1)
 
 
-def aligned(columns: Sequence[Column]) -> Iterator[str]:
+def aligned(columns: Sequence[TableColumn]) -> Iterator[str]:
     """Yield the lines of a table, the titles first."""
     return aligned_rows(list(zip(*((column.title, *column.cells) for column in columns), strict=True)))
 
@@ -87,30 +87,30 @@ def wrapped_name(name: str, width: int) -> list[str]:
     return [line.rstrip() for line in lines]
 
 
-def columns_not_shown(given_way: Sequence[Column], place: str) -> str:
+def columns_not_shown(given_way: Sequence[TableColumn], place: str) -> str:
     """Return the line that names the columns that gave way, and where they are; empty where none did."""
     names = ", ".join(title for column in given_way if (title := column.title.partition("\n")[0]))
     return f"not shown for lack of room: {names}; {place}" if names else ""
 
 
-def _least_width(columns: Sequence[Column], width: int) -> int:
+def _least_width(columns: Sequence[TableColumn], width: int) -> int:
     """Return how much room columns need at least, if texts that wrap may take their share of the width."""
     share = _share(columns, width)
     widths = [min(column.width, _room(column, share)) if column.wraps else column.width for column in columns]
     return sum(widths) + len(GAP) * (len(columns) - 1)
 
 
-def _share(columns: Sequence[Column], width: int) -> int:
+def _share(columns: Sequence[TableColumn], width: int) -> int:
     return width // 2 // max(sum(column.wraps for column in columns), 1)
 
 
-def _room(column: Column, share: int) -> int:
+def _room(column: TableColumn, share: int) -> int:
     """Return the width a column should have: its share, more where one of its words is longer."""
     longest = max(len(piece.rstrip()) for cell in column.cells for piece in _PIECE.findall(cell))
     return max(share, longest, max(map(len, column.title.split("\n"))))
 
 
-def _wrapped(columns: Sequence[Column], width: int) -> list[Column]:
+def _wrapped(columns: Sequence[TableColumn], width: int) -> list[TableColumn]:
     """Return the columns with texts wrapped where there is no room for all of them."""
     fixed = sum(column.width for column in columns if not column.wraps) + len(GAP) * (len(columns) - 1)
     names = sorted((column for column in columns if column.wraps), key=lambda each: each.width)
@@ -120,6 +120,6 @@ def _wrapped(columns: Sequence[Column], width: int) -> list[Column]:
         room -= own
         texts[column.title] = ["\n".join(wrapped_name(cell, own)) for cell in column.cells]
     return [
-        Column(each.title, texts[each.title], each.rank, each.right, wraps=True) if each.wraps else each
+        TableColumn(each.title, texts[each.title], each.rank, each.right, wraps=True) if each.wraps else each
         for each in columns
     ]

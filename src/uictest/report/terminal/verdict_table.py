@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
-from uictest.report.terminal.fitted_columns import Column, columns_not_shown, fitted
+from uictest.report.terminal.fitted_columns import TableColumn, columns_not_shown, fitted
 from uictest.report.wording import Tone, criterion_sentences, tone
 
 if TYPE_CHECKING:
@@ -26,9 +26,9 @@ _MEASURES = {
     "mean\nm/s2": ("mean_deceleration_mps2", ".2f", 4),
     "adhesion\ng": ("initial_adhesion_g", ".3f", 6),
 }
-"""Heading -> figure, its format, and the rank in which it gives way on a narrow terminal."""
+"""Heading -> measure, its format, and the rank in which it gives way on a narrow terminal."""
 
-ALL_COLUMNS = "summary.csv and wheelsets.csv have all figures"
+ALL_COLUMNS = "summary.csv and wheelsets.csv have all measures"
 
 
 def verdict_table(
@@ -57,24 +57,26 @@ def verdict_table(
 
 def _columns(
     results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str]
-) -> list[Column]:
+) -> list[TableColumn]:
     columns = [
-        Column("case", [printable(result.id) for result in results], wraps=True),
-        Column("verdict", list(map(word, results))),
-        Column("outcome", [result.outcome for result in results], rank=1),
+        TableColumn("case", [printable(result.id) for result in results], wraps=True),
+        TableColumn("verdict", list(map(word, results))),
+        TableColumn("outcome", [result.outcome for result in results], rank=1),
     ]
     for title, (name, form, rank) in _MEASURES.items():
-        cells = [_figure((result.measures or {}).get(name), form) for result in results]
-        columns.append(Column(title, cells, rank, right=True))
+        cells = [_cell((result.measures or {}).get(name), form) for result in results]
+        columns.append(TableColumn(title, cells, rank, right=True))
     slides = [_largest(result, "maximum_slide") for result in results]
     vents = [_largest(result, "valve_actuations") for result in results]
-    columns.append(Column("slide\nmax %", [_figure(s and 100.0 * s, ".0f") for s in slides], 3, right=True))
-    columns.append(Column("vents\nmax", [_figure(each, "d") for each in vents], 7, right=True))
+    columns.append(
+        TableColumn("slide\nmax %", [_cell(s and 100.0 * s, ".0f") for s in slides], 3, right=True)
+    )
+    columns.append(TableColumn("vents\nmax", [_cell(each, "d") for each in vents], 7, right=True))
     return columns
 
 
-def _largest(result: evaluation.CaseResult, figure: str) -> float | None:
-    return max((wheelset[figure] for wheelset in result.wheelsets), default=None)
+def _largest(result: evaluation.CaseResult, measure: str) -> float | None:
+    return max((wheelset[measure] for wheelset in result.wheelsets), default=None)
 
 
 def explanation_text(
@@ -94,5 +96,5 @@ def explanation_text(
     return text
 
 
-def _figure(value: float | None, form: str) -> str:
+def _cell(value: float | None, form: str) -> str:
     return "-" if value is None or math.isnan(value) else format(value, form)

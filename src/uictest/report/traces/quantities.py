@@ -93,7 +93,7 @@ STRIPS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Loop:
+class PlotLoop:
     """One quantity over another, whose axis holds the values in `include`.
 
     `dots`: the samples as dots, where lines between them would mislead.
@@ -110,9 +110,11 @@ class Loop:
 
 
 LOOPS = (
-    Loop("over-distance", "Speed over distance", "distance", "speed", "distance, m", "speed, km/h"),
-    Loop("force-loop", "Clamping force over tank pressure", "tank_pressure", "clamping_force", "bar", "kN"),
-    Loop(
+    PlotLoop("over-distance", "Speed over distance", "distance", "speed", "distance, m", "speed, km/h"),
+    PlotLoop(
+        "force-loop", "Clamping force over tank pressure", "tank_pressure", "clamping_force", "bar", "kN"
+    ),
+    PlotLoop(
         "adhesion-loop",
         "Adhesion over slide",
         "slide",
@@ -155,19 +157,19 @@ def lines_of(key: str) -> tuple[PlotLine, ...]:
     )
 
 
-def names_of(key: str) -> tuple[str, ...]:
+def channel_names(key: str) -> tuple[str, ...]:
     """Return the channels of a quantity: one, or one per wheelset."""
     return tuple(f"{key}_{n}" for n in WHEELSETS) if PLOT_QUANTITIES[key].of_wheelsets else (key,)
 
 
 def key_of(name: str) -> str:
     """Return the quantity of a channel."""
-    return next(key for key in PLOT_QUANTITIES if name in names_of(key))
+    return next(key for key in PLOT_QUANTITIES if name in channel_names(key))
 
 
-def loop_lines(loop: Loop) -> list[tuple[str, PlotLine]]:
+def loop_lines(loop: PlotLoop) -> list[tuple[str, PlotLine]]:
     """Return the lines of a loop, each with the channel that it is drawn over."""
-    across = names_of(loop.across)
+    across = channel_names(loop.across)
     return [(across[k % len(across)], line) for k, line in enumerate(lines_of(loop.up))]
 
 

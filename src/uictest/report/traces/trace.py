@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from uictest import evaluation, recording
 from uictest.report.traces.extremes import thinned
 from uictest.report.traces.moments import Moments, moments_of
-from uictest.report.traces.quantities import LOOPS, PLOT_QUANTITIES, WHEELSETS, loop_lines, names_of
+from uictest.report.traces.quantities import LOOPS, PLOT_QUANTITIES, WHEELSETS, channel_names, loop_lines
 from uictest.units import STANDARD_GRAVITY
 
 BINS = 800
@@ -52,7 +52,7 @@ class States:
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class PlotTrace:
     """What is drawn of one stop.
 
     Args:
@@ -79,7 +79,7 @@ class Trace:
     moments: Mapping[str, Moments] = field(default_factory=dict)
 
 
-def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict] = ()) -> Trace:
+def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict] = ()) -> PlotTrace:
     """Return what is drawn of a stop: the extremes of every signal, every change of a state.
 
     Args:
@@ -90,8 +90,8 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
     time = record["time"]
     channels = dict(record.channels) | _derived(record)
     series = _in_units(channels)
-    states = {name for state in STATES for name in names_of(state)}
-    return Trace(
+    states = {name for state in STATES for name in channel_names(state)}
+    return PlotTrace(
         float(time[0]),
         float(time[-1]),
         interval_of(time),
@@ -141,7 +141,7 @@ def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
     return {
         name: np.asarray(channels[name], dtype=np.float64) / quantity.scale
         for key, quantity in PLOT_QUANTITIES.items()
-        for name in names_of(key)
+        for name in channel_names(key)
         if name in channels
     }
 

@@ -7,7 +7,7 @@ from functools import partial
 from uictest.recording import Recording
 from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
-from uictest.studies.phases import lines_of
+from uictest.studies.phases import identified_lines
 from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
@@ -39,7 +39,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Apply the three pressures to the caliper and identify its hysteresis loop in each."""
     recipes = [bench.load_bench(bench.recipe_path(name)) for name in TESTS]
     tests = dict(zip(TESTS, stop_runner.map(bench.run_test, recipes), strict=True))
-    lines_by_test = {name: lines_of(recording) for name, recording in tests.items()}
+    lines_by_test = {name: identified_lines(recording) for name, recording in tests.items()}
     widths = {name: lines.loop_widths["bc"] / BAR for name, lines in lines_by_test.items()}
     return StudyFindings(
         {

@@ -9,7 +9,7 @@ import numpy as np
 from uictest import identification
 from uictest.recording import Recording
 from uictest.studies.figures.four_phase_lines import draw
-from uictest.studies.phases import TITLES, lines_of, on_phases
+from uictest.studies.phases import TITLES, identified_lines, on_phases
 from uictest.studies.quantity import StudyQuantity, StudyValue
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import StopRunner
@@ -34,7 +34,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     case = stop_runner.cases("slide-80")[0]
     stop = stop_runner.recordings([case], CYCLE)[0]
     recording = replayed(case, stop, 1, release=True)
-    hysteresis = lines_of(recording)
+    hysteresis = identified_lines(recording)
     return StudyFindings(
         dict(_values(hysteresis)),
         tables={"lines": _lines_table(hysteresis), "samples": _samples_table(recording)},

@@ -23,7 +23,7 @@ TRAIN = 0
 
 
 @dataclass(frozen=True, slots=True)
-class Measure:
+class ComparedMeasure:
     """A measure that is compared: its name, title and unit, and whether each wheelset has its own."""
 
     key: str
@@ -34,15 +34,15 @@ class Measure:
 
 
 COMPARED_MEASURES = (
-    Measure("braking_distance", "braking distance", "m"),
-    Measure("braking_time", "braking time", "s", digits=2),
-    Measure("air_consumed", "air taken", "NL"),
-    Measure("maximum_slide", "largest slide", "percentage points", of_wheelsets=True),
-    Measure("valve_actuations", "valve actuations", "", of_wheelsets=True),
+    ComparedMeasure("braking_distance", "braking distance", "m"),
+    ComparedMeasure("braking_time", "braking time", "s", digits=2),
+    ComparedMeasure("air_consumed", "air taken", "NL"),
+    ComparedMeasure("maximum_slide", "largest slide", "percentage points", of_wheelsets=True),
+    ComparedMeasure("valve_actuations", "valve actuations", "", of_wheelsets=True),
 )
 ERRORS = (
-    Measure("pressure_error", "pressure error", UNITS_OF_ERRORS["pressure_error"], of_wheelsets=True),
-    Measure("force_error", "force error", UNITS_OF_ERRORS["force_error"], of_wheelsets=True),
+    ComparedMeasure("pressure_error", "pressure error", UNITS_OF_ERRORS["pressure_error"], of_wheelsets=True),
+    ComparedMeasure("force_error", "force error", UNITS_OF_ERRORS["force_error"], of_wheelsets=True),
 )
 
 
@@ -76,7 +76,7 @@ def _quantities() -> Iterator[StudyQuantity]:
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Compare the rigs at every point, then the models along the commands of the rig with four calipers."""
     points = neighbourhood(stop_runner)
-    rig_differences = [difference for point in points for difference in differences(point)]
+    rig_differences = [difference for point in points for difference in differences_at(point)]
     rig_differences += [
         RigDifference(
             error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values
@@ -121,7 +121,7 @@ def _notes(points: int) -> tuple[str, ...]:
     return differences, errors
 
 
-def differences(point: Point) -> Iterator[RigDifference]:
+def differences_at(point: Point) -> Iterator[RigDifference]:
     """Yield the differences of all rigs at one point."""
     for measure in COMPARED_MEASURES:
         for wheelset in (1, 2, 3, 4) if measure.of_wheelsets else (TRAIN,):
@@ -145,7 +145,7 @@ def overall(rig_differences: Sequence[RigDifference], measure: str, rig_name: st
     )
 
 
-def _values(stops: Sequence[rig.SimulatedStop], measure: Measure, wheelset: int) -> list[float]:
+def _values(stops: Sequence[rig.SimulatedStop], measure: ComparedMeasure, wheelset: int) -> list[float]:
     return [_value(stop, measure.key, wheelset) for stop in stops]
 
 

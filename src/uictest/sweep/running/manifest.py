@@ -64,7 +64,7 @@ def sweep_manifest(
     }
 
 
-def differences(
+def manifest_differences(
     one: Mapping[str, Any], other: Mapping[str, Any], whose: tuple[str, str] = ("before", "now")
 ) -> Iterator[str]:
     """Yield the differences of two manifests in words; `whose` says which of them has a value.

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.recording import write_bytes_atomic, write_text_atomic
-from uictest.sweep.running.manifest import differences
+from uictest.sweep.running.manifest import manifest_differences
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -46,7 +46,7 @@ class ChunkStore:
         if restart:
             self._discard()
         stored = self.manifest()
-        changes = [] if stored is None else list(differences(stored, manifest))
+        changes = [] if stored is None else list(manifest_differences(stored, manifest))
         if changes and self._files():
             raise ChangedInputsError("; ".join(changes))
         if stored is None or changes:
@@ -106,7 +106,9 @@ class ChunkStore:
         manifest = other.manifest()
         if manifest is None:
             raise ChangedInputsError(f"{other.folder} holds no sweep")
-        changes = list(differences(self.manifest() or {}, manifest, ("in this sweep", "in the shard")))
+        changes = list(
+            manifest_differences(self.manifest() or {}, manifest, ("in this sweep", "in the shard"))
+        )
         if changes:
             raise ChangedInputsError(f"{other.folder}: {'; '.join(changes)}")
         paths = [path for _, path in other._files()]

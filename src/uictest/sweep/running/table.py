@@ -54,7 +54,7 @@ def numeric_keys(plan: Plan) -> list[str]:
     return keys
 
 
-def schema(plan: Plan) -> pa.Schema:
+def row_schema(plan: Plan) -> pa.Schema:
     """Return names and types of the columns, in order."""
     import pyarrow as pa
 
@@ -88,8 +88,8 @@ def rows(plan: Plan, block: CaseBlock, results: Sequence[CaseResult]) -> pa.Tabl
     margins = zip(*map(narrowest_margin, results), strict=True)
     columns["narrowest_margin"], columns["narrowest_criterion"] = margins
     columns.update(zip(measure_columns(), zip(*map(_measures, results), strict=True), strict=True))
-    arrays = [pa.array(columns[column.name], column.type, from_pandas=True) for column in schema(plan)]
-    return pa.table(arrays, schema=schema(plan))
+    arrays = [pa.array(columns[column.name], column.type, from_pandas=True) for column in row_schema(plan)]
+    return pa.table(arrays, schema=row_schema(plan))
 
 
 def _measures(result: CaseResult) -> Iterator[float | None]:

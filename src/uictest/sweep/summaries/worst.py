@@ -43,7 +43,7 @@ def _numbers(table: pa.Table, name: str) -> Any:
     return np.array(table.column(name).to_numpy(zero_copy_only=False), float)
 
 
-def cases_of(plan: Plan, indices: Sequence[int]) -> list[Case]:
+def full_cases(plan: Plan, indices: Sequence[int]) -> list[Case]:
     """Return cases of a plan with their whole scenarios, as `run` would run them."""
     places = np.array(indices, np.int64)
     settings = plan.settings(places)

@@ -10,7 +10,7 @@ from uictest.measures import MEASURES
 from uictest.recording import Recording
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import DRAWN, marks_of
-from uictest.report.traces.trace import Trace, trace_of
+from uictest.report.traces.trace import PlotTrace, trace_of
 
 MakeVerdict = Callable[..., Verdict]
 MakeRecording = Callable[..., Recording]
@@ -31,7 +31,7 @@ def record(make_recording: MakeRecording) -> Recording:
 
 
 @pytest.fixture
-def trace(record: Recording) -> Trace:
+def trace(record: Recording) -> PlotTrace:
     """What is drawn of that stop."""
     return trace_of(record)
 
@@ -82,7 +82,7 @@ def test_a_lock_below_the_moving_speed_is_none(marks: Marks) -> None:
     assert marks("longest_lock", {**LOCKING, "moving_speed": 30.0}, upper=1.0, unit="s") == []
 
 
-def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Marks, trace: Trace) -> None:
+def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks: Marks, trace: PlotTrace) -> None:
     (mark,) = marks("standstill", status="fail", lower=1.0, value=0.0, unit="1", id="standstill")
     assert (mark.plot, mark.kind, mark.x0) == ("speed", "instant", trace.end)
     assert mark.label == "standstill: the record ends at 0 km/h"
@@ -136,7 +136,9 @@ def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
     assert mark.x0 == pytest.approx(11.0, abs=0.05)
 
 
-def test_failing_criteria_come_first_then_inconclusive_ones(make_verdict: MakeVerdict, trace: Trace) -> None:
+def test_failing_criteria_come_first_then_inconclusive_ones(
+    make_verdict: MakeVerdict, trace: PlotTrace
+) -> None:
     verdicts = [
         make_verdict(id=status, status=status, measure="braking_distance")
         for status in ("pass", "not_applicable", "inconclusive", "fail")

@@ -8,7 +8,7 @@ from itertools import pairwise
 from uictest.report.page.axis import Axis
 from uictest.report.page.stop.mark import Mark
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.traces.trace import States, Trace
+from uictest.report.traces.trace import PlotTrace, States
 
 Bar = tuple[float, float, float]
 """Beginning and end (s), and row: the number of the wheelset."""
@@ -22,7 +22,7 @@ _LEAST_WIDTH = 1.0
 """Pixels: a state that is drawn is never narrower."""
 
 
-def state_bars(trace: Trace) -> dict[str, list[Bar]]:
+def state_bars(trace: PlotTrace) -> dict[str, list[Bar]]:
     """Return the bars of the valve states by kind, what is painted first coming first.
 
     Fill, the state of every valve without WSP action, is only drawn after another state.
@@ -37,7 +37,7 @@ def state_bars(trace: Trace) -> dict[str, list[Bar]]:
     return {"hold": hold, "fill": [bar for bar in fill if bar[0] > trace.start], "vent": vent}
 
 
-def vents(trace: Trace, n: int) -> list[Bar]:
+def vents(trace: PlotTrace, n: int) -> list[Bar]:
     """Return the vents of a wheelset; none where its valve was not recorded."""
     states = trace.states.get(f"valve_command_{n}")
     return [] if states is None else _bars(states, VENT, n, trace.end)

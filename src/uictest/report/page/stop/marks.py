@@ -10,10 +10,10 @@ from typing import Final
 from uictest import evaluation
 from uictest.report.page.stop import train_marks, wheelset_marks
 from uictest.report.page.stop.mark import Mark
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import failing_first
 
-DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]] = MappingProxyType(
+DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, PlotTrace], Iterator[Mark]]]] = MappingProxyType(
     {
         "braking_distance": train_marks.braking_distance,
         "braking_time": train_marks.braking_time,
@@ -38,7 +38,7 @@ DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, Trace], Iterator[Mark]]]
 """Measure -> how a criterion that bounds it is drawn; a criterion of another measure is only listed."""
 
 
-def marks_of(verdicts: Iterable[evaluation.Verdict], trace: Trace) -> list[Mark]:
+def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[Mark]:
     """Return the marks of every criterion that applied to a stop, those of failing ones first."""
     return [
         replace(

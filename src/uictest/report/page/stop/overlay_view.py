@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from uictest.report.page.stop.packing import packed, script_json
 from uictest.report.page.stop.sketch import Sketch, panels_over_time
 from uictest.report.traces.quantities import Panel, PlotLine
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class OverlayView:
 
 
 def overlay_view(
-    key: str, title: str, trace: Trace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]]
+    key: str, title: str, trace: PlotTrace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]]
 ) -> OverlayView:
     """Return the view of panels with the lines they show."""
     drawn = panels_over_time(trace, panels, [])

@@ -14,14 +14,14 @@ from uictest.report.traces.quantities import (
     PANELS,
     STRIPS,
     WHEELSETS,
-    Loop,
     Panel,
     PlotLine,
+    PlotLoop,
     Strip,
     loop_lines,
     panel_lines,
 )
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 
 WIDTH, LEFT, RIGHT = 960, 52, 948
 _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
@@ -56,7 +56,7 @@ class Level:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawing:
+class PlotDrawing:
     """One plot ready to be written as SVG: every coordinate in pixels."""
 
     key: str
@@ -81,11 +81,11 @@ class Sketch:
     """All plots of one stop: panels above each other over one time axis, and the loops."""
 
     height: float
-    panels: list[Drawing] = field(default_factory=list)
-    loops: list[Drawing] = field(default_factory=list)
+    panels: list[PlotDrawing] = field(default_factory=list)
+    loops: list[PlotDrawing] = field(default_factory=list)
 
 
-def sketch_of(trace: Trace, marks: Sequence[Mark]) -> Sketch:
+def sketch_of(trace: PlotTrace, marks: Sequence[Mark]) -> Sketch:
     """Return the drawings of a stop; quantities that it has no series of are left out."""
     over_time = panels_over_time(trace, [(panel, panel_lines(panel)) for panel in PANELS], marks)
     loops = [_loop(loop, trace, [mark for mark in marks if mark.plot == loop.key]) for loop in LOOPS]
@@ -93,11 +93,11 @@ def sketch_of(trace: Trace, marks: Sequence[Mark]) -> Sketch:
 
 
 def panels_over_time(
-    trace: Trace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]], marks: Sequence[Mark]
+    trace: PlotTrace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]], marks: Sequence[Mark]
 ) -> Sketch:
     """Return panels above each other over one time axis, below them the valve states if there are any."""
     time = Axis(trace.start, trace.end if trace.end > trace.start else trace.start + 1.0, LEFT, RIGHT)
-    drawings: list[Drawing] = []
+    drawings: list[PlotDrawing] = []
     top = 0.0
     for panel, lines in panels:
         known = [line for line in lines if line.series in trace.curves]
@@ -115,13 +115,13 @@ def panels_over_time(
 
 
 def _panel(
-    panel: Panel, lines: Sequence[PlotLine], trace: Trace, time: Axis, top: float, marks: Sequence[Mark]
-) -> Drawing:
+    panel: Panel, lines: Sequence[PlotLine], trace: PlotTrace, time: Axis, top: float, marks: Sequence[Mark]
+) -> PlotDrawing:
     upper, lower = top + _TITLE, top + _TITLE + panel.height * _HEIGHT
     levels = [mark.y for mark in marks if mark.y is not None]
     curves = [(line, trace.curves[line.series]) for line in lines]
     y = Axis(*span((curve.y for _, curve in curves), [*panel.include, *levels]), lower, upper)
-    return Drawing(
+    return PlotDrawing(
         panel.key,
         panel.title,
         LEFT,
@@ -139,11 +139,11 @@ def _panel(
 
 def _strip(
     strip: Strip, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
-) -> Drawing:
+) -> PlotDrawing:
     upper = top + _TITLE
     bottom = upper + len(WHEELSETS) * _BAND
     row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
-    return Drawing(
+    return PlotDrawing(
         strip.key,
         strip.heading,
         LEFT,
@@ -157,7 +157,7 @@ def _strip(
     )
 
 
-def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
+def _loop(loop: PlotLoop, trace: PlotTrace, marks: Sequence[Mark]) -> PlotDrawing:
     curves = [
         (line, trace.loops[name])
         for _, line in loop_lines(loop)
@@ -167,7 +167,7 @@ def _loop(loop: Loop, trace: Trace, marks: Sequence[Mark]) -> Drawing:
     ends = [end for mark in marks for end in (mark.x0, mark.x1) if end is not None]
     x = Axis(*span((curve.x for _, curve in curves), [*loop.include, *ends]), LEFT, _LOOP_WIDTH - 10)
     y = Axis(*span((curve.y for _, curve in curves), [0.0]), _LOOP_HEIGHT - 34, _TITLE)
-    return Drawing(
+    return PlotDrawing(
         loop.key,
         loop.title,
         x.start,

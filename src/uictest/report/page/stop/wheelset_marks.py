@@ -10,40 +10,40 @@ from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.mark import Mark, limit_marks, misses, point
 from uictest.report.traces.moments import Interval, Moments
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.traces.trace import Trace
+from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import quantity, value_and_limits
 
 
-def maximum_slide(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
+def maximum_slide(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield the bounds down to the cut-off and, unless it passed, each wheelset's largest slide above it."""
     yield from limit_marks(verdict, "slide", x1=_moments(verdict, trace).until)
     yield from _largest(verdict, trace, "slide")
 
 
-def maximum_clamping_force(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
+def maximum_clamping_force(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield the bounds and, unless it passed, the largest force of each wheelset."""
     yield from limit_marks(verdict, "force")
     yield from _largest(verdict, trace, "force")
 
 
-def locked(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
+def locked(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield when each wheelset was locked."""
     yield from _intervals(verdict, "locked", _moments(verdict, trace).intervals)
 
 
-def sliding(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
+def sliding(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield when each wheelset slid."""
     yield from _intervals(verdict, "sliding", _moments(verdict, trace).intervals)
 
 
-def vented(verdict: evaluation.Verdict, trace: Trace) -> Iterator[Mark]:
+def vented(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield, unless it passed, from the first to the last vent of each wheelset."""
     if verdict.status != "pass":
         spans = {n: [(bars[0][0], bars[-1][1])] for n in WHEELSETS if (bars := vents(trace, n))}
         yield from _intervals(verdict, "valves", spans)
 
 
-def _moments(verdict: evaluation.Verdict, trace: Trace) -> Moments:
+def _moments(verdict: evaluation.Verdict, trace: PlotTrace) -> Moments:
     return trace.moments.get(verdict.id, Moments())
 
 
@@ -59,7 +59,7 @@ def _intervals(
         yield Mark(strip, "interval", label if row == longest else "", first, last, float(n))
 
 
-def _largest(verdict: evaluation.Verdict, trace: Trace, plot: str) -> Iterator[Mark]:
+def _largest(verdict: evaluation.Verdict, trace: PlotTrace, plot: str) -> Iterator[Mark]:
     if verdict.status != "pass":
         for n, (time, value) in _moments(verdict, trace).extremes.items():
             label = f"{n}: {quantity(value, verdict.unit)}" if misses(verdict, value) else ""
