@@ -117,6 +117,7 @@ Verbosity = Annotated[
         count=True,
         callback=_remember_verbosity,
         help="More detail, including tracebacks.",
+        show_default=False,
     ),
 ]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only cases that are not as expected.")]

@@ -7,9 +7,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.report import format_names
+from uictest.report import SWEEP_FORMATS, format_names
 from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.formats import SWEEP_FORMATS, write_sweep_formats
+from uictest.report.sweep.formats import write_sweep_formats
 
 MakeSweep = Callable[..., SweepContent]
 

@@ -61,8 +61,6 @@ Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
 HeldOut = Annotated[
     float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record held out from the fit.")
 ]
-
-
 PressureChannel = Annotated[
     str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder pressure.")
 ]

@@ -22,7 +22,7 @@ def list_cases(
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """List the ids of all cases, one per line; with -v, titles and tags. Lists a sweep only if named."""
+    """List the ids of all cases, one per line; with -v, titles and tags. Sweeps must be named."""
     if paths and all(map(sweeping.is_sweep, paths)):
         return _list_sweeps(paths, expression, overrides, trusted)
     cases = load_cases(paths, overrides, None, trusted)

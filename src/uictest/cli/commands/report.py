@@ -23,7 +23,9 @@ def report(
     formats: Annotated[
         str,
         typer.Option(
-            "--format", metavar="FORMATS", help=f"Joined by commas: {', '.join(reports.format_names())}."
+            "--format",
+            metavar="FORMATS",
+            help=f"Formats, joined by commas: {', '.join(reports.format_names())}; junit for runs only.",
         ),
     ] = "xlsx",
     output: Annotated[

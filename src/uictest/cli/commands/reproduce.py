@@ -10,9 +10,9 @@ from typing import Annotated
 
 import typer
 
-from uictest import controllers, rig, studies
+from uictest import controllers, report, rig, studies
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
-from uictest.cli.options import Colour, Colouring, Jobs, PlainFormat, Quiet, Verbosity
+from uictest.cli.options import Colour, Colouring, Jobs, ListFormat, PlainFormat, Verbosity
 from uictest.cli.output import coloured, data, interactive, message
 from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
@@ -29,18 +29,17 @@ def reproduce(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for data and figures.")
     ] = Path("reports", "studies"),
-    shown: Annotated[
-        PlainFormat,
-        typer.Option("--format", help="What stdout carries: tables or lines, or a JSON document."),
-    ] = PlainFormat.TEXT,
+    shown: ListFormat = PlainFormat.TEXT,
     jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
-    quiet: Quiet = False,
+    quiet: Annotated[
+        bool, typer.Option("-q", "--quiet", help="Show only studies with a value outside its band.")
+    ] = False,
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
     """Run the studies of the paper and print its values next to ours.
 
-    Exit 0 when every band holds, else 1.
+    Exit 1 if a value lies outside its band.
     """
     selected = _selected(names or ())
     if listed:
@@ -58,9 +57,8 @@ def reproduce(
 
 
 def _sum_up(count: int, missed: int, output: Path) -> None:
-    noun = "1 study" if count == 1 else f"{count} studies"
     bands = f"{missed} of them with a value outside its band" if missed else "every band holds"
-    message(f"uictest: {noun}, {bands}; in {output}")
+    message(f"uictest: {report.counted(count, 'study', 'studies')}, {bands}; in {output}")
 
 
 def _selected(names: Sequence[str]) -> list[studies.Study]:

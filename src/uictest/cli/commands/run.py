@@ -29,7 +29,7 @@ BaselineFolder = Annotated[
     typer.Option(
         "--baseline",
         metavar="DIR",
-        help="Compare with the baseline in DIR; exit 1 if a figure is out of tolerance.",
+        help="Compare with the baseline in DIR; exit 1 if a measure is out of tolerance.",
     ),
 ]
 Accept = Annotated[

@@ -21,7 +21,6 @@ from uictest.cli.options import (
     MaxFail,
     Overrides,
     Quiet,
-    Reports,
     Seed,
     Trusted,
     Verbosity,
@@ -32,17 +31,19 @@ from uictest.cli.output import message
 
 
 class Device(StrEnum):
-    """What simulates."""
+    """The processor that simulates."""
 
     CPU = "cpu"
     CUDA = "cuda"
 
 
-SweepFile = Annotated[Path, typer.Argument(metavar="FILE", help="A *.sweep.yaml.")]
+SweepFile = Annotated[Path, typer.Argument(metavar="FILE", help="Sweep file (*.sweep.yaml).")]
 Frontier = Annotated[
     str | None,
     typer.Option(
-        "--frontier", metavar="KEY", help="Find where the verdict flips along KEY; its values are the scan."
+        "--frontier",
+        metavar="KEY",
+        help="Find where the verdict flips along KEY, between its values in the sweep.",
     ),
 ]
 Tolerance = Annotated[
@@ -50,7 +51,7 @@ Tolerance = Annotated[
     typer.Option(
         "--tolerance",
         metavar="VALUE",
-        help="How closely a flip is located: 0.001, '0.5 km/h' [default: 1/64 of the smallest step].",
+        help="Accuracy of --frontier, such as 0.001 or '0.5 km/h' [default: 1/64 of the smallest step].",
     ),
 ]
 MapPair = Annotated[
@@ -69,12 +70,12 @@ Measures = Annotated[
         help="Measure to map and to compute sensitivities of: a column of summary.csv. May be repeated.",
     ),
 ]
-OnDevice = Annotated[Device, typer.Option("--device", help="What simulates.")]
+OnDevice = Annotated[Device, typer.Option("--device", help="Processor to simulate on.")]
 SweepFormat = Annotated[
     Format,
     typer.Option(
         "--format",
-        help="What stdout carries: maps and rates, sweep.json, or maps and rates with annotations.",
+        help="Output on stdout: text (maps and rates), json (sweep.json) or github (text, annotations).",
     ),
 ]
 Shard = Annotated[
@@ -88,11 +89,19 @@ Merged = Annotated[
 Dask = Annotated[
     str | None, typer.Option("--dask", metavar="ADDRESS", help="Simulate on the cluster of this scheduler.")
 ]
+SweepReports = Annotated[
+    str,
+    typer.Option(
+        "--report",
+        metavar="FORMATS",
+        help=f"Reports to write, joined by commas: {', '.join(report.SWEEP_FORMATS)}.",
+    ),
+]
 Restart = Annotated[bool, typer.Option("--restart", help="Discard finished chunks and start again.")]
 SweepOutput = Annotated[
     Path,
     typer.Option(
-        "-o", "--output", metavar="DIR", help="Folder of the sweep's folder, which has the sweep's name."
+        "-o", "--output", metavar="DIR", help="Folder for results; the sweep gets a folder of its name in it."
     ),
 ]
 
@@ -119,7 +128,7 @@ def sweep(
     output: SweepOutput = Path("reports"),
     junit: JUnitFile = None,
     shown: SweepFormat = Format.TEXT,
-    formats: Reports = "csv,html",
+    formats: SweepReports = "csv,html",
     quiet: Quiet = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:

@@ -26,9 +26,6 @@ _WRITERS: Final[Mapping[str, tuple[str, Callable[[SweepContent], bytes]]]] = Map
 _TABLES: Final = "csv"
 """The format that the folder of every sweep has."""
 
-SWEEP_FORMATS: Final = tuple(sorted((_TABLES, *_WRITERS)))
-"""Formats that a sweep can be reported in."""
-
 
 def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str]) -> list[Path]:
     """Write a sweep in some formats into a folder, and return the files.
