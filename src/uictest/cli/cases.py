@@ -76,10 +76,10 @@ def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
         TableColumn("title", [printable(case.scenario.title) for case in cases], rank=1, wraps=True),
         TableColumn("tags", [printable(" ".join(case.scenario.tags)) for case in cases], rank=2, wraps=True),
     ]
-    shown, given_way = fitted(columns, width)
+    shown, hidden = fitted(columns, width)
     yield from aligned(shown)
-    if given_way:
-        yield columns_not_shown(given_way, "--format json has them")
+    if hidden:
+        yield columns_not_shown(hidden, "--format json has them")
 
 
 def _described(case: scenario.Case) -> str:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from uictest import identification
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, PERCENT, in_unit
 
 
 def hysteresis_text(result: identification.HysteresisResult) -> str:
     """Return the lines of the four phases, the widths of the loops and the errors on held-out samples."""
     lines = [
-        f"{phase:<16}{line.slope * 100:9.4f} kN/bar +-{line.slope_confidence * 100:8.4f}"
+        f"{phase:<16}{line.slope / KILONEWTON_PER_BAR:9.4f} kN/bar"
+        f" +-{line.slope_confidence / KILONEWTON_PER_BAR:8.4f}"
         f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
         for phase, line in result.lines.items()
     ]
     lines += [
-        f"{kind} loop width {width / 1e5:.4f} bar at {result.high_force / 1e3:.2f} kN"
+        f"{kind} loop width {width / BAR:.4f} bar at {result.high_force / KILONEWTON:.2f} kN"
         for kind, width in result.loop_widths.items()
     ]
-    largest, rms = 100.0 * result.largest_error, 100.0 * result.rms_error
-    force = result.largest_force / 1e3
+    largest, rms = result.largest_error / PERCENT, result.rms_error / PERCENT
+    force = result.largest_force / KILONEWTON
     lines.append(f"force error, held out: largest {largest:.2f} %, rms {rms:.2f} % of {force:.2f} kN")
     return "\n".join(lines)
 
@@ -25,12 +27,12 @@ def hysteresis_text(result: identification.HysteresisResult) -> str:
 def cylinder_text(result: identification.CylinderResult) -> str:
     """Return the transfer function, its band and the errors on held-out samples."""
     model = result.transfer_function
-    before, after = 100.0 * result.largest_before, 100.0 * result.largest_after
-    pressure = result.largest_pressure / 1e5
+    before, after = result.largest_before / PERCENT, result.largest_after / PERCENT
+    pressure = result.largest_pressure / BAR
     poles = ", ".join(f"{pole.real:.6f}{pole.imag:+.6f}j" for pole in model.poles)
     return "\n".join(
         [
-            f"sampling time {model.sampling_time * 1e3:g} ms",
+            f"sampling time {in_unit(model.sampling_time, 'ms'):g} ms",
             f"numerator {', '.join(map(repr, model.numerator))}",
             f"denominator 1.0, {', '.join(map(repr, model.denominator))}",
             f"poles {poles}",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, TypeVar
 
 import typer
 
@@ -70,15 +70,17 @@ def channel_map(
     return loaded.model_copy(update={"preparation": changed}), inputs
 
 
-def _with_options(preparation: Any, texts: dict[str, str | None]) -> Any:
-    """Return the preparation with the options that are set."""
+def _with_options(
+    preparation: field_data.Preparation, texts: dict[str, str | None]
+) -> field_data.Preparation:
+    """Return the preparation with the options that are set. Raises typer.BadParameter."""
     from pydantic import ValidationError
 
     options = {name: text for name, text in texts.items() if text is not None}
     if (trigger := options.get("trigger")) is not None and any(map(str.isdigit, trigger)):
         options["trigger_time"] = options.pop("trigger")
     try:
-        return type(preparation).model_validate({**dict(preparation), **options})
+        return field_data.Preparation.model_validate({**dict(preparation), **options})
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         name = str(first["loc"][0]) if first["loc"] else ""
@@ -102,7 +104,7 @@ def one_case(
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
     """Use every file, and return what comes of it.
 
-    Raises InvalidInputError with every file's error, BrokenOffError where the machine does not let it read.
+    Raises InvalidInputError with every file's error, BrokenOffError where the machine ends the reading.
     """
     results: list[Result] = []
     errors: list[str] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -17,7 +17,7 @@ from uictest.comparison.tolerance import Tolerances
 from uictest.report import BaselineComparison, Difference, without_machine
 
 _TABLES = ("subjects", "parts")
-"""What a results document holds by name beside its cases."""
+"""Mappings by id or name in a results document, besides its cases."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +35,10 @@ class Scope:
     searched: Sequence[str] = ()
 
     def misses(self, case_id: str, scenario: str) -> bool:
-        """Return whether a case was to be expected from the files searched, and is in none of them."""
+        """Return whether the files searched should contain a case and do not."""
         path = PurePosixPath(scenario)
         places = (path, *path.parents)
-        return case_id not in self.selected and any(PurePosixPath(each) in places for each in self.searched)
+        return case_id not in self.selected and any(PurePosixPath(name) in places for name in self.searched)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,31 +54,37 @@ class Baseline:
     tolerances: Tolerances
 
     def compare(self, run: report.RunContent) -> BaselineComparison:
-        """Compare every result of a run, and say which cases of the baseline were not compared."""
+        """Compare every result of a run, and list the cases of the baseline that were not compared."""
         quantities = {result.id: list(self._quantities(result)) for result in run.results}
-        apart = {
-            case_id: [difference for difference in each if difference] for case_id, each in quantities.items()
-        }
-        rest = [result for result in self.run.results if result.id not in quantities]
-        missing = {each.id: each.scenario for each in rest if self.scope.misses(each.id, each.scenario)}
-        others = [each.id for each in rest if each.id not in missing]
-        beyond = {case_id: _beyond(each) for case_id, each in apart.items()}
+        all_differences = [
+            difference for of_case in quantities.values() for difference in of_case if difference
+        ]
+        missing, other_ids = self._not_compared(quantities)
+        beyond = {case_id: _beyond(of_case) for case_id, of_case in quantities.items()}
         beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
         return BaselineComparison(
             without_machine(self.folder),
             self.sha256,
             compared=sum(map(len, quantities.values())) + len(missing),
-            within=sum(difference.within for each in apart.values() for difference in each),
-            differences={case_id: each for case_id, each in beyond.items() if each},
+            within=sum(difference.within for difference in all_differences),
+            differences={case_id: of_case for case_id, of_case in beyond.items() if of_case},
             missing=missing,
-            not_run=[case_id for case_id in others if case_id in self.scope.selected],
-            not_selected=[case_id for case_id in others if case_id not in self.scope.selected],
+            not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
+            not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
             notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
         )
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:
         """Return the quantities of a case that are out of tolerance."""
-        return _beyond([each for each in self._quantities(result) if each])
+        return _beyond(self._quantities(result))
+
+    def _not_compared(self, compared: Container[str]) -> tuple[dict[str, str], list[str]]:
+        """Return the cases that the scenario files no longer have (id -> file), and the ids of the others."""
+        results = [result for result in self.run.results if result.id not in compared]
+        missing = {
+            result.id: result.scenario for result in results if self.scope.misses(result.id, result.scenario)
+        }
+        return missing, [result.id for result in results if result.id not in missing]
 
     def _quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
         """Yield one item per quantity compared: None where both sides are the same."""
@@ -91,14 +97,14 @@ class Baseline:
 
     def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
         """Yield the parameters that the cases were run with differently when they were accepted."""
-        both = [(self.results[each.id], each) for each in run.results if each.id in self.results]
+        both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
         yield from parameter_lines(parameter_changes(both))
         yield from unknown_parameters(both, ("baseline", "run"))
 
     def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
         """Return the accepted run as if it had read nothing that this one did not select."""
         accepted = self.run.manifest
-        inputs = {name: each for name, each in accepted.inputs.items() if name in run.manifest.inputs}
+        inputs = {name: digest for name, digest in accepted.inputs.items() if name in run.manifest.inputs}
         return dataclasses.replace(self.run, manifest=dataclasses.replace(accepted, inputs=inputs))
 
 
@@ -122,29 +128,28 @@ def accepted_document(run: Mapping[str, Any], baseline: Baseline | None) -> dict
     `run` is the results document. Cases that the scenario files no longer have are dropped.
     """
     cases = {case["id"]: case for case in run["cases"]}
-    kept = (
-        [case for case in baseline.document["cases"] if _stays(case, cases, baseline.scope)]
-        if baseline
-        else []
-    )
-    if baseline is None or not kept:
+    if baseline is None:
         return dict(run)
     accepted = baseline.document
+    kept = [case for case in accepted["cases"] if _stays(case, cases, baseline.scope)]
+    if not kept:
+        return dict(run)
     order = [case["id"] for case in accepted["cases"]]
     cases |= {case["id"]: case for case in kept}
-    ids = [*(each for each in order if each in cases), *(each for each in cases if each not in order)]
+    ids = sorted(cases, key=lambda case_id: order.index(case_id) if case_id in order else len(order))
     inputs = {**baseline.run.manifest.inputs, **run["manifest"].get("inputs", {})}
     tables = {name: {**accepted.get(name, {}), **run[name]} for name in _TABLES if name in run}
     manifest = {**run["manifest"], "inputs": inputs, "cases": len(ids)}
-    return {**run, **tables, "manifest": manifest, "cases": [cases[each] for each in ids]}
+    return {**run, **tables, "manifest": manifest, "cases": [cases[case_id] for case_id in ids]}
 
 
 def _stays(case: Mapping[str, Any], run: Mapping[str, Any], scope: Scope) -> bool:
     return case["id"] not in run and not scope.misses(case["id"], case["scenario"])
 
 
-def _beyond(differences: Sequence[Difference]) -> list[Difference]:
-    return [each for each in differences if not each.within]
+def _beyond(quantities: Iterable[Difference | None]) -> list[Difference]:
+    """Return the differences out of tolerance; None stands for a quantity that is the same."""
+    return [quantity for quantity in quantities if quantity and not quantity.within]
 
 
 def _missing(accepted: evaluation.CaseResult) -> Difference:

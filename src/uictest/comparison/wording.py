@@ -58,15 +58,15 @@ def _table(differences: Sequence[report.Difference], width: int | None) -> Itera
     if width is None or table_width(columns) <= width:
         yield from aligned(columns)
         return
-    given_way: dict[str, TableColumn] = {}
+    all_hidden: dict[str, TableColumn] = {}
     for case_id, group in groupby(differences, key=lambda each: each.case):
         if case_id:
             yield from wrapped_name(printable(case_id), width)
         own = [column for column in _columns(list(group)) if column.title != "case"]
         shown, hidden = fitted(own, width)
-        given_way |= {column.title: column for column in hidden}
+        all_hidden |= {column.title: column for column in hidden}
         yield from aligned(shown)
-    if line := columns_not_shown(list(given_way.values()), "--format json has them"):
+    if line := columns_not_shown(list(all_hidden.values()), "--format json has them"):
         yield line
 
 
@@ -77,7 +77,7 @@ def comparison_json(comparison: Comparison) -> str:
 
 def verdict_line(comparison: Comparison) -> str:
     """Return the result of the comparison on one line."""
-    count = counted(comparison.compared, "quantity").replace("quantitys", "quantities")
+    count = counted(comparison.compared, "quantity", "quantities")
     if not comparison.differences:
         return f"{count} compared, no difference"
     within = len(comparison.differences) - len(comparison.beyond)

@@ -80,7 +80,7 @@ def run_tally(results: Iterable[evaluation.CaseResult], baseline: BaselineCompar
 
 def baseline_summary(baseline: BaselineComparison) -> str:
     """Return one line that says how the run compares with its baseline."""
-    quantities = "1 quantity" if baseline.compared == 1 else f"{baseline.compared} quantities"
+    quantities = counted(baseline.compared, "quantity", "quantities")
     beyond = len(baseline.all_differences)
     counts = f"{beyond} out of tolerance, {baseline.within} different within tolerance"
     result = counts if beyond or baseline.within else "no difference"

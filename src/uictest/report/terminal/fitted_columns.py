@@ -46,13 +46,13 @@ def fitted(columns: Sequence[TableColumn], width: int | None) -> tuple[list[Tabl
     """
     if width is None:
         return list(columns), []
-    shown, given_way = list(columns), []
+    shown, hidden = list(columns), []
     for column in sorted(columns, key=lambda each: -each.rank):
         if column.rank == 0 or _least_width(shown, width) <= width:
             break
         shown.remove(column)
-        given_way.append(column)
-    return _wrapped(shown, width), [column for column in columns if column in given_way]
+        hidden.append(column)
+    return _wrapped(shown, width), [column for column in columns if column in hidden]
 
 
 def table_width(columns: Sequence[TableColumn]) -> int:
@@ -87,9 +87,9 @@ def wrapped_name(name: str, width: int) -> list[str]:
     return [line.rstrip() for line in lines]
 
 
-def columns_not_shown(given_way: Sequence[TableColumn], place: str) -> str:
+def columns_not_shown(hidden: Sequence[TableColumn], place: str) -> str:
     """Return the line that names the columns that gave way, and where they are; empty where none did."""
-    names = ", ".join(title for column in given_way if (title := column.title.partition("\n")[0]))
+    names = ", ".join(title for column in hidden if (title := column.title.partition("\n")[0]))
     return f"not shown for lack of room: {names}; {place}" if names else ""
 
 

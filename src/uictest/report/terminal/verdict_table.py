@@ -41,7 +41,7 @@ def verdict_table(
     from rich.table import Table
     from rich.text import Text
 
-    columns, given_way = fitted(_columns(results, word), width)
+    columns, hidden = fitted(_columns(results, word), width)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for column in columns:
         justify: JustifyMethod = "right" if column.right else "left"
@@ -52,7 +52,7 @@ def verdict_table(
         table.add_row(
             *(Text(cell, style=style if column.title == "verdict" else "") for column, cell in texts)
         )
-    return table, columns_not_shown(given_way, ALL_COLUMNS)
+    return table, columns_not_shown(hidden, ALL_COLUMNS)
 
 
 def _columns(

@@ -55,12 +55,12 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def _table(recording: Recording) -> Table:
-    part = slice(None, None, _EVERY)
+    shown_samples = slice(None, None, _EVERY)
     return {
-        "time_s": column(recording["time"][part], 1.0, 3),
-        "demanded_pressure_bar": column(recording["demanded_pressure"][part], BAR, 4),
-        "measured_pressure_1_bar": column(recording["measured_pressure_1"][part], BAR, 4),
-        "clamping_force_1_kn": column(recording["clamping_force_1"][part], KILONEWTON, 4),
+        "time_s": column(recording["time"][shown_samples], 1.0, 3),
+        "demanded_pressure_bar": column(recording["demanded_pressure"][shown_samples], BAR, 4),
+        "measured_pressure_1_bar": column(recording["measured_pressure_1"][shown_samples], BAR, 4),
+        "clamping_force_1_kn": column(recording["clamping_force_1"][shown_samples], KILONEWTON, 4),
     }
 
 

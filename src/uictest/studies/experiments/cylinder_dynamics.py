@@ -82,12 +82,12 @@ def largest_errors(recording: Recording, top: float) -> tuple[float, float]:
 
 
 def _table(recording: Recording) -> Table:
-    part = slice(None, None, _EVERY)
+    shown_samples = slice(None, None, _EVERY)
     return {
-        "time_s": column(recording["time"][part], 1.0, 3),
-        "cylinder_pressure_1_bar": column(recording["tank_pressure_1"][part], BAR, 4),
-        "tank_pressure_2_bar": column(recording["tank_pressure_2"][part], BAR, 4),
-        "compensated_pressure_2_bar": column(recording["cylinder_pressure_2"][part], BAR, 4),
+        "time_s": column(recording["time"][shown_samples], 1.0, 3),
+        "cylinder_pressure_1_bar": column(recording["tank_pressure_1"][shown_samples], BAR, 4),
+        "tank_pressure_2_bar": column(recording["tank_pressure_2"][shown_samples], BAR, 4),
+        "compensated_pressure_2_bar": column(recording["cylinder_pressure_2"][shown_samples], BAR, 4),
     }
 
 

@@ -101,23 +101,23 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     in_run = [
         k for k, each in enumerate(misfits) if max(each["braking_time"], each["braking_distance"]) <= 1.0
     ]
-    figures = {name: StudyValue(float(stops[closest].measures[name])) for name in REAL_TRAIN}
-    figures["pad_factor"] = StudyValue(tried[closest].pad_factor)
+    values = {name: StudyValue(float(stops[closest].measures[name])) for name in REAL_TRAIN}
+    values["pad_factor"] = StudyValue(tried[closest].pad_factor)
     counts = {"profiles": len(tried), "consistent": len(consistent), "agree_in_run": len(in_run)}
     return StudyFindings(
-        figures | {name: StudyValue(float(count)) for name, count in counts.items()},
+        values | {name: StudyValue(float(count)) for name, count in counts.items()},
         tables={"profiles": _table(tried, stops, misfits, in_run), "closest-stop": _stop_table(recording)},
         drawings={"field-against-rig": partial(_draw, recording)},
         notes=(
             f"The closest stop: friction {tried[closest]}.",
-            _what_time_and_distance_tell(),
-            *_what_the_data_tell([tried[k] for k in consistent], [tried[k] for k in in_run]),
+            _delay_note(),
+            *_agreement_notes([tried[k] for k in consistent], [tried[k] for k in in_run]),
             _CAVEAT,
         ),
     )
 
 
-def _what_time_and_distance_tell() -> str:
+def _delay_note() -> str:
     """Return the note on the delay for which a constant deceleration gives the paper's time and distance.
 
     T = v / a + delay and D = v (T + delay) / 2.
@@ -136,7 +136,7 @@ def misfit(stop: rig.SimulatedStop) -> dict[str, float]:
     return {name: value if np.isfinite(value) else float("inf") for name, value in off.items()}
 
 
-def _what_the_data_tell(consistent: list[Profile], in_run: list[Profile]) -> Iterator[str]:
+def _agreement_notes(consistent: list[Profile], in_run: list[Profile]) -> Iterator[str]:
     for words, agreeing in (("all four figures", consistent), ("time and distance", in_run)):
         if not agreeing:
             yield f"No profile agrees in {words}."

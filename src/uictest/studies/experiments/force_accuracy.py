@@ -75,10 +75,11 @@ def largest_error(recording: Recording, channel: str) -> float:
 
 
 def _table(recording: Recording) -> Table:
-    part = slice(None, None, _EVERY)
+    shown_samples = slice(None, None, _EVERY)
     columns = {"clamping_force_1": "clamping_force_1"} | {name: name for name in CHANNELS.values()}
-    return {"time_s": column(recording["time"][part], 1.0, 3)} | {
-        f"{name}_kn": column(recording[channel][part], KILONEWTON, 4) for name, channel in columns.items()
+    return {"time_s": column(recording["time"][shown_samples], 1.0, 3)} | {
+        f"{name}_kn": column(recording[channel][shown_samples], KILONEWTON, 4)
+        for name, channel in columns.items()
     }
 
 

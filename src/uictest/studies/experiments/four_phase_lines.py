@@ -85,15 +85,15 @@ def _lines_table(hysteresis: identification.HysteresisResult) -> Table:
 
 
 def _samples_table(recording: Recording) -> Table:
-    part = slice(None, None, _EVERY)
+    shown_samples = slice(None, None, _EVERY)
     names = np.full(len(recording), "inside the loop", dtype=object)
     for phase, mask in on_phases(recording).items():
         names[mask] = phase
     return {
-        "time_s": column(recording["time"][part], 1.0, 3),
-        "measured_pressure_1_bar": column(recording["measured_pressure_1"][part], BAR, 4),
-        "clamping_force_1_kn": column(recording["clamping_force_1"][part], KILONEWTON, 4),
-        "phase": names[part].tolist(),
+        "time_s": column(recording["time"][shown_samples], 1.0, 3),
+        "measured_pressure_1_bar": column(recording["measured_pressure_1"][shown_samples], BAR, 4),
+        "clamping_force_1_kn": column(recording["clamping_force_1"][shown_samples], KILONEWTON, 4),
+        "phase": names[shown_samples].tolist(),
     }
 
 

@@ -33,7 +33,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     cases = stop_runner.cases("wet-80-friction")
     stop_loops = loops(stop_runner, cases)
     stops = stop_runner.repeated(cases, [0])
-    distances = [StudyValue(float(one.stops[0].measures.braking_distance)) for one in stops]
+    distances = [StudyValue(float(repeats.stops[0].measures.braking_distance)) for repeats in stops]
     return StudyFindings(
         {
             "slope_spread": StudyValue(slope_spread(stop_loops) / PERCENT),

@@ -55,12 +55,12 @@ def run(stop_runner: StopRunner) -> StudyFindings:
         point.title: {name: [actuations(stop) for stop in point.stops[name]] for name in SHOWN}
         for point in points
     }
-    medians = [{name: median(values) for name, values in of.items()} for of in counts.values()]
+    medians = [{name: median(values) for name, values in by_rig.items()} for by_rig in counts.values()]
     return StudyFindings(
         {
             "in_order": StudyValue(float(sum(map(_in_order, medians)))),
-            "full_over_caliper": spread([_ratio(of["full"], of[FOUR_CALIPER]) for of in medians]),
-            "none_over_caliper": spread([_ratio(of["none"], of[FOUR_CALIPER]) for of in medians]),
+            "full_over_caliper": spread([_ratio(by_rig["full"], by_rig[FOUR_CALIPER]) for by_rig in medians]),
+            "none_over_caliper": spread([_ratio(by_rig["none"], by_rig[FOUR_CALIPER]) for by_rig in medians]),
         },
         tables={"actuations": _table(points)},
         drawings={"robustness": partial(draw, counts)},
@@ -89,8 +89,8 @@ def _in_order(medians: dict[str, float]) -> bool:
     return caliper > 0.0 and abs(full - caliper) < abs(none - caliper) and none >= _APART * caliper
 
 
-def _ratio(value: float, to: float) -> float:
-    return value / to if to else float("nan")
+def _ratio(value: float, reference: float) -> float:
+    return value / reference if reference else float("nan")
 
 
 def _table(points: list[Point]) -> Table:

@@ -62,7 +62,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     recording = stop_runner.recordings([case], CYCLE)[0]
     return StudyFindings(
         {
-            name: spread([_figure(stop, name) for stop in stops])
+            name: spread([_measure(stop, name) for stop in stops])
             for name in (
                 "braking_time",
                 "braking_distance",
@@ -88,7 +88,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     )
 
 
-def _figure(stop: rig.SimulatedStop, name: str) -> float:
+def _measure(stop: rig.SimulatedStop, name: str) -> float:
     return float(stop.measures[name])
 
 

@@ -27,7 +27,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Count the openings of the vent in repeats of the slide test, with one caliper and with four."""
     none, full = stop_runner.cases("slide-80", "rig.compensation=none,full")
     (four,) = stop_runner.cases("slide-80-four-caliper")
-    of_none, of_full, of_four = (one.stops for one in stop_runner.repeated([none, full, four], SEEDS))
+    of_none, of_full, of_four = (repeats.stops for repeats in stop_runner.repeated([none, full, four], SEEDS))
     counts = {
         "caliper": [_actuations(stop, 1) for stop in of_full],
         "none": [_actuations(stop, 2) for stop in of_none],
