@@ -182,8 +182,9 @@ def named_places(names: Sequence[str]) -> list[Place]:
 
 def test_stages(place: Place, whole: bool) -> list[list[str]]:
     """Return what is given to pytest, stage by stage: the module's own tests first."""
-    room = place.file.split("/")[2]
-    own = Path("tests", room, f"test_{Path(place.file).stem}.py")
+    module = Path(place.file).relative_to("src/uictest")
+    room = module.parts[0]
+    own = Path("tests", module.parent, f"test_{module.stem}.py")
     stages = [[str(own)]] if (REPOSITORY / own).exists() else []
     stages += [[f"tests/{each}"] for each in ROOMS.get(room, (room,))]
     return stages + ([["tests"]] if whole else [])
