@@ -66,10 +66,10 @@ def compiler() -> str:
     Raises:
         NoCompilerError: when there is none.
     """
-    found = shutil.which(os.environ.get("CC", "gcc"))
-    if found is None:
+    path = shutil.which(os.environ.get("CC", "gcc"))
+    if path is None:
         raise NoCompilerError("no C compiler: install gcc or set CC")
-    return found
+    return path
 
 
 @dataclass(frozen=True)

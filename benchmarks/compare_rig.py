@@ -71,7 +71,7 @@ def main(turns: int) -> None:
         print(f"\nC: gcc {' '.join(flags)}; ours: numba, strict floating point; {turns} turns")
         print(f"{'ns per wheelset and step':32} {'ours':>8} {'C':>8} {'our stops/s':>10} {'ours / C':>8}")
         worst = max(timed(name, stops[name], c_stop, turns) for name in TIMED)
-        print(f"highest ratio {worst:.2f}, wanted at most {TARGET}")
+        print(f"highest ratio {worst:.2f}, target at most {TARGET}")
     agreement(stops, CStop(STRICT))
 
 

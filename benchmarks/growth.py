@@ -49,7 +49,7 @@ class Run:
         return self.cases / self.seconds
 
 
-def measured(cases: int, jobs: int) -> Run:
+def timed_sweep(cases: int, jobs: int) -> Run:
     """Run a sweep in a folder that is removed afterwards."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "growth.sweep.yaml")
@@ -75,8 +75,8 @@ def table(sizes: list[int], jobs: list[int]) -> list[Run]:
     print(f"{'cases':>8} {'threads':>8} {'s':>9} {'cases/s':>9} {'peak GB':>8} {'speed-up':>9}", flush=True)
     runs: list[Run] = []
     for cases in sizes:
-        for each in sorted(jobs):
-            run = measured(cases, each)
+        for threads in sorted(jobs):
+            run = timed_sweep(cases, threads)
             runs.append(run)
             alone = [other for other in runs if (other.cases, other.jobs) == (run.cases, 1)]
             gain = f"{alone[0].seconds / run.seconds:9.2f}" if alone and run.jobs > 1 else ""
@@ -88,7 +88,7 @@ def table(sizes: list[int], jobs: list[int]) -> list[Run]:
 def judgement(runs: list[Run]) -> None:
     """Print how time and memory grow from the second largest size to the largest."""
     most = max(run.memory for run in runs)
-    print(f"highest memory {most:.3f} GB, wanted below {MOST_MEMORY} GB")
+    print(f"highest memory {most:.3f} GB, target below {MOST_MEMORY} GB")
     for jobs in sorted({run.jobs for run in runs}):
         before, last = sorted((run for run in runs if run.jobs == jobs), key=lambda run: run.cases)[-2:]
         times = last.seconds / before.seconds
@@ -105,9 +105,9 @@ def main() -> None:
     parser.add_argument("--cases", default="100,1000,10000,100000")
     parser.add_argument("--jobs", default="1,2")
     arguments = parser.parse_args()
-    sizes, jobs = ([int(text) for text in given.split(",")] for given in (arguments.cases, arguments.jobs))
+    sizes, jobs = ([int(text) for text in option.split(",")] for option in (arguments.cases, arguments.jobs))
     print(machine.description("numba", "llvmlite", "numpy", "pyarrow"), flush=True)
-    measured(1, 1)  # compiles the rig where it is not yet compiled
+    timed_sweep(1, 1)  # compiles the rig where it is not yet compiled
     runs = table(sizes, jobs)
     if len(sizes) > 1:
         judgement(runs)

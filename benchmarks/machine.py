@@ -1,4 +1,4 @@
-"""The machine that the figures belong to."""
+"""The machine that runs a benchmark."""
 
 import os
 import platform
@@ -46,9 +46,9 @@ def _version(package: str) -> str:
 
 
 def _compiler() -> str:
-    found = shutil.which(os.environ.get("CC", "gcc"))
-    if found is None:
+    path = shutil.which(os.environ.get("CC", "gcc"))
+    if path is None:
         return "no C compiler"
     return subprocess.run(
-        [found, "--version"], capture_output=True, text=True, check=True
+        [path, "--version"], capture_output=True, text=True, check=True
     ).stdout.splitlines()[0]

@@ -30,9 +30,9 @@ class Rig:
 
     def filled(self, numbers: Sequence[Any]) -> "Rig":
         """Return a rig of the same fields holding other numbers."""
-        left = iter(numbers)
+        remaining = iter(numbers)
         records = [
-            SimpleNamespace(**{name: next(left) for name in vars(record)})
+            SimpleNamespace(**{name: next(remaining) for name in vars(record)})
             for record in (self.car, *self.bogies, *self.wheelsets)
         ]
         return Rig(records[0], records[1:3], records[3:])
@@ -44,7 +44,7 @@ def opened(record: Any) -> SimpleNamespace:
 
 
 def rolling(stop: Stop) -> Rig:
-    """Return the rig at the brake command, its valves told to fill."""
+    """Return the rig at the brake command, its valves filling."""
     parameters, rail, controller = stop
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)

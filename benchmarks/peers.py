@@ -191,9 +191,9 @@ def main() -> None:
     reference = times[everyone[0][0]]
     print(machine.description("numba", "numpy", "scipy", "control", "jax"))
     print(f"\n{'processor time per wheelset and 0.5 ms':40} {'ns':>12} {'times C, scalar':>16}")
-    for name, measured in times.items():
-        ratio = median(a / b for a, b in zip(measured, reference, strict=True))
-        print(f"{name:40} {1e9 * median(measured):12.1f} {ratio:16.3g}")
+    for name, own in times.items():
+        ratio = median(a / b for a, b in zip(own, reference, strict=True))
+        print(f"{name:40} {1e9 * median(own):12.1f} {ratio:16.3g}")
 
 
 if __name__ == "__main__":

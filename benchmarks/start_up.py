@@ -39,7 +39,7 @@ def main(turns: int) -> None:
     """Time each command in turns with a bare interpreter."""
     bare = process("-c", "")
     print(machine.description("numba", "numpy", "pydantic", "typer"))
-    print(f"\n{turns} turns, warm{'wall clock, s':>24} {'wanted':>8} {'processor, s':>14} {'times bare':>11}")
+    print(f"\n{turns} turns, warm{'wall clock, s':>24} {'target':>8} {'processor, s':>14} {'times bare':>11}")
     with tempfile.TemporaryDirectory() as reports:
         arguments = {
             "--help": ["--help"],

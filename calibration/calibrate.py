@@ -1,4 +1,4 @@
-"""Calibrate the chosen parameters of valves, WSP controller and slide test against the source's figures.
+"""Calibrate the chosen parameters of valves, WSP controller and slide test against the numbers of Lee and Kang (2015).
 
     python calibration/calibrate.py [--seed N] [--generations N]
 
@@ -30,7 +30,7 @@ def main() -> None:
     cloud = np.clip(start + SPREAD * generator.standard_normal((POPULATION, len(FREE))), 0.0, 1.0)
     cloud[0] = start
     print(f"misfit of the library: {misfit(start):.3f}")
-    found = differential_evolution(
+    best = differential_evolution(
         misfit,
         [(0.0, 1.0)] * len(FREE),
         rng=generator,
@@ -42,8 +42,8 @@ def main() -> None:
         polish=False,
         callback=_report,
     )
-    print(f"after {found.nfev} evaluations")
-    _report(found)
+    print(f"after {best.nfev} evaluations")
+    _report(best)
 
 
 def _report(intermediate_result: OptimizeResult) -> None:
