@@ -1,4 +1,4 @@
-"""Calibrate the chosen parameters of valves, WSP controller and slide test against the numbers of Lee and Kang (2015).
+"""Calibrate the chosen parameters of valves, WSP controller and slide test against Lee and Kang (2015).
 
     python calibration/calibrate.py [--seed N] [--generations N]
 

@@ -1,4 +1,4 @@
-"""How far a choice of parameters is from the numbers of Lee and Kang (2015): a sum of squares beyond bands."""
+"""How far a choice of parameters is from the paper (Lee and Kang 2015): a sum of squares beyond bands."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,7 +5,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.field_data import MapError, channel_rows, fitting_preset, load_map, presets, proposed_map, select
+from uictest.field_data import (
+    MapError,
+    channel_rows,
+    fitting_preset,
+    load_map,
+    presets,
+    proposed_map,
+    select_channels,
+)
 from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.recording.contents import Contents, Group
 from uictest.scenario import ScenarioErrors
@@ -47,7 +55,7 @@ def test_scale_offset_sign_and_unit(tmp_path: Path) -> None:
         p=([1.0, 2.0, 3.0], "V"),
         F=([-1.0, 0.0, 1.0], "kN"),
     )
-    channels = select(contents, load_map(_map(tmp_path, text))[0])
+    channels = select_channels(contents, load_map(_map(tmp_path, text))[0])
     np.testing.assert_allclose(channels["speed"].time, [0.0, 1e-3, 2e-3])
     np.testing.assert_allclose(channels["speed"].samples, [10.0, 5.0, 0.0])
     np.testing.assert_allclose(channels["tank_pressure_1"].samples, [1e5, 3e5, 5e5])
@@ -68,10 +76,12 @@ def test_states_by_name(tmp_path: Path) -> None:
     contents = _contents(
         t=([0, 1, 2, 3], "s"), v=([1.0] * 4, "m/s"), MV=(["fill", "Lüften", "Halten", "1"], "")
     )
-    np.testing.assert_array_equal(select(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1])
+    np.testing.assert_array_equal(
+        select_channels(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1]
+    )
     contents = _contents(t=([0, 1], "s"), v=([1.0] * 2, "m/s"), MV=(["fill", "auf"], ""))
     with pytest.raises(MapError, match="'auf'; name them in `states`"):
-        select(contents, channel_map)
+        select_channels(contents, channel_map)
 
 
 @pytest.mark.parametrize(
@@ -104,21 +114,21 @@ def test_a_name_that_is_no_map() -> None:
 def test_what_does_not_fit_the_file_is_told(tmp_path: Path) -> None:
     plain = load_map("uictest")[0]
     with pytest.raises(MapError, match=r"no channel for 'speed'.*'sped'"):
-        select(_contents(time=([0.0, 1.0], "s"), sped=([1.0, 1.0], "m/s")), plain)
+        select_channels(_contents(time=([0.0, 1.0], "s"), sped=([1.0, 1.0], "m/s")), plain)
     with pytest.raises(MapError, match="does not state the unit of 'speed'"):
-        select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "")), plain)
+        select_channels(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "")), plain)
     with pytest.raises(MapError, match="has the unit 'furlong'; accepted"):
-        select(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "furlong")), plain)
+        select_channels(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "furlong")), plain)
     with pytest.raises(MapError, match="has no time axis"):
-        select(_contents(speed=([1.0, 1.0], "m/s")), plain)
+        select_channels(_contents(speed=([1.0, 1.0], "m/s")), plain)
 
 
 def test_one_name_in_two_groups_must_be_told_apart(tmp_path: Path) -> None:
     groups = tuple(Group(g, {"speed": TIME}, {"speed": "m/s"}, TIME) for g in ("fast", "slow"))
     with pytest.raises(MapError, match="in several groups"):
-        select(Contents(groups), load_map("uictest")[0])
+        select_channels(Contents(groups), load_map("uictest")[0])
     chosen = load_map(_map(tmp_path, "channels: {speed: slow/speed}\n"))[0]
-    assert select(Contents(groups), chosen)["speed"].source == "speed"
+    assert select_channels(Contents(groups), chosen)["speed"].source == "speed"
 
 
 def test_a_proposed_map_is_a_map_and_fits(tmp_path: Path) -> None:
@@ -131,7 +141,7 @@ def test_a_proposed_map_is_a_map_and_fits(tmp_path: Path) -> None:
     )
     path = tmp_path / "proposed.yaml"
     path.write_text(proposed_map(contents))
-    channels = select(contents, load_map(str(path))[0])
+    channels = select_channels(contents, load_map(str(path))[0])
     assert {"speed", "distance", "reservoir_pressure"} == channels.keys()
     assert "check it" in proposed_map(contents)
     assert list(channel_rows(contents))[1] == ("vZug", "km/h", "2", "9 .. 10")

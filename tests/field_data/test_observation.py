@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from uictest.evaluation import evaluate
-from uictest.field_data import judge_recording, load_map, prepare, select, stated_case
+from uictest.field_data import judge_recording, load_map, prepare, select_channels, stated_case
 from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
 from uictest.recording.formats.reader import read_here
 from uictest.rig import SimulatedStop
@@ -46,7 +46,9 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
     writer_of(name)(stop.recording, path)
     contents = read_here(name, path, Dialect())
     channel_map, _ = load_map("uictest")
-    recorded_stop = prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
+    recorded_stop = prepare(
+        select_channels(contents, channel_map), contents.metadata, channel_map.preparation
+    )
     expected, actual = evaluate(case, stop.measures, stop.wheelset_measures), judge_stop(case, recorded_stop)
     assert recorded_stop.defects == ()
     assert actual.outcome == expected.outcome

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from uictest.field_data import MapError, RawChannel, RecordedStop, UnusableError, load_map, select
+from uictest.field_data import MapError, RawChannel, RecordedStop, UnusableError, load_map, select_channels
 from uictest.recording.contents import Contents, Group
 
 Channels = dict[str, RawChannel]
@@ -19,7 +19,7 @@ def _selected(time: object, speed: object, pressure: object, units: tuple[str, s
     samples = {"time": time, "speed": speed, "cylinder_pressure_1": pressure}
     channels = {name: np.broadcast_to(np.asarray(each), len(SECONDS)) for name, each in samples.items()}
     group = Group("", channels, dict(zip(channels, units, strict=True)))
-    return select(Contents((group,)), load_map("uictest")[0])
+    return select_channels(Contents((group,)), load_map("uictest")[0])
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def test_numbers_among_texts_are_in_the_unit_of_the_channel() -> None:
         "", {"time": SECONDS[:3], "speed": np.array(["36.0", "", "18.0"])}, {"time": "s", "speed": "km/h"}
     )
     np.testing.assert_allclose(
-        select(Contents((group,)), load_map("uictest")[0])["speed"].samples, [10, np.nan, 5]
+        select_channels(Contents((group,)), load_map("uictest")[0])["speed"].samples, [10, np.nan, 5]
     )
 
 
@@ -128,4 +128,4 @@ def test_a_text_among_numbers_is_placed_and_answered(text: str, remedy: str) -> 
         {"speed": "line 3, column 2"},
     )
     with pytest.raises(MapError, match=f"{text}', the first in line 3, column 2; .*{remedy}"):
-        select(Contents((group,)), load_map("uictest")[0])
+        select_channels(Contents((group,)), load_map("uictest")[0])

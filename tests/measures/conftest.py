@@ -12,8 +12,8 @@ from uictest.measures import (
     STOP_MEASURES,
     WHEELSET_MEASURES,
     MeasureDefinition,
-    begin,
     begin_slides,
+    begin_train,
     begin_wheelset,
     begin_window,
     keep_slide,
@@ -80,7 +80,7 @@ def _measured(samples: Samples) -> tuple[Any, Any]:
     train = np.zeros(1, STOP_MEASURES)[0]
     wheelsets = np.zeros(4, WHEELSET_MEASURES)
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
-    begin(train, *map(float, first))
+    begin_train(train, *map(float, first))
     begin_window(train)
     for i in range(4):
         begin_wheelset(wheelsets[i])

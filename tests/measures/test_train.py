@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.measures import STOP_MEASURES, WINDOW_SECONDS, begin, begin_window, finish
+from uictest.measures import STOP_MEASURES, WINDOW_SECONDS, begin_train, begin_window, note_standstill
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
@@ -16,7 +16,7 @@ Measured = Callable[[Any], Stop]
 
 def begun(held_before: float) -> np.ndarray:
     train = np.full(STOP_MEASURES.itemsize // 8, held_before).view(STOP_MEASURES)
-    begin(train[0], 0.5, 1.0, 30.0, 7e5)
+    begin_train(train[0], 0.5, 1.0, 30.0, 7e5)
     begin_window(train[0])
     return train.view(np.float64)
 
@@ -91,7 +91,7 @@ def test_a_train_that_never_stopped_has_no_braking_distance(stop: Stop) -> None:
 
 def test_standstill_ends_the_stop(samples: Any, measured: Measured) -> None:
     train = measured(samples)[0]
-    finish(train, True, 27.5, 410.0)
+    note_standstill(train, True, 27.5, 410.0)
     assert (train.stopped, train.braking_time, train.braking_distance) == (1.0, 27.5, 410.0)
     assert (train.end_time, train.end_distance, train.end_speed) == (27.5, 410.0, 0.0)
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.sensors import analogue_reading, nearest, speed_reading
+from uictest.physics.sensors import analogue_reading, rounded_to_whole, speed_reading
 
 PITCH = 2.0 * math.pi * 0.43 / 80
 TICK = 1e-6
@@ -54,7 +54,7 @@ def test_analogue_sensor_adds_its_errors_and_stays_within_its_range(
 @given(st.floats(-1e12, 1e12))
 def test_nearest_whole_number(x: float) -> None:
     """As Python's own rounding: ties go to the even neighbour."""
-    assert nearest(x) == round(x)
+    assert rounded_to_whole(x) == round(x)
 
 
 @given(st.floats(0.0, 9e5), st.floats(1e-3, 1e4))

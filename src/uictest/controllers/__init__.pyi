@@ -4,7 +4,7 @@ from .contract import (
     Controller as Controller,
     ControllerCycle as ControllerCycle,
     ControllerParameters as ControllerParameters,
-    Parameter as Parameter,
+    DeclaredParameter as DeclaredParameter,
     TrainMemory as TrainMemory,
 )
 from .registry import CONTROLLERS as CONTROLLERS, DEFAULT as DEFAULT

@@ -8,7 +8,7 @@ from uictest.record import Record, fields_of
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class DeclaredParameter:
     """One parameter of a controller.
 
     Attributes:
@@ -25,8 +25,8 @@ class Parameter:
 
 
 def parameter(kind: str, description: str, *, at_least: str, at_most: str) -> Any:
-    """Declare that a field of :class:`ControllerParameters` is a parameter; see :class:`Parameter`."""
-    return Parameter(kind, description, at_least, at_most)
+    """Declare that a field of :class:`ControllerParameters` is a :class:`DeclaredParameter`."""
+    return DeclaredParameter(kind, description, at_least, at_most)
 
 
 def duration(description: str, *, at_least: str = "1 ms") -> Any:
@@ -123,6 +123,6 @@ class Controller:
         """The name as compiled code may have it."""
         return self.name.replace("-", "_")
 
-    def declared_parameters(self) -> dict[str, Parameter]:
+    def declared_parameters(self) -> dict[str, DeclaredParameter]:
         """Return the declarations of the parameters by name, those that every controller has first."""
         return {name: getattr(self.parameters, name) for name in fields_of(self.parameters)}

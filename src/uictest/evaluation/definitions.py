@@ -55,7 +55,7 @@ def applied_definitions(
     return (*own, *observed)
 
 
-def _parameter(parameter: scenario.Parameter, sources: Mapping[str, yaml.Source]) -> str:
+def _parameter(parameter: scenario.RangedDefinition, sources: Mapping[str, yaml.Source]) -> str:
     value, lower, upper = (
         value_text(in_unit(number, parameter.unit), parameter.unit)
         for number in (parameter.value, *parameter.range)

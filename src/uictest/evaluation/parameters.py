@@ -16,7 +16,7 @@ from uictest.evaluation.json_form import from_json_form, to_json_form
 _DIGITS = 12
 """Hexadecimal digits of a digest: of ten thousand parts two share one with a probability below 1e-6."""
 
-Setting = bool | int | float | str
+PlainValue = bool | int | float | str
 """Value of a parameter: a number in its unit, a text or a truth value."""
 
 
@@ -40,13 +40,13 @@ class Parameter:
     """
 
     key: str
-    value: Setting
+    value: PlainValue
     unit: str
     written: str
     mark: str
     source: str = ""
     differs: bool = False
-    library_value: Setting | None = None
+    library_value: PlainValue | None = None
     library_written: str = ""
 
 

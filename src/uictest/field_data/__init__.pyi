@@ -19,7 +19,7 @@ from .proposal import (
     proposed_map as proposed_map,
     remarks as remarks,
 )
-from .raw_channels import MapError as MapError, RawChannel as RawChannel, select as select
+from .raw_channels import MapError as MapError, RawChannel as RawChannel, select_channels as select_channels
 from .recorded_stop import (
     RecordedStop as RecordedStop,
     UnusableError as UnusableError,

@@ -47,7 +47,7 @@ def _several(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
 
-class Source(Model):
+class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
     source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
@@ -124,7 +124,7 @@ class ChannelMap(Model):
     schema_id: Literal["uictest/channel-map/1"] = Field(alias="schema", description="What the file holds.")
     name: str = Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the map.")
     title: str = Field(default="", max_length=200, description="One line for people.")
-    channels: dict[str, Annotated[Source, BeforeValidator(_shorthand)]] = Field(
+    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)]] = Field(
         description="Canonical channel -> where it comes from; {n} stands for each wheelset's number."
     )
     csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
@@ -153,9 +153,9 @@ class ChannelMap(Model):
         """The dialect of text files."""
         return Dialect(**dict(self.csv))
 
-    def sources(self) -> dict[str, Source]:
+    def sources(self) -> dict[str, ChannelSource]:
         """Return the source of every channel, one per wheelset; a channel of one wheelset has precedence."""
-        spelled_out: dict[str, Source] = {}
+        spelled_out: dict[str, ChannelSource] = {}
         for name, source in self.channels.items():
             numbers = WHEELSETS if NUMBER in name else ()
             spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
@@ -201,7 +201,7 @@ def _parent(reference: Scalar, files: Files) -> Map:
     return files.beside(reference, "extends")
 
 
-def _numbered(source: Source, number: int) -> Source:
+def _numbered(source: ChannelSource, number: int) -> ChannelSource:
     names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
     changed: dict[str, Any] = {"source": names}
     return source.model_copy(update=changed)

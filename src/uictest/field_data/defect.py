@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal[
+DefectKind = Literal[
     "time-missing",
     "time-backwards",
     "time-duplicate",
@@ -29,7 +29,7 @@ class Defect:
     the missing samples.
     """
 
-    kind: Kind
+    kind: DefectKind
     channel: str
     text: str
     spoils: bool = False

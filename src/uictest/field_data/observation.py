@@ -20,13 +20,13 @@ from uictest.measures import (
     WHEELSET_MEASURES,
     WINDOW_SECONDS,
     MeasureDefinition,
-    begin,
     begin_slides,
+    begin_train,
     begin_wheelset,
     begin_window,
-    finish,
     keep_slide,
     keep_window,
+    note_standstill,
     observe_train,
     observe_wheelset,
 )
@@ -104,11 +104,11 @@ def _observe(stop: RecordedStop, train: Any, wheelsets: list[Any], definition: A
     if stop.standstill is not None:
         observe_train(train, definition, *stop.standstill, 0.0, train.reservoir_minimum_pressure)
         keep_window(train, train)
-        finish(train, True, *stop.standstill)
+        note_standstill(train, True, *stop.standstill)
 
 
 def _begin(samples: _Samples, train: Any, wheelsets: list[Any]) -> None:
-    begin(train, samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir[0])
+    begin_train(train, samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir[0])
     begin_window(train)
     for wheelset in wheelsets:
         begin_wheelset(wheelset)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.field_data.channel_map import ChannelMap, Source
+from uictest.field_data.channel_map import ChannelMap, ChannelSource
 from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.recording import (
     STATES,
@@ -54,7 +54,7 @@ class RawChannel:
         return state_kind(self.name) is not None
 
 
-def select(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]:
+def select_channels(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]:
     """Return the channels of a file that a map selects; a channel without a source in the file is omitted.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
@@ -78,7 +78,7 @@ def select(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]
     return selected
 
 
-def _no_speed(contents: Contents, sources: Mapping[str, Source]) -> str:
+def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
     names = [name for group in contents.groups for name in group.channels]
     looked_for = sources["speed"].source if "speed" in sources else ("speed",)
     hint = suggestion(looked_for[0], names) if len(names) <= 40 else ""
@@ -88,7 +88,7 @@ def _no_speed(contents: Contents, sources: Mapping[str, Source]) -> str:
     )
 
 
-def _find(contents: Contents, name: str, source: Source) -> tuple[Group, str] | None:
+def _find(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, str] | None:
     for alias in source.source:
         matches = list(_matches(contents, alias))
         if len(matches) > 1:
@@ -106,7 +106,7 @@ def _matches(contents: Contents, alias: str) -> Iterator[tuple[Group, str]]:
                 yield group, name
 
 
-def _time_of(group: Group, source: Source | None, beside: str) -> Array:
+def _time_of(group: Group, source: ChannelSource | None, beside: str) -> Array:
     if group.time is not None:
         time = np.asarray(group.time, dtype=np.float64)
         return _require_plausible(implausible_time(time, "s", {"s": 1.0}), TIME, f"of {quoted(beside)}", time)
@@ -116,7 +116,7 @@ def _time_of(group: Group, source: Source | None, beside: str) -> Array:
     raise MapError(f"{quoted(beside)} has no time axis: map `time` to a channel of its group")
 
 
-def _in_si(name: str, source: Source, original: str, group: Group) -> Array:
+def _in_si(name: str, source: ChannelSource, original: str, group: Group) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind == "U":
         samples = _numbered(name, source, original, group)
@@ -164,7 +164,7 @@ def _size(name: str, unit: str, original: str) -> float:
     return size
 
 
-def _numbered(name: str, source: Source, original: str, group: Group) -> Array:
+def _numbered(name: str, source: ChannelSource, original: str, group: Group) -> Array:
     samples = group.channels[original]
     kind = state_kind(name)
     known: dict[str, int] = {**(STATES[kind] if kind else {}), **source.states}

@@ -12,7 +12,7 @@ import numpy as np
 from uictest.field_data.channel_map import ChannelMap, Preparation
 from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.field_data.defect import Defect
-from uictest.field_data.raw_channels import Array, RawChannel, select
+from uictest.field_data.raw_channels import Array, RawChannel, select_channels
 from uictest.field_data.sensor_defects import analogue_defects, speed_defects
 from uictest.field_data.signals import integrated, low_passed, resampled
 from uictest.field_data.standstill import Standstill, find_standstill, require_plausible_deceleration
@@ -71,7 +71,7 @@ def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
     Raises UnreadableError, MissingExtraError, MapError, UnusableError, OSError.
     """
     contents = read_contents(path, channel_map.dialect)
-    return prepare(select(contents, channel_map), contents.metadata, channel_map.preparation)
+    return prepare(select_channels(contents, channel_map), contents.metadata, channel_map.preparation)
 
 
 def digest_of(path: Path) -> str:

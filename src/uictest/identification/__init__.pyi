@@ -1,4 +1,8 @@
-from .channels import Record as Record, read_record as read_record, samples_digest as samples_digest
+from .channels import (
+    RecordedChannels as RecordedChannels,
+    read_record as read_record,
+    samples_digest as samples_digest,
+)
 from .compensation_file import (
     Provenance as Provenance,
     load_compensation as load_compensation,

@@ -24,7 +24,7 @@ _LONGEST_ORIGIN = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class RecordedChannels:
     """Channels of a recording.
 
     Attributes:
@@ -36,7 +36,7 @@ class Record:
     origin: str
 
 
-def read_record(path: Path, names: Mapping[str, str]) -> Record:
+def read_record(path: Path, names: Mapping[str, str]) -> RecordedChannels:
     """Read the channels that ``names`` maps from role to name, in SI units, and the time.
 
     A role that begins with ``command`` is a valve command; ``force`` is a force; every other role but
@@ -49,7 +49,7 @@ def read_record(path: Path, names: Mapping[str, str]) -> Record:
     """
     try:
         contents = formats.read_contents(path)
-        return Record(_channels(contents.groups, {TIME: TIME, **names}), _origin(contents.metadata))
+        return RecordedChannels(_channels(contents.groups, {TIME: TIME, **names}), _origin(contents.metadata))
     except (formats.UnreadableError, formats.MissingExtraError, UnsuitableRecordError) as error:
         raise UnsuitableRecordError(f"{path}: {error}") from error
 

@@ -26,7 +26,7 @@ from uictest.identification.suitability import (
 from uictest.identification.transfer_function import TransferFunction, assembled
 
 Samples = NDArray[np.float64]
-Criterion = Literal["least-squares", "largest-error"]
+FitCriterion = Literal["least-squares", "largest-error"]
 _SHORTEST = 5.0
 _LONGEST_STEP = 0.01
 _POOREST_FIT = 50.0
@@ -56,7 +56,7 @@ def identify_cylinder(
     time: Samples,
     tank_pressure: Samples,
     cylinder_pressure: Samples,
-    criterion: Criterion = "least-squares",
+    criterion: FitCriterion = "least-squares",
     held_out_share: float = 0.25,
 ) -> CylinderResult:
     """Find the third-order transfer function at the record's sampling time.

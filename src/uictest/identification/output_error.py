@@ -12,7 +12,7 @@ from uictest.identification.transfer_function import Poles, basis
 
 Samples = NDArray[np.float64]
 Weigh = Callable[[Samples, Samples], tuple[float, Samples]]
-Judge = Callable[[Poles], tuple[float, Samples]]
+ErrorFunction = Callable[[Poles], tuple[float, Samples]]
 _SLOWEST, _FASTEST = 20.0, 2.0
 """Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell."""
 _LARGEST_PRODUCT = 10.0
@@ -72,26 +72,28 @@ def refined(
 ) -> tuple[Poles, Samples]:
     """Poles and weights with the least error of the simulated output where it is fitted.
 
-    The weights follow from the poles (variable projection), so that three numbers remain to be found. Every
+    The weights follow from the poles (variable projection), so that three unknowns remain. Every
     start (fixed ones, a linear fit and ``first``) is followed on a coarse grid of time, and the best end is
     refined on the record's own.
     """
     coarse = max(round(_COARSE_STEP / step), 1)
-    judge = _judge([each.thinned(coarse) for each in segments], coarse * step, weigh, _COARSE_POINTS)
+    coarse_error = _error_function(
+        [each.thinned(coarse) for each in segments], coarse * step, weigh, _COARSE_POINTS
+    )
     span = max(float(np.ptp(each.input)) for each in segments)
     starts = [
         *_starts(max(segments, key=lambda each: len(each.input)), step),
         *([] if first is None else [first]),
     ]
-    ends = [_descended(judge, start, 150, span) for start in starts]
-    best = min(ends, key=lambda poles: judge(poles)[0])
-    exactly = _judge(segments, step, weigh, _POINTS)
-    poles = bounded(_descended(exactly, best, 120, span), step)
-    return poles, exactly(poles)[1]
+    ends = [_local_minimum(coarse_error, start, 150, span) for start in starts]
+    best = min(ends, key=lambda poles: coarse_error(poles)[0])
+    error = _error_function(segments, step, weigh, _POINTS)
+    poles = bounded(_local_minimum(error, best, 120, span), step)
+    return poles, error(poles)[1]
 
 
-def _judge(segments: Sequence[FitSegment], step: float, weigh: Weigh, points: int) -> Judge:
-    """Error and weights as a function of the poles, at a sampling time."""
+def _error_function(segments: Sequence[FitSegment], step: float, weigh: Weigh, points: int) -> ErrorFunction:
+    """Return a function of the poles: the error at a sampling time, and the weights that have it."""
     total = sum(np.count_nonzero(each.fitted) for each in segments)
     every = max(total // points, 1)
     chosen = [np.flatnonzero(each.fitted)[::every] for each in segments]
@@ -99,21 +101,21 @@ def _judge(segments: Sequence[FitSegment], step: float, weigh: Weigh, points: in
         [(each.output - each.input)[at] for each, at in zip(segments, chosen, strict=True)]
     )
 
-    def judge(poles: Poles) -> tuple[float, Samples]:
+    def error(poles: Poles) -> tuple[float, Samples]:
         within = bounded(poles, step)
         columns = [basis(each.input, within, step)[at] for each, at in zip(segments, chosen, strict=True)]
         return weigh(np.concatenate(columns), target)
 
-    return judge
+    return error
 
 
-def _descended(judge: Judge, start: Poles, evaluations: int, span: float) -> Poles:
-    """Where Nelder and Mead's simplex ends; the largest error has no derivative to follow."""
+def _local_minimum(error: ErrorFunction, start: Poles, evaluations: int, span: float) -> Poles:
+    """Return the poles at which the simplex of Nelder and Mead ends; the largest error has no derivative."""
     from scipy.optimize import minimize
 
     return np.asarray(
         minimize(
-            lambda poles: judge(poles)[0],
+            lambda poles: error(poles)[0],
             start,
             method="Nelder-Mead",
             options={"maxfev": evaluations, "xatol": 1e-3, "fatol": 1e-8 * span},

@@ -10,8 +10,8 @@ from numba.core import cgutils, imputils
 from numba.core.typing import templates
 from numba.extending import intrinsic
 
-Definition = Callable[..., Any]
-Decorator = Callable[[Definition], Definition]
+CompiledDefinition = Callable[..., Any]
+Decorator = Callable[[CompiledDefinition], CompiledDefinition]
 
 in_compiled_code: Decorator = intrinsic
 """Make a definition a function of compiled code; from the types of arguments it gives signature and code."""

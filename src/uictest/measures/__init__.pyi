@@ -2,7 +2,7 @@ from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS
 from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELSET_MEASURES
 from .measure import (
     Course as Course,
-    Definition as Definition,
+    DefinitionValues as DefinitionValues,
     Measure as Measure,
     MeasureValue as MeasureValue,
     RecordedData as RecordedData,
@@ -26,10 +26,10 @@ from .registry import (
     wheelset_column_values as wheelset_column_values,
 )
 from .train import (
-    begin as begin,
+    begin_train as begin_train,
     begin_window as begin_window,
-    finish as finish,
     keep_window as keep_window,
+    note_standstill as note_standstill,
     observe_train as observe_train,
 )
 from .wheelset import (

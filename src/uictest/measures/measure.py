@@ -15,7 +15,7 @@ When = Literal["throughout", "ends", "end", "never"]
 """When channels must be known: throughout the stop; at the brake command and at its end; at its end; never,
 as no record holds them."""
 
-Definition = Mapping[str, float]
+DefinitionValues = Mapping[str, float]
 """Definition of a criterion -> its SI value."""
 
 
@@ -34,7 +34,7 @@ class MeasureValue:
     unavailable_reason: str = ""
 
 
-Reader = Callable[[StopMeasures, Wheelsets, Definition], MeasureValue]
+Reader = Callable[[StopMeasures, Wheelsets, DefinitionValues], MeasureValue]
 
 
 def one_value(number: float) -> MeasureValue:
@@ -78,8 +78,8 @@ class StopColumn(Column):
     definition that it uses for a stop none of whose criteria defines its own.
     """
 
-    read: Callable[[StopMeasures, Definition], float] = field(kw_only=True)
-    defaults: Definition = field(default_factory=dict)
+    read: Callable[[StopMeasures, DefinitionValues], float] = field(kw_only=True)
+    defaults: DefinitionValues = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

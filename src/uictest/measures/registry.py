@@ -11,7 +11,7 @@ from typing import Final
 
 from uictest.measures import catalogue
 from uictest.measures.measure import (
-    Definition,
+    DefinitionValues,
     Measure,
     StopColumn,
     WheelsetColumn,
@@ -72,7 +72,7 @@ def column_unit(name: str) -> str:
     return column.unit if column else "1"
 
 
-def stop_column_values(stop: StopMeasures, definition: Definition) -> dict[str, float]:
+def stop_column_values(stop: StopMeasures, definition: DefinitionValues) -> dict[str, float]:
     """Return what results report of a stop: column -> number in its unit, NaN where there is none.
 
     `definition` holds the SI value of every definition that a column has a default of.

@@ -6,7 +6,7 @@ from uictest.physics import maximum, minimum, select
 NAN = float("nan")
 
 
-def begin(
+def begin_train(
     measures: StopMeasures, time: float, distance: float, speed: float, reservoir_pressure: float
 ) -> None:
     """Start the measures with the first sample (s, m, m/s, Pa gauge)."""
@@ -75,7 +75,7 @@ def keep_window(measures: StopMeasures, samples: StopMeasures) -> None:
         measures.speed_after_sliding[second] = samples.previous_speed + share * change
 
 
-def finish(measures: StopMeasures, stands: bool, time: float, distance: float) -> None:
+def note_standstill(measures: StopMeasures, stands: bool, time: float, distance: float) -> None:
     """Where the train ``stands``, note that it came to a standstill at ``time`` s after ``distance`` m."""
     measures.stopped = select(stands, 1.0, measures.stopped)
     measures.braking_time = select(stands, time, measures.braking_time)

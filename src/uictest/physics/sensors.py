@@ -27,10 +27,10 @@ def analogue_reading(
         steps_per_unit: its inverse.
     """
     limited = clamp(fma(value, 1.0 + gain_error, offset + noise), 0.0, measuring_range)
-    return nearest(limited * steps_per_unit) * resolution
+    return rounded_to_whole(limited * steps_per_unit) * resolution
 
 
-def nearest(x: float) -> float:
+def rounded_to_whole(x: float) -> float:
     """Nearest whole number, ties to even, of a number below 2^51 in size."""
     return (x + _ROUNDING) - _ROUNDING
 

@@ -3,7 +3,7 @@
 import math
 
 
-def resampled(
+def resampled_transfer_function(
     numerator: list[float], denominator: list[float], sampling_time: float, step: float
 ) -> tuple[list[float], list[float]]:
     """Coefficients that give at ``step`` the response of those given at ``sampling_time`` (both s).

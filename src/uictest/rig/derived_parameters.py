@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from uictest.physics import orifice_law, stiffnesses
-from uictest.rig.cylinder_sampling import resampled
+from uictest.rig.cylinder_sampling import resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
 from uictest.scenario import Scenario
 from uictest.units import STANDARD_GRAVITY
@@ -134,7 +134,7 @@ def _caliper(p: Parameters, scenario: Scenario) -> None:
 @_reads("rig.compensation_model.cylinder", "rig.compensation_model.sampling_time", "simulation.time_step")
 def _cylinder(p: Parameters, scenario: Scenario) -> None:
     model = scenario.rig.compensation_model
-    numerator, denominator = resampled(
+    numerator, denominator = resampled_transfer_function(
         [float(b) for b in model.cylinder.numerator],
         [float(a) for a in model.cylinder.denominator],
         float(model.sampling_time),

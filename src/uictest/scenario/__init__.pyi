@@ -9,7 +9,7 @@ from .expansion import (
 from .identifiers import LONGEST as LONGEST, short_keys as short_keys, value_label as value_label
 from .json_schema import SCHEMA_DRAFT as SCHEMA_DRAFT, as_draft_07 as as_draft_07, json_schema as json_schema
 from .library_parts import (
-    Number as Number,
+    SourcedNumber as SourcedNumber,
     load_part as load_part,
     load_part_file as load_part_file,
     numbers as numbers,
@@ -21,7 +21,7 @@ from .parts.applicability import Applicability as Applicability, Nominal as Nomi
 from .parts.brake import BrakeSystem as BrakeSystem
 from .parts.compensation import Compensation as Compensation
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
-from .parts.definition import Parameter as Parameter
+from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.friction import FrictionProfile as FrictionProfile
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.rail import RailCondition as RailCondition

@@ -6,7 +6,7 @@ from uictest import physics
 from uictest.scenario.parts.brake import Disc
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
-from uictest.scenario.parts.criteria import WHEELSETS
+from uictest.scenario.parts.criteria import WHEELSET_COUNT
 from uictest.scenario.parts.vehicle import Vehicle
 from uictest.units import STANDARD_GRAVITY
 
@@ -41,7 +41,7 @@ def braking_force(disc: Disc, vehicle: Vehicle, clamping_force: float) -> float:
         disc.pad_friction,
         disc.mean_radius,
     )
-    return WHEELSETS * torque / vehicle.wheelset.radius
+    return WHEELSET_COUNT * torque / vehicle.wheelset.radius
 
 
 def longest_step(vehicle: Vehicle) -> tuple[float, str]:

@@ -20,7 +20,7 @@ from uictest.scenario.yaml import (
 )
 
 
-class Number(NamedTuple):
+class SourcedNumber(NamedTuple):
     """A number of a part: its dotted key, the quantity and its source (None for a user's own number)."""
 
     key: str
@@ -63,10 +63,10 @@ def load_part(reference: str) -> Part:
     return part
 
 
-def numbers(part: Part) -> Iterator[Number]:
+def numbers(part: Part) -> Iterator[SourcedNumber]:
     """Yield every number of a part, in the order of its model."""
     for key, quantity in quantities_in(part):
-        yield Number(_dotted(key), quantity, part.sources.get(quantity.source))
+        yield SourcedNumber(_dotted(key), quantity, part.sources.get(quantity.source))
 
 
 def _dotted(key: Key) -> str:

@@ -21,7 +21,7 @@ from uictest.recording.formats import (
 )
 from uictest.recording.formats.layout import name_and_unit
 from uictest.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
-from uictest.recording.formats.problems import required
+from uictest.recording.formats.problems import required_module
 from uictest.recording.formats.reader import read_here
 
 Written = Callable[[str], Path]
@@ -146,7 +146,7 @@ def test_a_module_that_lacks_another_is_no_missing_extra(
     (tmp_path / "broken_reader.py").write_text("import surely_not_there\n")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ModuleNotFoundError, match="surely_not_there"):
-        required("broken_reader", "x")
+        required_module("broken_reader", "x")
 
 
 def test_a_declared_dialect(tmp_path: Path) -> None:

@@ -168,7 +168,7 @@ def cylinder(
 
 
 def _wsp_acting(
-    recorded: identification.Record, intervals: Sequence[tuple[float, float]], acting_time: float
+    recorded: identification.RecordedChannels, intervals: Sequence[tuple[float, float]], acting_time: float
 ) -> NDArray[np.bool_]:
     """Return for every sample whether the WSP acts: in the intervals, or else by the valve commands."""
     channels = recorded.channels
@@ -179,7 +179,7 @@ def _wsp_acting(
 
 def _hysteresis(
     record: Path,
-    recorded: identification.Record,
+    recorded: identification.RecordedChannels,
     acting: NDArray[np.bool_],
     transition_time: float,
     held_out: float,
@@ -195,7 +195,7 @@ def _hysteresis(
 
 def _cylinder(
     record: Path,
-    recorded: identification.Record,
+    recorded: identification.RecordedChannels,
     criterion: Literal["least-squares", "largest-error"],
     held_out: float,
 ) -> identification.CylinderResult:
@@ -210,7 +210,7 @@ def _cylinder(
     return result
 
 
-def _record(record: Path, names: dict[str, str]) -> identification.Record:
+def _record(record: Path, names: dict[str, str]) -> identification.RecordedChannels:
     """Read the channels of a record by role. Raises InvalidInputError where two options name the same one."""
     for (role, name), (other, same) in combinations(names.items(), 2):
         if name == same:
@@ -263,7 +263,7 @@ def _name(name: str, record: Path) -> str:
 
 
 def _provenance(
-    context: typer.Context, record: Path, recorded: identification.Record, date: str
+    context: typer.Context, record: Path, recorded: identification.RecordedChannels, date: str
 ) -> identification.Provenance:
     from uictest import __version__
 

@@ -97,7 +97,7 @@ def _show_numbers(part: yaml.Part) -> None:
             data(f"\n{title}\n{_aligned(rows)}")
 
 
-def _row(number: scenario.Number) -> tuple[str, ...]:
+def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
     """Return key, number, mark and the name of the source, which may be called like its mark."""
     if number.source is None:
         return (number.key, number.quantity.text, scenario.mark_of(number.quantity, {}), "")
@@ -105,7 +105,9 @@ def _row(number: scenario.Number) -> tuple[str, ...]:
     return (number.key, number.quantity.text, mark, "" if name == mark else name)
 
 
-def _difference(number: scenario.Number, original: Mapping[str, scenario.Number], part: yaml.Part) -> str:
+def _difference(
+    number: scenario.SourcedNumber, original: Mapping[str, scenario.SourcedNumber], part: yaml.Part
+) -> str:
     """Return what the part that this one extends has instead; empty where it has the same."""
     if part.original is None:
         return ""

@@ -18,7 +18,7 @@ from uictest.recording.atomic import write_text_atomic
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.dialect import COMMENT, Dialect
 from uictest.recording.formats.encoding import MARK, encoding_of, undecodable
-from uictest.recording.formats.layout import Layout, cells_of, layout_of, name_and_unit
+from uictest.recording.formats.layout import TableLayout, cells_of, name_and_unit, table_layout
 from uictest.recording.formats.limits import MOST_CHANNELS
 from uictest.recording.formats.problems import UnreadableError
 from uictest.recording.formats.sample_lines import (
@@ -48,7 +48,7 @@ def read(path: Path, dialect: Dialect | None = None) -> Contents:
     encoding = encoding_of(path, dialect.encoding)
     try:
         heading = _heading(path, encoding, dialect)
-        layout = layout_of(heading, dialect)
+        layout = table_layout(heading, dialect)
         names, units = _names_and_units(heading, layout, dialect)
         lines = sample_lines(path, encoding, dialect, layout, len(names))
         group = _group(names, units, _table(path, encoding, dialect, lines), lines)
@@ -85,7 +85,9 @@ def _heading(path: Path, encoding: str, dialect: Dialect) -> list[str]:
     return [lines[0].removeprefix(MARK), *lines[1:]] if lines else []
 
 
-def _names_and_units(heading: Sequence[str], layout: Layout, dialect: Dialect) -> tuple[list[str], list[str]]:
+def _names_and_units(
+    heading: Sequence[str], layout: TableLayout, dialect: Dialect
+) -> tuple[list[str], list[str]]:
     """Return names, made distinct, and their units: those in the names, else those of the line of units."""
     named = [name_and_unit(cell) for cell in _cells(heading, layout.header_line, dialect)]
     below = _cells(heading, layout.unit_line, dialect) if layout.unit_line else []

@@ -30,7 +30,7 @@ _USUAL_UNIT: Final = re.compile(
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class TableLayout:
     """Lines of a table, counted from one; `unit_line` is 0 where no line holds units."""
 
     header_line: int
@@ -38,7 +38,7 @@ class Layout:
     first_line: int
 
 
-def layout_of(heading: Sequence[str], dialect: Dialect) -> Layout:
+def table_layout(heading: Sequence[str], dialect: Dialect) -> TableLayout:
     """Return where the table stands whose first lines are `heading`.
 
     Raises UnreadableError where it is not of the declared dialect; the message says what to declare.
@@ -58,7 +58,7 @@ def layout_of(heading: Sequence[str], dialect: Dialect) -> Layout:
         likely = replace(likely, first_line=samples)
     if likely != dialect:
         raise UnreadableError(_advice(dialect, likely))
-    return Layout(names, units, first)
+    return TableLayout(names, units, first)
 
 
 def _content(heading: Sequence[str], dialect: Dialect) -> Iterator[tuple[int, str]]:

@@ -12,7 +12,7 @@ import numpy as np
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
-from uictest.recording.formats.problems import required
+from uictest.recording.formats.problems import required_module
 from uictest.recording.recording import Recording
 
 _EXTRA = "mat"
@@ -66,8 +66,8 @@ def _read_version_5(path: Path) -> dict[str, Any]:
 
 
 def _read_hdf5(path: Path) -> dict[str, Any]:
-    pymatreader = required("pymatreader", _EXTRA)
-    h5py = required("h5py", _EXTRA)
+    pymatreader = required_module("pymatreader", _EXTRA)
+    h5py = required_module("h5py", _EXTRA)
 
     shapes: list[tuple[int, ...]] = []
 

@@ -15,7 +15,7 @@ import numpy as np
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
-from uictest.recording.formats.problems import required
+from uictest.recording.formats.problems import required_module
 from uictest.recording.recording import TIME, Recording
 from uictest.recording.states import STATES, state_kind
 
@@ -31,7 +31,7 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without asammdf; for a damaged file whatever asammdf raises.
     """
-    asammdf = required("asammdf", _EXTRA)
+    asammdf = required_module("asammdf", _EXTRA)
     with asammdf.MDF(path, temporary_folder=Path(tempfile.gettempdir())) as mdf:
         counts = [(len(group.channels), int(group.channel_group.cycles_nr)) for group in mdf.groups]
         check_size(shape for channels, cycles in counts for shape in [(cycles,)] * channels)
@@ -45,7 +45,7 @@ def write(recording: Recording, path: Path) -> None:
 
     Raises OSError, MissingExtraError without asammdf.
     """
-    asammdf = required("asammdf", _EXTRA)
+    asammdf = required_module("asammdf", _EXTRA)
     time = np.asarray(recording[TIME], dtype=np.float64)
     signals = [
         asammdf.Signal(

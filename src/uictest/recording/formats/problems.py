@@ -18,7 +18,7 @@ class BrokenOffError(OSError):
     """Reading was interrupted by the machine, whatever the file contains: a full disk, a killed process."""
 
 
-def required(module: str, extra: str) -> Any:
+def required_module(module: str, extra: str) -> Any:
     """Return a module. Raises MissingExtraError with the line that installs it, as `uictest[extra]`."""
     try:
         return importlib.import_module(module)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from uictest.recording.formats.dialect import COMMENT, Dialect
-from uictest.recording.formats.layout import Layout, cells_of
+from uictest.recording.formats.layout import TableLayout, cells_of
 from uictest.recording.formats.limits import MOST_VALUES
 from uictest.recording.formats.problems import UnreadableError
 
@@ -38,7 +38,9 @@ class SampleLines:
         return number
 
 
-def sample_lines(path: Path, encoding: str, dialect: Dialect, layout: Layout, channels: int) -> SampleLines:
+def sample_lines(
+    path: Path, encoding: str, dialect: Dialect, layout: TableLayout, channels: int
+) -> SampleLines:
     """Return which lines of a file hold samples.
 
     Raises UnreadableError where a line has more values than there are channels, is too long, holds a NUL

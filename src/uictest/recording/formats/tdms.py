@@ -11,7 +11,7 @@ import numpy as np
 from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
-from uictest.recording.formats.problems import required
+from uictest.recording.formats.problems import required_module
 from uictest.recording.recording import TIME, Recording
 from uictest.recording.states import STATES, state_kind
 
@@ -26,7 +26,7 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without npTDMS; for a damaged file whatever npTDMS raises.
     """
-    nptdms = required("nptdms", _EXTRA)
+    nptdms = required_module("nptdms", _EXTRA)
     with nptdms.TdmsFile.open(path) as tdms:
         channels = [channel for group in tdms.groups() for channel in group.channels()]
         check_size((len(channel),) for channel in channels)
@@ -41,7 +41,7 @@ def write(recording: Recording, path: Path) -> None:
 
     Raises OSError, MissingExtraError without npTDMS.
     """
-    nptdms = required("nptdms", _EXTRA)
+    nptdms = required_module("nptdms", _EXTRA)
     raster = _waveform(recording)
     objects = [nptdms.RootObject(properties=dict(recording.metadata)), nptdms.GroupObject(_GROUP)]
     for name, samples in recording.channels.items():

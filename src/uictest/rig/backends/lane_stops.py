@@ -23,7 +23,7 @@ _IDLE = -1
 """Number of a lane's case when it has none."""
 
 
-class Rig(NamedTuple):
+class RigRecords(NamedTuple):
     """Records of one rig, or blocks of them in lanes: a car, two bogies, four wheelsets."""
 
     car: Any
@@ -34,7 +34,7 @@ class Rig(NamedTuple):
 class Lanes(NamedTuple):
     """Blocks of lanes (:func:`uictest.lanes.block`): a rig, its parameters, the measures of its stop."""
 
-    rig: Rig
+    rig: RigRecords
     settings: Any
     measures: Any
     wheelset_measures: Any
@@ -49,7 +49,7 @@ class Cases(NamedTuple):
     wheelset_measures: Any
 
 
-def run_queue(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any) -> None:
+def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running: Any) -> None:
     """Run the cases of ``queue`` in ``lanes`` and fill their measures.
 
     Args:
@@ -76,7 +76,7 @@ def run_queue(lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any) 
 
 
 def _start_next_case(
-    lanes: Lanes, blank: Rig, cases: Cases, queue: Any, running: Any, started: int, k: int
+    lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running: Any, started: int, k: int
 ) -> int:
     """Start the next case in lane ``k``, or leave it idle when none waits; return how many have started."""
     if started == queue.size:
@@ -89,7 +89,7 @@ def _start_next_case(
     return started + 1
 
 
-def _set_to_start(lanes: Lanes, blank: Rig, p: Any, k: int) -> None:
+def _set_to_start(lanes: Lanes, blank: RigRecords, p: Any, k: int) -> None:
     """Set lane ``k`` to the instant of the brake command."""
     rig = lanes.rig
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)

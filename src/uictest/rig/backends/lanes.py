@@ -161,7 +161,7 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
 
     What has no branches is translated for lanes, the rest for one.
     """
-    from uictest.rig.backends.lane_stops import Cases, Lanes, Rig, run_queue  # loads numba
+    from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
 
     in_lanes: dict[Function, Any] = {
         **compiled_operations(),
@@ -174,4 +174,4 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
     without_branches = (read_sensors, command_valves, step, observe_cycle)
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}
     scalar = with_controller(controller, njit, compiled_operations())
-    return Lanes, Rig, Cases, translate(run_queue, njit, {**scalar, **wide})
+    return Lanes, RigRecords, Cases, translate(run_queue, njit, {**scalar, **wide})

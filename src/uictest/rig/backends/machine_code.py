@@ -30,7 +30,7 @@ def native_function(name: str, callback: Callable[[], Any], arguments: int) -> C
     """
     with _compiling:
         if name not in _loaded:
-            engine = load(_kept(name) or _compiled(name, callback))
+            engine = load_object_file(_kept(name) or _compiled(name, callback))
             prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
             _loaded[name] = engine, prototype(engine.get_function_address(name))
     return _loaded[name][1]
@@ -88,7 +88,7 @@ def object_file(callback: Any, name: str) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def load(code: bytes) -> Any:
+def load_object_file(code: bytes) -> Any:
     """Load an object file into this process; what is returned knows its addresses and keeps it there."""
     from llvmlite import binding
 

@@ -6,13 +6,13 @@ from typing import Any
 from uictest.measures import (
     StopMeasures,
     WheelsetMeasures,
-    begin,
     begin_slides,
+    begin_train,
     begin_wheelset,
     begin_window,
-    finish,
     keep_slide,
     keep_window,
+    note_standstill,
     observe_train,
     observe_wheelset,
 )
@@ -71,7 +71,7 @@ def begin_stop_measures(
     car: Car, measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], p: Parameters
 ) -> None:
     """Start the measures of a stop that are one number."""
-    begin(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
+    begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
     for i in range(4):
         begin_wheelset(wheelset_measures[i])
 
@@ -110,7 +110,7 @@ def observe_cycle(
             select(stands, 0.0, wheelset.clamping_force),
         )
     observe_train(measures, p, time, position, speed, car.reservoir_pressure - p.atmospheric_pressure)
-    finish(measures, stands, time, position)
+    note_standstill(measures, stands, time, position)
 
 
 def keep_tables(

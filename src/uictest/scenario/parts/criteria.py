@@ -29,7 +29,7 @@ from uictest.scenario.yaml import (
 )
 from uictest.units import KINDS
 
-WHEELSETS = 4
+WHEELSET_COUNT = 4
 """Wheelsets of the car."""
 
 
@@ -62,7 +62,7 @@ Bound = Annotated[
 class AtLeast(Model):
     """How many wheelsets must keep the bound."""
 
-    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSETS, strict=True)] = Field(
+    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSET_COUNT, strict=True)] = Field(
         description="A number of wheelsets, or `half` of them (rounded up)."
     )
 

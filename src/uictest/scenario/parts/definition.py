@@ -86,7 +86,7 @@ class LowSpeedCutoff(Model):
         yield from _range_problems(self.value, self.range)
 
 
-Parameter = FirstPhaseDuration | LowSpeedCutoff
+RangedDefinition = FirstPhaseDuration | LowSpeedCutoff
 """One definition of a criterion: the value used, and the range of values that the words allow.
 
 `unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is continuous.
@@ -103,7 +103,7 @@ class Definition(Model):
         default=None, description="Speed down to which slides count."
     )
 
-    def parameters(self) -> dict[str, Parameter]:
+    def parameters(self) -> dict[str, RangedDefinition]:
         """Return the definitions that are given, by name."""
         return {name: value for name, value in self if isinstance(value, FirstPhaseDuration | LowSpeedCutoff)}
 
