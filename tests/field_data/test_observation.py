@@ -10,7 +10,7 @@ import pytest
 
 from uictest.evaluation import evaluate
 from uictest.field_data import judge_recording, load_map, prepare, select_channels, stated_case
-from uictest.recording.formats import FORMATS, SUFFIXES, Dialect, writer_of
+from uictest.recording.formats import FORMATS, Dialect, writer_of
 from uictest.recording.formats.reader import read_here
 from uictest.rig import SimulatedStop
 from uictest.scenario import Case
@@ -41,7 +41,7 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
     name: str, rate: float, case: Case, simulated: Callable[[float], SimulatedStop], tmp_path: Path
 ) -> None:
     stop = simulated(rate)
-    path = tmp_path / f"stop{SUFFIXES[name]}"
+    path = tmp_path / f"stop{FORMATS[name].suffix}"
     assert stop.recording is not None
     writer_of(name)(stop.recording, path)
     contents = read_here(name, path, Dialect())

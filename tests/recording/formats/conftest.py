@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.recording.formats import SUFFIXES, writer_of
+from uictest.recording.formats import FORMATS, writer_of
 
 Written = Callable[[str], Path]
 
@@ -33,7 +33,7 @@ def written(recording: Recording, tmp_path: Path) -> Written:
     """Write the recording in a format."""
 
     def write(name: str) -> Path:
-        path = tmp_path / f"small{SUFFIXES[name]}"
+        path = tmp_path / f"small{FORMATS[name].suffix}"
         writer_of(name)(recording, path)
         return path
 

@@ -34,7 +34,9 @@ def export(
     """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
     names = _formats(formats)
     targets = {
-        (path, name): output / f"{path.stem}{file_formats.SUFFIXES[name]}" for path in files for name in names
+        (path, name): output / f"{path.stem}{file_formats.FORMATS[name].suffix}"
+        for path in files
+        for name in names
     }
     _refuse_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, each_file(files, _recording), strict=True))
@@ -48,7 +50,7 @@ def export(
 
 def _formats(texts: Sequence[str]) -> list[str]:
     # A format is also known by the suffix of its files: engineers say MF4 for MDF 4.
-    by_suffix = {suffix.removeprefix("."): name for name, suffix in file_formats.SUFFIXES.items()}
+    by_suffix = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
     words = [word.strip().lower() for text in texts for word in text.split(",")]
     names = list(dict.fromkeys(by_suffix.get(word, word) for word in words))
     for word in names:

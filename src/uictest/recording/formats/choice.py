@@ -4,33 +4,44 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from uictest.recording.formats.problems import UnreadableError
 
 if TYPE_CHECKING:
     from uictest.recording.recording import Recording
 
+
+@dataclass(frozen=True, slots=True)
+class FileFormat:
+    """A format of measurement files.
+
+    Args:
+        module: the module of this package that reads and writes it.
+        suffix: of the files that are written.
+        beginnings: with which bytes its files begin; none for text.
+
+    """
+
+    module: str
+    suffix: str
+    beginnings: tuple[bytes, ...] = ()
+
+
 FORMATS: Final = MappingProxyType(
-    {"csv": "csv_text", "mdf": "mdf", "tdms": "tdms", "mat": "mat", "parquet": "parquet"}
+    {
+        "csv": FileFormat("csv_text", ".csv"),
+        "mdf": FileFormat("mdf", ".mf4", (b"MDF     ", b"UnFinMF ")),
+        "tdms": FileFormat("tdms", ".tdms", (b"TDSm",)),
+        "mat": FileFormat("mat", ".mat", (b"MATLAB ", b"\x89HDF\r\n\x1a\n")),
+        "parquet": FileFormat("parquet", ".parquet", (b"PAR1",)),
+    }
 )
-"""Format -> the module of this package that reads and writes it."""
+"""Every format by name."""
 
-SUFFIXES: Final = MappingProxyType(
-    {"csv": ".csv", "mdf": ".mf4", "tdms": ".tdms", "mat": ".mat", "parquet": ".parquet"}
-)
-"""Format -> suffix of the files that are written."""
-
-_BEGINNINGS: Final = (
-    (b"MDF     ", "mdf"),
-    (b"UnFinMF ", "mdf"),
-    (b"TDSm", "tdms"),
-    (b"PAR1", "parquet"),
-    (b"MATLAB ", "mat"),
-    (b"\x89HDF\r\n\x1a\n", "mat"),
-)
 _TEXT_SUFFIXES: Final = (".csv", ".txt", ".tsv", ".asc", ".dat")
 _ENOUGH: Final = 128
 
@@ -44,8 +55,8 @@ def format_of(path: Path) -> str:
         beginning = file.read(_ENOUGH)
     if not beginning:
         raise UnreadableError("the file is empty")
-    for magic, name in _BEGINNINGS:
-        if beginning.startswith(magic):
+    for name, file_format in FORMATS.items():
+        if beginning.startswith(file_format.beginnings):
             return name
     if path.suffix.lower() in _TEXT_SUFFIXES:
         return "csv"
@@ -54,8 +65,12 @@ def format_of(path: Path) -> str:
     )
 
 
+def module_of(name: str) -> Any:
+    """Return the module that reads and writes a format; none is loaded before it is needed."""
+    return importlib.import_module(f"uictest.recording.formats.{FORMATS[name].module}")
+
+
 def writer_of(name: str) -> Callable[[Recording, Path], None]:
     """Return the function that writes a recording in a format of FORMATS."""
-    module = importlib.import_module(f"uictest.recording.formats.{FORMATS[name]}")
-    write: Callable[[Recording, Path], None] = module.write
+    write: Callable[[Recording, Path], None] = module_of(name).write
     return write

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import importlib
 import io
 import itertools
 import json
@@ -19,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from uictest.recording.contents import Contents, Group
-from uictest.recording.formats.choice import FORMATS
+from uictest.recording.formats.choice import module_of
 from uictest.recording.formats.dialect import Dialect
 from uictest.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REFUSED, TOO_LARGE
 from uictest.recording.formats.limits import READING_MEMORY, READING_SECONDS
@@ -55,7 +54,7 @@ def main(name: str, path: str, dialect: str) -> int:
 
 def read_here(name: str, path: Path, dialect: Dialect) -> Contents:
     """Read a file in this process."""
-    module: Any = importlib.import_module(f"uictest.recording.formats.{FORMATS[name]}")
+    module = module_of(name)
     contents: Contents = module.read(path, dialect) if name == "csv" else module.read(path)
     if not any(len(group) for group in contents.groups):
         raise UnreadableError("no channel with samples")
