@@ -1,4 +1,4 @@
-"""The result of one case: outcome, verdicts and figures, in the units a brake engineer reads."""
+"""The result of one case: outcome, verdicts and measures, in the units a brake engineer reads."""
 
 from __future__ import annotations
 

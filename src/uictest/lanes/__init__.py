@@ -6,9 +6,9 @@ the same block it reads and writes plain numbers: what branches runs lane by lan
 lanes at once. Every operation rounds as its scalar counterpart does: a lane gives the bits that scalar code
 gives, whatever its neighbours hold and however wide the register is.
 
-The room rests on internals of numba and is the only one that does. It knows nothing of the rig. What only
-compiled code calls is imported when it is first used, since blocks are filled without a compiler; import it
-by name, for numba knows nothing of functions that appear while it compiles.
+The room depends on internals of numba; no other room does. It does not import the rig. What only compiled
+code calls is imported when it is first used, since blocks are filled without a compiler; import it by name:
+numba does not find functions that appear while it compiles.
 """
 
 import lazy_loader

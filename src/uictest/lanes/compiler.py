@@ -1,6 +1,6 @@
-"""What this room takes from within numba, under names that say what it is for.
+"""The internals of numba that this room uses, under names that say what they are for.
 
-Also with types: numba's own annotations are incomplete.
+They are annotated here, since numba's own annotations are incomplete.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Functions of vectors, for compiled code: what scalar code computes, lane by lane."""
+"""Functions of vectors, for compiled code: each lane gets what scalar code computes."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from uictest.lanes.types import Mask, Vector
 
 @in_compiled_code
 def select(typing: Any, condition: Any, when_true: Any, when_false: Any) -> Any:
-    """Choose one of two in each lane of a mask: whole numbers where both are, and one of them in lanes."""
+    """Choose one of two values in each lane of a mask; the result is whole where both are."""
     if not isinstance(condition, Mask):
         return None
     whole = common_integers(when_true, when_false)

@@ -27,7 +27,7 @@ _COMPARISONS: dict[Any, Any] = {
 
 
 def _define(function: Any, emit: Any, result: type) -> None:
-    """Give ``function`` a meaning for two of them, or one of them and a whole number."""
+    """Define ``function`` for two registers of whole numbers, or a register and a whole number."""
 
     @typing_of(function)
     class _Template(AbstractTemplate):
@@ -47,9 +47,9 @@ def _define(function: Any, emit: Any, result: type) -> None:
 
 def common_integers(*kinds: Any) -> Integers | None:
     """Type that whole numbers and those of lanes combine to; None when they do not."""
-    found = {kind for kind in kinds if isinstance(kind, Integers)}
+    lane_kinds = {kind for kind in kinds if isinstance(kind, Integers)}
     fits = all(isinstance(kind, Integers | types.Integer) for kind in kinds)
-    return found.pop() if fits and len(found) == 1 else None
+    return lane_kinds.pop() if fits and len(lane_kinds) == 1 else None
 
 
 def everywhere(context: Any, builder: Any, value: Any, kind: Any, width: int) -> Any:

@@ -57,7 +57,7 @@ def common_vector(*kinds: Any) -> Vector | None:
 
 
 def _define_binary(function: Any, emit: Emit, result: Callable[[int], types.Type]) -> None:
-    """Give ``function`` a meaning for two vectors, or a vector and a number."""
+    """Define ``function`` for two vectors, or a vector and a number."""
 
     @typing_of(function)
     class _Template(AbstractTemplate):
@@ -79,7 +79,7 @@ def _define_binary(function: Any, emit: Emit, result: Callable[[int], types.Type
 
 
 def _define_logic(function: Any, emit: Emit) -> None:
-    """Give ``function`` a meaning for two masks."""
+    """Define ``function`` for two masks."""
 
     @typing_of(function)
     class _Template(AbstractTemplate):
@@ -91,7 +91,7 @@ def _define_logic(function: Any, emit: Emit) -> None:
 
 
 def _define_unary(function: Any, emit: Callable[[Any, Any], Any]) -> None:
-    """Give ``function`` a meaning for one vector."""
+    """Define ``function`` for one vector."""
 
     @typing_of(function)
     class _Template(AbstractTemplate):

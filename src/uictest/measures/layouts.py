@@ -1,4 +1,4 @@
-"""Layouts in memory of the records of measures: what compiled code and files of measures go by."""
+"""Layouts in memory of the records of measures, for compiled code and for files of measures."""
 
 from uictest.measures.records import StopMeasures, WheelsetMeasures
 from uictest.record import layout_of

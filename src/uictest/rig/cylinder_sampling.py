@@ -27,6 +27,6 @@ def resampled_transfer_function(
 
 
 def _unity_gain(numerator: list[float], denominator: list[float]) -> tuple[list[float], list[float]]:
-    """Make the gain at rest one again: it hangs on the last digits of the coefficients."""
+    """Make the gain at rest one again: rounding the last digits of the coefficients changes it."""
     rest = math.fsum([1.0, *denominator])
     return [math.fsum([rest, *(-b for b in numerator[1:])]), *numerator[1:]], denominator
