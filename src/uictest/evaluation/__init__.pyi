@@ -15,11 +15,8 @@ from .document import (
 from .effective_parts import EffectiveParts as EffectiveParts
 from .json_form import (
     Number as Number,
-    OptionalNumber as OptionalNumber,
-    finite_or_none as finite_or_none,
     from_json_form as from_json_form,
     json_form as json_form,
-    nan_for_none as nan_for_none,
     required as required,
     to_json_form as to_json_form,
 )
@@ -32,9 +29,7 @@ from .parameters import (
     parts_table as parts_table,
 )
 from .result import (
-    CaseMeasures as CaseMeasures,
     CaseResult as CaseResult,
-    CaseWheelsetMeasures as CaseWheelsetMeasures,
     NamedParts as NamedParts,
     narrowest_margin as narrowest_margin,
 )

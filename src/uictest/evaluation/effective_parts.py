@@ -6,19 +6,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from uictest.evaluation.parameters import EffectivePart, Parameter
-from uictest.scenario import DESCRIPTIVE, Scenario, Value, mark_of, values_in
-from uictest.scenario.yaml import Key, Model, Part, Quantity
+from uictest.scenario import DESCRIPTIVE, PART_KEYS, PART_KINDS, Scenario, Value, mark_of, values_in
+from uictest.scenario.yaml import Key, Model, Part, Quantity, dotted
 
-_PARTS: Final = {
-    "vehicle": "vehicle",
-    "brake": "brake.system",
-    "rail": "rail.condition",
-    "caliper": "rig.caliper",
-    "compensation": "rig.compensation_model",
-    "sensors": "rig.sensors",
-    "controller": "controller",
-    "measures": "measures",
-}
+_PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PART_KEYS[key].several}
 """Kind of a part -> where it stands in a scenario."""
 
 _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
@@ -84,7 +75,7 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
         _parameter(above, place, value, library, _mark(part, place, value, original))
         for place, value in values.items()
     )
-    removed = tuple(f"{above}{_dotted(place)}" for place in _removed(original, values))
+    removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
     used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
     return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
@@ -139,7 +130,7 @@ def _parameter(
     """Return a parameter compared with the library part; `library` is None without such a part."""
     source = value.source if isinstance(value, Quantity) and mark not in ("user", "default") else ""
     other = None if library is None else library.get(place)
-    key, unit = f"{above}{_dotted(place)}", value.unit if isinstance(value, Quantity) else ""
+    key, unit = f"{above}{dotted(place)}", value.unit if isinstance(value, Quantity) else ""
     own = (key, _plain(value), unit, _written(value), mark, source)
     if library is None or other == value:
         return Parameter(*own)
@@ -156,10 +147,6 @@ def _written(value: Value) -> str:
     if isinstance(value, Quantity):
         return value.text
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def _dotted(key: Key) -> str:
-    return ".".join(map(str, key))
 
 
 def _at(scenario: Scenario, key: str) -> Any:

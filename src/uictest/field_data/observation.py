@@ -30,11 +30,9 @@ from uictest.measures import (
     observe_train,
     observe_wheelset,
 )
+from uictest.physics import VENT
 from uictest.record import fields_of
 from uictest.recording import TIME, Recording
-
-_VENT = 2.0
-"""State of the valve command that vents."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +142,7 @@ def _channel(recording: Recording, name: str) -> NDArray[np.float64]:
 def _venting(command: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return 1 while the valve is commanded to vent. A gap keeps the state before it: one vent is not two."""
     last_known = np.maximum.accumulate(np.where(np.isnan(command), 0, np.arange(len(command))))
-    return np.where(command[last_known] == _VENT, 1.0, 0.0)
+    return np.where(command[last_known] == VENT, 1.0, 0.0)
 
 
 def _copy(source: Any, record: Any) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from uictest.field_data.channels import of_wheelsets
 from uictest.field_data.defect import Defect
 from uictest.field_data.raw_channels import Array, RawChannel
+from uictest.units import BAR, KILONEWTON
 
 _STEEPEST = 150.0
 """m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""
@@ -26,7 +27,11 @@ _ROLLING = 0.2
 """s after the brake command in which wheels still roll; chosen."""
 _SPEEDS = ("speed", *of_wheelsets("wheel_speed"))
 _LARGEST_READING_OFFSET: Final = MappingProxyType(
-    {"cylinder_pressure": (0.15e5, "Pa"), "tank_pressure": (0.15e5, "Pa"), "clamping_force": (1000.0, "N")}
+    {
+        "cylinder_pressure": (0.15 * BAR, "Pa"),
+        "tank_pressure": (0.15 * BAR, "Pa"),
+        "clamping_force": (1.0 * KILONEWTON, "N"),
+    }
 )
 """Reading with the brake released that a sound sensor may show; chosen."""
 _RELEASED = 0.02

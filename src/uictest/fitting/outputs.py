@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import asdict
@@ -11,7 +10,7 @@ from typing import Any, Final
 
 import yaml
 
-from uictest import library
+from uictest import evaluation, library
 from uictest.fitting.estimate import Fit
 from uictest.fitting.overlay import Agreement
 from uictest.scenario import EXPANSION_KEYS, PART_KEYS, Case, Scenario
@@ -99,7 +98,7 @@ def _with_pads(scenario: Scenario, factor: float) -> dict[str, Any]:
 
 
 def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dict[str, Any]:
-    """Return the fitted values, the agreement of the simulated stop, and how the record was prepared."""
+    """Return the fitted values, the agreement of the simulated stop and the preparation; NaN as None."""
     document = {
         "schema": SCHEMA,
         "determined": fit.determined,
@@ -107,13 +106,5 @@ def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dic
         "agreement": asdict(agreement),
         "preparation": choices,
     }
-    cleaned: dict[str, Any] = _without_nan(document)
-    return cleaned
-
-
-def _without_nan(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _without_nan(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_without_nan(inner) for inner in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    form: dict[str, Any] = evaluation.json_form(document)
+    return form

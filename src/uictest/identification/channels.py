@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from uictest import recording
 from uictest.identification.suitability import UnsuitableRecordError, require_finite
 from uictest.physics import FILL, HOLD, VENT
-from uictest.recording import ORIGIN, formats
+from uictest.recording import ORIGIN, TIME, formats
 from uictest.units import KINDS
 
 Samples = NDArray[np.float64]
-TIME = "time"
-_SI = {"time": "s", "pressure": "Pa", "force": "N"}
+_SI = {"pressure": "Pa", "force": "N"}
 _UNKNOWN_ORIGIN = "recorded, origin not stated"
 _LONGEST_ORIGIN = 200
 

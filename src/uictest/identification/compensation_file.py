@@ -14,7 +14,7 @@ from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
 from uictest.scenario import Compensation, Files, Parts, Roots
 from uictest.scenario.yaml import Quantity, Scalar, whole_file
-from uictest.units import BAR, KILONEWTON
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
@@ -49,7 +49,7 @@ class Provenance:
     Attributes:
         record: name of the recording's file.
         digest: SHA-256 of the file.
-        samples_digest: SHA-256 of the samples that were used; see :func:`.channels.samples_digest`.
+        samples_digest: SHA-256 of the samples: :func:`~uictest.identification.samples_digest`.
         origin: what was recorded, as the file states it.
         command: the command line.
         version: of this program.
@@ -138,7 +138,7 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
 
 def _line(line: FittedLine, source: str) -> Numbers:
     return {
-        "slope": (f"{line.slope * 100.0:.6g} kN/bar", source),
+        "slope": (f"{line.slope / KILONEWTON_PER_BAR:.6g} kN/bar", source),
         "intercept": (f"{line.intercept:.6g} N", source),
     }
 
@@ -196,13 +196,13 @@ def _text(
     facts: Mapping[str, str],
 ) -> str:
     """The file as YAML."""
-    described = {**{key: each.model_dump() for key, each in base.sources.items()}, **sources}
+    described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
     used = set(_sources_of(numbers))
     document = {
         "schema": "uictest/compensation/1",
         "name": name,
         "title": base.title if name == base.name else f"Compensation {name}",
-        "sources": {key: each for key, each in described.items() if key in used},
+        "sources": {key: source for key, source in described.items() if key in used},
         **_marked(numbers),
         "provenance": dict(facts),
     }
@@ -218,16 +218,16 @@ def _marked(numbers: Any) -> Any:
     if isinstance(numbers, tuple):
         return _Number(value=numbers[0], source=numbers[1])
     if isinstance(numbers, list):
-        return [_marked(each) for each in numbers]
-    return {key: _marked(each) for key, each in numbers.items()}
+        return [_marked(inner) for inner in numbers]
+    return {key: _marked(inner) for key, inner in numbers.items()}
 
 
 def _sources_of(numbers: Any) -> Iterator[str]:
     if isinstance(numbers, tuple):
         yield numbers[1]
         return
-    for each in numbers if isinstance(numbers, list) else numbers.values():
-        yield from _sources_of(each)
+    for inner in numbers if isinstance(numbers, list) else numbers.values():
+        yield from _sources_of(inner)
 
 
 class _Number(dict[str, str]):

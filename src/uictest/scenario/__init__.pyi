@@ -16,7 +16,11 @@ from .library_parts import (
 )
 from .loading import load as load
 from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
-from .part_keys import PART_KEYS as PART_KEYS, with_default_parts as with_default_parts
+from .part_keys import (
+    PART_KEYS as PART_KEYS,
+    PART_KINDS as PART_KINDS,
+    with_default_parts as with_default_parts,
+)
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem
 from .parts.compensation import Compensation as Compensation

@@ -4,16 +4,16 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from uictest.scenario.part_keys import PART_KEYS
-from uictest.scenario.references import KIND_OF_FOLDER, Files, Parts, Roots, folder_of
+from uictest.scenario.part_keys import PART_KEYS, PART_KINDS
+from uictest.scenario.references import Files, Parts, Roots, folder_of
 from uictest.scenario.yaml import (
     Document,
-    Key,
     Part,
     Place,
     Quantity,
     Scalar,
     Source,
+    dotted,
     quantities_in,
     quoted,
     single_error,
@@ -37,7 +37,7 @@ def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
     files = Files(Roots.of([path], trusted))
     tree = files.at(path)
     schema = tree.get("schema")
-    models = {f"uictest/{KIND_OF_FOLDER[folder_of(each.model)]}/1": each.model for each in PART_KEYS.values()}
+    models = {f"uictest/{kind}/1": PART_KEYS[key].model for key, kind in PART_KINDS.items()}
     if not isinstance(schema, Scalar) or schema.text not in models:
         schema_text = quoted(schema.text) if isinstance(schema, Scalar) else "none"
         place = tree.place if schema is None else schema.place
@@ -66,8 +66,4 @@ def load_part(reference: str) -> Part:
 def numbers(part: Part) -> Iterator[SourcedNumber]:
     """Yield every number of a part, in the order of its model."""
     for key, quantity in quantities_in(part):
-        yield SourcedNumber(_dotted(key), quantity, part.sources.get(quantity.source))
-
-
-def _dotted(key: Key) -> str:
-    return ".".join(map(str, key))
+        yield SourcedNumber(dotted(key), quantity, part.sources.get(quantity.source))

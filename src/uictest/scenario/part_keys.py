@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from uictest.scenario.model import Scenario
+from uictest.scenario.references import KIND_OF_FOLDER, folder_of
 from uictest.scenario.yaml import Entry, Key, Map, Node, PartReference, Scalar, models_in
 
 
@@ -19,6 +20,9 @@ def _references(model: Any, above: Key = ()) -> Iterator[tuple[Key, PartReferenc
 
 PART_KEYS: Final = dict(_references(Scenario))
 """Every key that refers to a part (or, for criteria, to several)."""
+
+PART_KINDS: Final = {key: KIND_OF_FOLDER[folder_of(reference.model)] for key, reference in PART_KEYS.items()}
+"""The kind of part that each of these keys refers to, such as `brake`."""
 
 
 def with_default_parts(tree: Map) -> Map:

@@ -18,6 +18,7 @@ from uictest.scenario.yaml import (
     Scalar,
     ScenarioErrors,
     describe,
+    dotted,
     inherit,
     is_file,
     models_in,
@@ -161,29 +162,31 @@ class Parts:
 
     def resolve(self, node: Node, model: Any, key: Key) -> ResolvedPart:
         """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
-        dotted = ".".join(map(str, key))
+        full_key = dotted(key)
         if isinstance(node, Map):
             return self._resolve_inline(node, model, key)
         if not isinstance(node, Scalar) or not isinstance(node.value, str):
             message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
-            raise single_error(node.place, message, dotted)
+            raise single_error(node.place, message, full_key)
         if is_path(node.text):
-            return self._built(self._fetch(node, model, dotted), model, (), dotted)
+            return self._built(self._fetch(node, model, full_key), model, (), full_key)
         name = (folder_of(model), node.text)
         if name not in self._by_name:
-            self._by_name[name] = self._built(self._fetch(node, model, dotted), model, (), dotted)
+            self._by_name[name] = self._built(self._fetch(node, model, full_key), model, (), full_key)
         return self._by_name[name]
 
     def _resolve_inline(self, node: Map, model: Any, key: Key) -> ResolvedPart:
         if id(node) not in self._inline:
-            self._inline[id(node)] = (node, self._built(node, model, key, ".".join(map(str, key))))
+            self._inline[id(node)] = (node, self._built(node, model, key, dotted(key)))
         return self._inline[id(node)][1]
 
-    def _built(self, tree: Map, model: Any, key: Key, dotted: str) -> ResolvedPart:
+    def _built(self, tree: Map, model: Any, key: Key, full_key: str) -> ResolvedPart:
         generations = [tree]
 
         def fetch(reference: Scalar) -> Map:
-            generations.append(self._fetch(reference, model, f"{dotted}.extends" if dotted else "extends"))
+            generations.append(
+                self._fetch(reference, model, f"{full_key}.extends" if full_key else "extends")
+            )
             return generations[-1]
 
         merged, documents = inherit(tree, fetch)
@@ -209,12 +212,12 @@ class Parts:
             self._originals[id(root)] = (root, original)
         return self._originals[id(root)][1]
 
-    def _fetch(self, reference: Scalar, model: Any, dotted: str) -> Map:
+    def _fetch(self, reference: Scalar, model: Any, full_key: str) -> Map:
         folder = folder_of(model)
         if is_path(reference.text):
-            tree = self._files.beside(reference, dotted)
+            tree = self._files.beside(reference, full_key)
         else:
-            _require_known_name(reference, folder, dotted)
+            _require_known_name(reference, folder, full_key)
             tree = self._files.in_library(folder, reference.text)
         _require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
         return tree
@@ -231,14 +234,17 @@ def is_path(reference: str) -> bool:
     return reference.endswith((".yaml", ".yml"))
 
 
-def _require_known_name(reference: Scalar, folder: str, dotted: str) -> None:
+def _require_known_name(reference: Scalar, folder: str, full_key: str) -> None:
     if reference.text in library.names(folder):
         return
     hint = suggestion(reference.text, library.names(folder))
     if "/" in reference.text or "\\" in reference.text:
         hint = "a path ends in .yaml; " + hint
     raise single_error(
-        reference.place, f"no {KIND_OF_FOLDER[folder]} {quoted(reference.text)} in the library", dotted, hint
+        reference.place,
+        f"no {KIND_OF_FOLDER[folder]} {quoted(reference.text)} in the library",
+        full_key,
+        hint,
     )
 
 

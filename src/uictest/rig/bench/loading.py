@@ -7,6 +7,7 @@ from pathlib import Path
 from uictest import library
 from uictest.rig.bench.recipe import BenchRecipe, FileReplay
 from uictest.scenario import (
+    EXPANSION_KEYS,
     PART_KEYS,
     SCENARIO_SCHEMA,
     Case,
@@ -32,7 +33,6 @@ from uictest.scenario.yaml import (
 )
 
 _FOLDER = Path(library.__file__).parent / "benches"
-_SWEEPS = ("matrix", "zip", "include", "exclude")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +88,7 @@ def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], see
     """Return the recipe's ``stop`` as the tree of a whole scenario."""
     section = tree.get("stop")
     stop = section if isinstance(section, Map) else Map({}, tree.place)
-    for key in ("schema", "name", "extends", *_SWEEPS):
+    for key in ("schema", "name", "extends", *EXPANSION_KEYS):
         if (entry := stop.entries.get(key)) is not None:
             raise single_error(
                 entry.key, f"key '{key}' does not belong here", f"stop.{key}", f"leave out {key}"
@@ -97,7 +97,7 @@ def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], see
     required = {key: Entry(stop.place, Scalar(text, text, stop.place)) for key, text in texts.items()}
     whole = with_default_parts(replace(stop, entries={**required, **stop.entries}))
     changed = apply_overrides(whole, parse_overrides(overrides, seed), frozenset(map(dotted, PART_KEYS)))
-    for key in _SWEEPS:
+    for key in EXPANSION_KEYS:
         if (entry := changed.entries.get(key)) is not None:
             raise single_error(
                 entry.node.place, "a bench test is one run: give one value", hint="no lists here"

@@ -6,12 +6,13 @@ from typing import Annotated, ClassVar, Final, Literal
 from pydantic import Field
 
 from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
+from uictest.units import BAR
 
 Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
 
 UNITY_GAIN_TOLERANCE: Final = 1e-6
 """How far the gain at rest may be from one."""
-HIGHEST_PRESSURE: Final = 10e5
+HIGHEST_PRESSURE: Final = 10.0 * BAR
 """Gauge pressure in Pa up to which the lines of a pair must keep their order."""
 
 

@@ -61,7 +61,8 @@ CONTROLLER_MODELS = {
     name: _model(CONTROLLERS[name]) for name in sorted(CONTROLLERS, key=lambda name: (name != DEFAULT, name))
 }
 """Models by the names of the controllers, the default one first."""
-globals().update({model.__name__: model for model in CONTROLLER_MODELS.values()})  # where pickle looks
+# Pickle finds a class by its name in its module; sweeps send scenarios to other processes.
+globals().update({model.__name__: model for model in CONTROLLER_MODELS.values()})
 
 if TYPE_CHECKING:
     Controller = ControllerPart
