@@ -51,12 +51,12 @@ class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
     source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
-        description="Name in the file, or several of which the first that is there counts; group/name too."
+        description="Name in the file, or a list of names: the first one present is used; also group/name."
     )
-    unit: str = Field(default="", description="Unit of the value; left out, the file's own.")
+    unit: str = Field(default="", description="Unit of the value; the file's own if left out.")
     scale: float = Field(default=1.0, allow_inf_nan=False, description="Factor on every sample.")
     offset: float = Field(default=0.0, allow_inf_nan=False, description="Added after scaling, in `unit`.")
-    sign: Literal[1, -1] = Field(default=1, description="-1 where the file counts the other way.")
+    sign: Literal[1, -1] = Field(default=1, description="-1 if the file has the opposite sign.")
     states: dict[str, int] = Field(default={}, description="Name of a state in the file -> its number.")
 
 
@@ -67,7 +67,7 @@ class DialectSection(Model):
     decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
     thousands: Literal["", ".", ",", "'", " "] = Field(default="", description="Between groups of digits.")
     header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
-    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: found, or none.")
+    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: detected, or none.")
     first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
     encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
 
@@ -95,7 +95,7 @@ class Preparation(Model):
     )
     trigger_lead: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
         default=default("0 s", "time"),
-        description="How long the brake command was given before what marks it.",
+        description="Time from the brake command to the event that marks it.",
     )
     trigger_pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="10 bar")] = Field(
         default=default("0.1 bar", "pressure"), description="Rise of a pressure that marks the brake command."
@@ -105,16 +105,16 @@ class Preparation(Model):
     )
     raster: Annotated[Quantity, of_kind("time", at_least="0.1 ms", at_most="1 s")] = Field(
         default=default("10 ms", "time"),
-        description="Interval of the samples that are judged; a coarser record keeps its own.",
+        description="Interval of the samples that are judged; a coarser recording keeps its own.",
     )
     low_pass: Annotated[Quantity, of_kind("frequency", above="0 Hz", at_most="100000 Hz")] | None = Field(
         default=None,
-        description="Corner frequency of a low-pass on every signal, second order, without delay; else none.",
+        description="Corner frequency of a low-pass on every signal, second order, no delay; else none.",
     )
     standstill_speed: Annotated[Quantity, of_kind("speed", above="0 km/h", at_most="10 km/h")] = Field(
         default=default("1 km/h", "speed"),
-        description="Slower than this the train is about to stand: where no sample of zero follows, the rest"
-        " is run at the deceleration of the last half second.",
+        description="Below this speed, if no sample of zero follows, the train is assumed to stop at the"
+        " deceleration of the last half second.",
     )
 
 

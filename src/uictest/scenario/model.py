@@ -56,9 +56,7 @@ class Scenario(Model):
         pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
         description="What the scenario is for.",
     )
-    tags: tuple[Slug, ...] = Field(
-        default=(), max_length=32, description="Words to select scenarios by (-m)."
-    )
+    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select scenarios (-m).")
     extends: str | None = Field(
         default=None, description="Relative path of the parent scenario; maps merge, lists replace."
     )
@@ -82,7 +80,7 @@ class Scenario(Model):
     )
     expect: Literal["pass", "fail", "invalid"] = Field(
         default="pass",
-        description="The outcome that meets this scenario; fail and invalid are for tests of tests.",
+        description="The expected outcome; fail and invalid are for scenarios that must not pass.",
     )
     seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
     simulation: Simulation = Field(default=Simulation(), description="Step and longest duration.")

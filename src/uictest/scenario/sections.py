@@ -65,7 +65,7 @@ class Rail(Model):
         | None
     ) = Field(
         default=None,
-        description="Initial friction coefficient, or points of it along the track; else the condition's.",
+        description="Initial friction coefficient, or points along the track; the condition's if left out.",
     )
     friction_over_time: FactorProfile | None = Field(
         default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
@@ -122,5 +122,5 @@ class Simulation(Model):
     )
     maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
         default=default("180 s", "time"),
-        description="Simulated time after which a stop is given up; what is open then is inconclusive.",
+        description="Simulated time after which a stop is aborted; what is undecided then is inconclusive.",
     )

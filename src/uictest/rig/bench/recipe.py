@@ -1,4 +1,4 @@
-"""What a bench recipe says: the rig it is made for and the inputs that are applied one after the other."""
+"""A bench recipe: the rig it is for and the inputs that are applied one after the other."""
 
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -95,6 +95,6 @@ class BenchRecipe(Part):
     )
     stop: dict[str, Any] = Field(
         default_factory=dict,
-        description="The scenario that rig, brake and seed are taken from; without schema and name.",
+        description="A scenario without schema and name: its rig, brake and seed are used.",
     )
     inputs: tuple[Input, ...] = Field(min_length=1, max_length=1000, description="One after the other.")

@@ -75,16 +75,19 @@ class Criterion(Model):
     )
     title: str = Field(default="", max_length=200, description="One line for people.")
     source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where the demand stands."
+        default=SCENARIO_SOURCE,
+        description="A key of the part's `sources`: where the bound is stated.",
     )
     clause: str = Field(
         default="unverified", max_length=200, description="Clause of the source, or `unverified`."
     )
     layer: Literal["validity", "requirement"] = Field(
-        description="validity: without it the stop is no test; requirement: without it the stop fails."
+        description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails."
     )
-    applies: Applicability = Field(default=Applicability(), description="The stops the criterion is about.")
-    measure: MeasureName = Field(description="What is measured.")
+    applies: Applicability = Field(
+        default=Applicability(), description="Stops that the criterion applies to."
+    )
+    measure: MeasureName = Field(description="The measure that is bounded.")
     lower: Bound | None = Field(default=None, description="Lower bound; a quantity of the measure's kind.")
     upper: Bound | None = Field(default=None, description="Upper bound; a quantity of the measure's kind.")
     strict: bool = Field(
@@ -94,7 +97,7 @@ class Criterion(Model):
         default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
     )
     definition: Definition = Field(
-        default=Definition(), description="How the words of the criterion are read."
+        default=Definition(), description="The definitions that the measure needs."
     )
 
     @property
@@ -104,7 +107,7 @@ class Criterion(Model):
 
     @property
     def meaning(self) -> str:
-        """What is measured, in words."""
+        """What the measure is, in words."""
         return self._declared.meaning
 
     @property

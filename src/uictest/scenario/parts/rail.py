@@ -13,7 +13,7 @@ SemiAxis = Annotated[Quantity, of_kind("length", at_least="0.1 mm", at_most="50 
 
 
 class Contact(Section):
-    """The contact ellipse of one wheel at its reference load; it grows with load as Hertz says."""
+    """The contact ellipse of one wheel at its reference load; it grows with load (Hertz)."""
 
     semi_axis_longitudinal: SemiAxis = Field(description="Semi-axis a along the track.")
     semi_axis_lateral: SemiAxis = Field(description="Semi-axis b across the track.")

@@ -1,7 +1,7 @@
 """The vehicle: one car on two bogies and four wheelsets, in the vertical plane along the track.
 
-The ranges keep out slips of a unit or of a digit and judge no design. They are chosen: some ten times beyond
-the cars of the library, so that the lightest tram and the heaviest six-axle locomotive's share fit in.
+The ranges catch a wrong unit or digit; they do not judge a design. They are chosen: about ten times beyond
+the cars of the library, so that the lightest tram and half of the heaviest six-axle locomotive are accepted.
 """
 
 import math

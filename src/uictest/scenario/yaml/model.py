@@ -55,7 +55,7 @@ class Model(BaseModel):
 
 
 class Section(Model):
-    """A mapping inside a part, which an inline mapping with ``extends`` may give in part."""
+    """A mapping inside a part; an inline mapping with ``extends`` may leave out some of its keys."""
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -68,8 +68,8 @@ class Source(Model):
     """Where a number comes from."""
 
     mark: Literal["stated", "published", "identified", "chosen"] = Field(
-        description="stated: in the source paper's text; published: elsewhere; identified: from a record; "
-        "chosen: by us, a surrogate."
+        description="stated: in the text of Lee and Kang (2015); published: elsewhere; identified: from a "
+        "record; chosen: by us."
     )
     text: str = Field(
         description="The publication and the place in it, the record, or why a chosen value is plausible.",
