@@ -5,17 +5,18 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from uictest.identification.arrays import Samples
 from uictest.identification.phases import runs
 
-Samples = NDArray[np.float64]
 _AT_REST = 0.02
-"""Pressure below which a brake is released, share of the largest pressure."""
+"""Pressure below which a brake is released, share of the largest pressure; chosen."""
 _REST = 0.5
-"""Time in s for which it must be."""
+"""Time in s for which it must be; chosen."""
 _TURNING = 0.05
+"""Change back after which the pressure counts as turned, share of its range; chosen."""
 _SPACING = 0.01
+"""Time in s between the samples in which turns are looked for; chosen."""
 
 
 def applications(tank: Samples, cylinder: Samples, step: float) -> list[slice]:

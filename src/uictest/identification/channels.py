@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import recording
+from uictest.identification.arrays import Samples
 from uictest.identification.suitability import UnsuitableRecordError, require_finite
 from uictest.physics import FILL, HOLD, VENT
 from uictest.recording import ORIGIN, TIME, formats
 from uictest.units import KINDS
 
-Samples = NDArray[np.float64]
 _SI = {"pressure": "Pa", "force": "N"}
 _UNKNOWN_ORIGIN = "recorded, origin not stated"
 _LONGEST_ORIGIN = 200

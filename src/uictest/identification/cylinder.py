@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from uictest.identification.applications import applications
+from uictest.identification.arrays import Mask, Samples
 from uictest.identification.output_error import (
     FitSegment,
     least_largest_weights,
@@ -25,10 +25,11 @@ from uictest.identification.suitability import (
 )
 from uictest.identification.transfer_function import TransferFunction, assembled
 
-Samples = NDArray[np.float64]
 FitCriterion = Literal["least-squares", "largest-error"]
 _SHORTEST = 5.0
+"""s: shortest record; chosen."""
 _LONGEST_STEP = 0.01
+"""s: longest sampling time; chosen."""
 _POOREST_FIT = 50.0
 """%: below it the fit is closer to a constant than to the pressure; chosen."""
 
@@ -117,7 +118,7 @@ def require_fit(result: CylinderResult) -> None:
         )
 
 
-def _segment(tank: Samples, cylinder: Samples, fitted: NDArray[np.bool_]) -> FitSegment:
+def _segment(tank: Samples, cylinder: Samples, fitted: Mask) -> FitSegment:
     return FitSegment(tank - tank[0], cylinder - tank[0], fitted)
 
 

@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from uictest.identification.arrays import Mask, Samples
 from uictest.identification.lines import FittedLine, robust_line
 from uictest.identification.phases import on_lines
 from uictest.identification.play import computed_force
@@ -21,7 +21,6 @@ from uictest.identification.suitability import (
     sampling_time,
 )
 
-Samples = NDArray[np.float64]
 PHASES: Final = MappingProxyType(
     {
         "bc_squeezing": (False, True),
@@ -32,14 +31,17 @@ PHASES: Final = MappingProxyType(
 )
 """Phase -> whether the WSP acts, and whether the pressure rises."""
 HIGH_FORCE = 0.9
-"""Force at which the width of the loop is reported, share of the largest recorded force."""
+"""Force at which the width of the loop is reported, share of the largest recorded force; chosen."""
 _SHORTEST = 2.0
+"""s: shortest record; chosen."""
 _LONGEST_STEP = 0.05
+"""s: longest sampling time; chosen."""
 _SMALLEST_FORCE = 100.0
+"""N: the largest force of a record must reach it; chosen."""
 _INDEPENDENT = 0.01
-"""Sampling time in s of the points that are fitted; closer readings of a sensor are not independent."""
+"""Sampling time in s of the points that are fitted; closer readings are not independent; chosen."""
 _LEAST_SPAN = 0.1
-"""Range of pressures that the points of a phase must cover, and of forces, share of the record's own."""
+"""Share of the record's range of pressures that a phase must cover, and of its forces; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ def identify_hysteresis(
     time: Samples,
     pressure: Samples,
     force: Samples,
-    wsp_acting: NDArray[np.bool_],
+    wsp_acting: Mask,
     transition_time: float = 0.1,
     held_out_share: float = 0.25,
 ) -> HysteresisResult:
@@ -112,7 +114,7 @@ def identify_hysteresis(
 
 
 def _lines(
-    pressure: Samples, force: Samples, acting: NDArray[np.bool_], fitted: NDArray[np.bool_], step: float
+    pressure: Samples, force: Samples, acting: Mask, fitted: Mask, step: float
 ) -> dict[str, FittedLine]:
     squeezing, releasing = on_lines(pressure, force, step)
     every = max(round(_INDEPENDENT / step), 1)

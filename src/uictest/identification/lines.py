@@ -5,13 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Samples = NDArray[np.float64]
+from uictest.identification.arrays import Samples
+
 _FEWEST_POINTS = 10
+"""Points that a line needs; chosen."""
 _NORMAL_MAD = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation."""
+_NORMAL_95_PERCENT = 1.96
+"""Half-width of the 95 % interval of a normal distribution over its standard deviation."""
 _ROUNDS = 4
+"""Rounds in which the noise is estimated; chosen."""
 _SMALLEST_SCALE = 1e-6
+"""Smallest scale of the scaled forces, so that nothing is divided by zero; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,10 +60,10 @@ def robust_line(pressure: Samples, force: Samples) -> FittedLine:
     # The first estimate of the noise includes the outliers that its line followed; each round improves it.
     for _ in range(_ROUNDS):
         scale = max(_NORMAL_MAD * float(np.median(np.abs(y - np.polyval(line, x)))), _SMALLEST_SCALE)
-        solution = least_squares(lambda each: each[0] * x + each[1] - y, line, loss="soft_l1", f_scale=scale)
+        solution = least_squares(lambda fit: fit[0] * x + fit[1] - y, line, loss="soft_l1", f_scale=scale)
         line = solution.x
     covariance = np.linalg.inv(solution.jac.T @ solution.jac) * 2.0 * solution.cost / (len(x) - 2)
-    spread = 1.96 * np.sqrt(np.diag(covariance))
+    spread = _NORMAL_95_PERCENT * np.sqrt(np.diag(covariance))
     slope = solution.x[0] * height / width
     at_zero = -centre / width
     intercept = force.mean() + height * (solution.x[1] + solution.x[0] * at_zero)

@@ -8,22 +8,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.identification.arrays import Mask, Samples
 from uictest.identification.transfer_function import Poles, basis
 
-Samples = NDArray[np.float64]
 Weigh = Callable[[Samples, Samples], tuple[float, Samples]]
 ErrorFunction = Callable[[Poles], tuple[float, Samples]]
 _SLOWEST, _FASTEST = 20.0, 2.0
-"""Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell."""
+"""Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell; chosen."""
 _LARGEST_PRODUCT = 10.0
-"""Largest product of the three time constants in s^3."""
+"""Largest product of the three time constants in s^3; chosen."""
 _STIEGLITZ_ROUNDS = 5
 _LAWSON_ROUNDS = 40
+"""Rounds of the two iterations; chosen."""
 _DEFAULT_STARTS = ((0.1, 0.3, 3.0), (0.02, 0.3, 5.0), (0.15, 1.0, 2.5), (0.25, 1.4, 12.0))
+"""Time constants in s of the fixed starts; chosen."""
 _COARSE_POINTS, _POINTS = 4000, 40_000
-"""Points at which errors are computed, in the first search and in the refinement."""
+"""Points at which errors are computed, in the first search and in the refinement; chosen."""
+_COARSE_EVALUATIONS, _EVALUATIONS = 150, 120
+"""Most evaluations of the error, in the first search and in the refinement; chosen."""
 _COARSE_STEP = 0.005
-"""Sampling time in s of the first search; the dynamics of tanks take tenths of seconds."""
+"""Sampling time in s of the first search; the dynamics of tanks take tenths of seconds; chosen."""
+_LINEAR_STEP = 0.02
+"""Sampling time in s of the linear start; chosen."""
 
 
 def least_squares_weights(columns: Samples, target: Samples) -> tuple[float, Samples]:
@@ -60,7 +66,7 @@ class FitSegment:
 
     input: Samples
     output: Samples
-    fitted: NDArray[np.bool_]
+    fitted: Mask
 
     def thinned(self, every: int) -> FitSegment:
         """Every so many samples."""
@@ -85,10 +91,10 @@ def refined(
         *_starts(max(segments, key=lambda each: len(each.input)), step),
         *([] if first is None else [first]),
     ]
-    ends = [_local_minimum(coarse_error, start, 150, span) for start in starts]
+    ends = [_local_minimum(coarse_error, start, _COARSE_EVALUATIONS, span) for start in starts]
     best = min(ends, key=lambda poles: coarse_error(poles)[0])
     error = _error_function(segments, step, weigh, _POINTS)
-    poles = bounded(_local_minimum(error, best, 120, span), step)
+    poles = bounded(_local_minimum(error, best, _EVALUATIONS, span), step)
     return poles, error(poles)[1]
 
 
@@ -156,7 +162,7 @@ def _linear_start(tank: Samples, cylinder: Samples, step: float) -> Poles | None
     """
     from scipy.signal import lfilter
 
-    coarse = max(round(0.02 / step), 1)
+    coarse = max(round(_LINEAR_STEP / step), 1)
     u, y = (samples[::coarse] - samples[0] for samples in (tank, cylinder))
     denominator = np.array([1.0, 0.0, 0.0, 0.0])
     for _ in range(_STIEGLITZ_ROUNDS):

@@ -10,19 +10,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from uictest.identification.arrays import Mask, Samples
 from uictest.physics import FILL
 
-Samples = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
 TURNING = 0.02
-"""Change back after which the pressure counts as turned, share of its range."""
+"""Change back after which the pressure counts as turned, share of its range; chosen."""
 SETTLING = 0.05
-"""Time in s for which the force must have left the inside: pads that have just touched the disc catch up."""
+"""Time in s for which the force must have left the inside, as pads settle on the disc; chosen."""
 DEPARTURE = 0.03
-"""Force by which a sample must have left the loop's inside, share of the largest force."""
+"""Force by which a sample must have left the loop's inside, share of the largest force; chosen."""
+SMOOTHING = 0.02
+"""Time in s over which pressure and force are averaged before turns are looked for; chosen."""
 
 
 def smoothed(samples: Samples, width: int) -> Samples:
@@ -65,7 +64,7 @@ def runs(pressure: Samples, smallest: float) -> list[tuple[int, int, int]]:
 
 def on_lines(pressure: Samples, force: Samples, step: float) -> tuple[Mask, Mask]:
     """Which samples lie on the squeezing and on the releasing line."""
-    width = max(round(0.02 / step), 1) | 1
+    width = max(round(SMOOTHING / step), 1) | 1
     calm_pressure, calm_force = smoothed(pressure, width), smoothed(force, width)
     margin = DEPARTURE * float(force.max())
     settled = max(round(SETTLING / step), 1)
@@ -73,11 +72,11 @@ def on_lines(pressure: Samples, force: Samples, step: float) -> tuple[Mask, Mask
     squeezing, releasing = np.zeros(len(force), bool), np.zeros(len(force), bool)
     for first, end, direction in runs(calm_pressure, TURNING * float(np.ptp(pressure))):
         inside = calm_force[first]
-        part = slice(first + settled, end + 1)
+        run = slice(first + settled, end + 1)
         if direction > 0:
-            squeezing[part] = earlier[part] > inside + margin
+            squeezing[run] = earlier[run] > inside + margin
         else:
-            releasing[part] = (earlier[part] < inside - margin) & (calm_force[part] > margin)
+            releasing[run] = (earlier[run] < inside - margin) & (calm_force[run] > margin)
     return squeezing, releasing
 
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from uictest.identification.arrays import Mask, Samples
 from uictest.identification.lines import FittedLine
-
-Samples = NDArray[np.float64]
 
 
 def computed_force(
     pressure: Samples,
-    wsp_acting: NDArray[np.bool_],
+    wsp_acting: Mask,
     lines: dict[str, FittedLine],
     transition_time: float,
     step: float,
@@ -45,7 +43,7 @@ def _mixed(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -
     return np.asarray(np.maximum(slope * pressure + intercept, 0.0))
 
 
-def _shares(acting: NDArray[np.bool_], largest_change: float) -> Samples:
+def _shares(acting: Mask, largest_change: float) -> Samples:
     shares = np.empty(len(acting))
     share = float(acting[0])
     for n, target in enumerate(acting.astype(float)):

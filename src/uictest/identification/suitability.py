@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from uictest.identification.arrays import Mask, Samples
 from uictest.identification.phases import runs
 from uictest.units import BAR
 
-Samples = NDArray[np.float64]
 EVENNESS = 0.01
-"""Largest departure of one sampling interval from their median, as a share of it."""
+"""Largest departure of one sampling interval from their median, as a share of it; chosen."""
+_SMALLEST_SPAN = 0.2 * BAR
+"""Pa: range that a pressure must cover; chosen."""
+_SWING, _FEWEST_SWINGS = 0.1, 4
+"""A swing is a turn by this share of the range; a record needs so many; chosen."""
+_SPACING = 0.01
+"""Time in s between the samples in which swings are looked for; chosen."""
+_SEGMENTS = 20
+"""Segments of a record, some of which are held out; chosen."""
 
 
 class UnsuitableRecordError(ValueError):
@@ -70,15 +77,7 @@ def require_excitation(name: str, pressure: Samples, step: float) -> None:
         )
 
 
-_SMALLEST_SPAN = 0.2 * BAR
-"""Pa; chosen."""
-_FEWEST_SWINGS = 4
-_SWING = 0.1
-_SPACING = 0.01
-
-
-def held_out(count: int, share: float) -> NDArray[np.bool_]:
+def held_out(count: int, share: float) -> Mask:
     """Return which samples are excluded from the fit: segments spread over the whole record."""
-    segments = 20
-    number = np.arange(count) * segments // count
+    number = np.arange(count) * _SEGMENTS // count
     return np.asarray(np.floor((number + 1) * share) > np.floor(number * share))

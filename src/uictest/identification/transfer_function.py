@@ -14,7 +14,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-Samples = NDArray[np.float64]
+from uictest.identification.arrays import Samples
+
 Poles = NDArray[np.float64]
 """Logarithms of T in s, alpha in s and beta in s^2."""
 
