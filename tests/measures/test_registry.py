@@ -68,11 +68,19 @@ def test_a_new_module_is_found_without_a_further_edit(package: ModuleType, stop)
     assert measure.read(stop(), (), {}).values == (120 / 3.6,)
 
 
-@pytest.mark.parametrize(("name", "column"), [("speed", "other_kmh"), ("other", "speed_kmh")])
-def test_two_measures_of_one_name_or_column_are_rejected(package: ModuleType, name: str, column: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "column", "message"),
+    [
+        ("speed", "other_kmh", "two measures are called 'speed'"),
+        ("other", "speed_kmh", "two columns are called 'speed_kmh'"),
+    ],
+)
+def test_two_measures_of_one_name_or_column_are_rejected(
+    package: ModuleType, name: str, column: str, message: str
+) -> None:
     add(package, "speeds", "speed", "speed_kmh")
     add(package, "more_speeds", name, column)
-    with pytest.raises(ValueError, match="two measures are called 'speed"):
+    with pytest.raises(ValueError, match=message):
         measures_in(package)
 
 

@@ -29,8 +29,8 @@ def measures_in(package: ModuleType) -> dict[str, Measure]:
     Raises ValueError where two have the same name or the same column.
     """
     measures = sorted(_declared_in(package), key=lambda measure: measure.of_wheelsets)
-    _reject_duplicates(measure.name for measure in measures)
-    _reject_duplicates(measure.column.name for measure in measures if measure.column)
+    _reject_duplicates("measures", (measure.name for measure in measures))
+    _reject_duplicates("columns", (measure.column.name for measure in measures if measure.column))
     return {measure.name: measure for measure in measures}
 
 
@@ -40,11 +40,11 @@ def _declared_in(package: ModuleType) -> Iterator[Measure]:
         yield from importlib.import_module(f"{package.__name__}.{name}").MEASURES
 
 
-def _reject_duplicates(names: Iterable[str]) -> None:
+def _reject_duplicates(things: str, names: Iterable[str]) -> None:
     seen: set[str] = set()
     for name in names:
         if name in seen:
-            raise ValueError(f"two measures are called {name!r}")
+            raise ValueError(f"two {things} are called {name!r}")
         seen.add(name)
 
 
