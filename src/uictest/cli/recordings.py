@@ -113,7 +113,7 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
             results.append(use(path))
         except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
             errors.append(f"uictest: {path}: {error}")
-        except formats.BrokenOffError:
+        except formats.ReadingInterruptedError:
             raise  # no fault of the file
         except OSError as error:
             errors.append(f"uictest: {path}: {error.strerror or error}")

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.samples import Samples
+from uictest.fitting.samples import StopSamples
 from uictest.scenario import Scenario
 from uictest.units import STANDARD_GRAVITY
 
@@ -41,7 +41,7 @@ class Windows:
     standing: Mask
 
 
-def windows_of(samples: Samples) -> Windows:
+def windows_of(samples: StopSamples) -> Windows:
     """Cut a stop into windows; a wheelset slides in one if it does at every sample of it."""
     length = max(round(WINDOW / (samples.time[1] - samples.time[0])), 2)
     first = np.arange(0, len(samples.time) - length, length)
@@ -52,7 +52,7 @@ def windows_of(samples: Samples) -> Windows:
     return Windows(first, last, sliding, standing)
 
 
-def over(windows: Windows, samples: Samples, values: Array) -> Array:
+def over(windows: Windows, samples: StopSamples, values: Array) -> Array:
     """Return the integral of values (..., n) over each window, (..., k), by trapezoids."""
     steps = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(samples.time)
     summed = np.concatenate((np.zeros((*values.shape[:-1], 1)), np.cumsum(steps, axis=-1)), axis=-1)
@@ -64,7 +64,7 @@ def over(windows: Windows, samples: Samples, values: Array) -> Array:
 class Balances:
     """The balances of a stop, whose residuals are adhesion coefficients: 0.01 is a hundredth of the load."""
 
-    samples: Samples
+    samples: StopSamples
     windows: Windows
     scenario: Scenario
 

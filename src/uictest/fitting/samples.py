@@ -23,7 +23,7 @@ class FitError(ValueError):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Samples:
+class StopSamples:
     """A recorded stop while the train moves. Wheelset arrays have shape (4, n).
 
     Args:
@@ -50,7 +50,7 @@ class Samples:
     standing: NDArray[np.bool_]
 
 
-def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> Samples:
+def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples:
     """Return the samples for a fit. Raises FitError if channels are missing or defective."""
     recording = stop.recording
     names = ("speed", *(f"wheel_speed_{n}" for n in WHEELSETS))
@@ -66,7 +66,7 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> Samples:
     speed = _smoothed(np.asarray(recording["speed"])[part], width)
     wheels = np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names[1:]])
     slip = speed - wheels
-    return Samples(
+    return StopSamples(
         time,
         speed,
         wheels,

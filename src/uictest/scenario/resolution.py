@@ -53,12 +53,14 @@ def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
     if not nodes:
         raise single_error(node.place, "an empty list", dotted(key), "name at least one")
     listed = nodes[0] is not node
-    resolved = _each(parts, reference.model, key, nodes, listed=listed)
+    resolved = _resolved_parts(parts, reference.model, key, nodes, listed=listed)
     documents.extend(document for each in resolved for document in each.documents)
     return tuple(each.part for each in resolved) if reference.several else resolved[0].part
 
 
-def _each(parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool) -> list[ResolvedPart]:
+def _resolved_parts(
+    parts: Parts, model: Any, key: Key, nodes: Sequence[Node], *, listed: bool
+) -> list[ResolvedPart]:
     """Resolve every reference, or raise the errors of all of them."""
     resolved: list[ResolvedPart] = []
     diagnostics: list[Diagnostic] = []

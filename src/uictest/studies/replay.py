@@ -26,17 +26,17 @@ def replayed(
     """
     clock = bench.clock_of(case)
     commands = stop[f"valve_command_{wheelset}"]
-    parts = [bench.recorded(stop["time"], stop["demanded_pressure"], commands, clock)]
+    parts = [bench.recorded_input(stop["time"], stop["demanded_pressure"], commands, clock)]
     if release:
         parts.append(_releasing(case, float(stop["demanded_pressure"][-1]), clock))
-    return bench.run_bench(case, bench.joined(parts))
+    return bench.run_bench(case, bench.joined_inputs(parts))
 
 
 def _releasing(case: scenario.Case, pressure: float, clock: bench.Clock) -> bench.BenchInput:
     """Return pressures that hold until the WSP no longer counts as acting, then release."""
     stand = float(case.scenario.rig.compensation_model.hysteresis.wsp_acting_time) + CYCLE
     times = (0.0, stand, stand + clock.step, stand + _RELEASE)
-    return bench.bypassed(times, (pressure, pressure, 0.0, 0.0), clock)
+    return bench.bypassed_input(times, (pressure, pressure, 0.0, 0.0), clock)
 
 
 def maximum_pressure(case: scenario.Case) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.recording.formats import BrokenOffError, writer_of
+from uictest.recording.formats import ReadingInterruptedError, writer_of
 
 Call = Callable[..., Any]
 STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
@@ -238,7 +238,7 @@ def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
     call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     def broken_off(path: Path, dialect: object = None) -> None:
-        raise BrokenOffError(28, f"No space left on device to read {path}", "/small")
+        raise ReadingInterruptedError(28, f"No space left on device to read {path}", "/small")
 
     monkeypatch.setattr("uictest.field_data.recorded_stop.read_contents", broken_off)
     (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from uictest.recording.formats import BrokenOffError, UnreadableError, isolation, read_contents
+from uictest.recording.formats import ReadingInterruptedError, UnreadableError, isolation, read_contents
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
 
@@ -47,7 +47,7 @@ def test_a_full_temporary_folder_is_named(
     path = written(name)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     reading_under(monkeypatch, files_up_to(size))
-    with pytest.raises(BrokenOffError) as caught:
+    with pytest.raises(ReadingInterruptedError) as caught:
         read_contents(path)
     assert caught.value.filename == str(tmp_path)
     assert caught.value.errno == errno.ENOSPC
@@ -95,7 +95,7 @@ def test_a_reader_that_is_killed_says_nothing_about_the_file(
     """As the system does where memory runs out."""
     path = written("csv")
     reading_under(monkeypatch, lambda: os.kill(os.getpid(), number))
-    with pytest.raises(BrokenOffError, match=rf"was killed \({number.name}\)") as caught:
+    with pytest.raises(ReadingInterruptedError, match=rf"was killed \({number.name}\)") as caught:
         read_contents(path)
     assert caught.value.filename == str(path)
 

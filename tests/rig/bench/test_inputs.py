@@ -8,26 +8,26 @@ import pytest
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.bench.inputs import (
     Clock,
-    bypassed,
-    joined,
-    random_pressure,
-    recorded,
-    stepwise,
-    triangular,
-    wsp_cycling,
+    bypassed_input,
+    joined_inputs,
+    random_input,
+    recorded_input,
+    stepwise_input,
+    triangular_input,
+    wsp_cycling_input,
 )
 
 CLOCK = Clock(0.0005, 20)
 
 
 def test_levels_are_demanded_at_once_and_held():
-    applied = stepwise([1e5, 3e5], 0.5, CLOCK)
+    applied = stepwise_input([1e5, 3e5], 0.5, CLOCK)
     assert applied.demanded_pressures[[0, 999, 1000, 1999]].tolist() == [1e5, 1e5, 3e5, 3e5]
     assert applied.valve_commands.tolist() == [FILL] * 100
 
 
 def test_a_triangle_rises_and_falls_at_its_rate():
-    applied = triangular([2e5], 0.5e5, 1e5, CLOCK)
+    applied = triangular_input([2e5], 0.5e5, 1e5, CLOCK)
     assert len(applied.demanded_pressures) == 6000
     assert applied.demanded_pressures.max() == pytest.approx(2e5)
     assert np.abs(np.diff(applied.demanded_pressures)) == pytest.approx(50.0)
@@ -35,7 +35,7 @@ def test_a_triangle_rises_and_falls_at_its_rate():
 
 def test_random_pressure_depends_on_its_seed_alone():
     first, again, other = (
-        random_pressure(0.0, 4e5, 1.0, 5.0, seed, CLOCK).demanded_pressures for seed in (1, 1, 2)
+        random_input(0.0, 4e5, 1.0, 5.0, seed, CLOCK).demanded_pressures for seed in (1, 1, 2)
     )
     assert np.array_equal(first, again)
     assert not np.array_equal(first, other)
@@ -43,7 +43,7 @@ def test_random_pressure_depends_on_its_seed_alone():
 
 
 def test_wsp_cycling_vents_holds_and_fills_within_its_spans():
-    applied = wsp_cycling(4e5, 1.0, 5, (0.1, 0.2), (0.05, 0.1), (0.1, 0.3), 7, CLOCK)
+    applied = wsp_cycling_input(4e5, 1.0, 5, (0.1, 0.2), (0.05, 0.1), (0.1, 0.3), 7, CLOCK)
     commands = applied.valve_commands
     assert commands[:100].tolist() == [FILL] * 100
     changes = np.flatnonzero(np.diff(commands)) + 1
@@ -56,22 +56,22 @@ def test_wsp_cycling_vents_holds_and_fills_within_its_spans():
 
 
 def test_inputs_are_joined_one_after_the_other():
-    parts = [stepwise([1e5], 0.1, CLOCK), stepwise([2e5], 0.2, CLOCK)]
-    whole = joined(parts)
+    parts = [stepwise_input([1e5], 0.1, CLOCK), stepwise_input([2e5], 0.2, CLOCK)]
+    whole = joined_inputs(parts)
     assert len(whole.valve_commands) == 30
     assert whole.demanded_pressures[[0, -1]].tolist() == [1e5, 2e5]
 
 
 def test_a_recorded_command_was_in_force_since_the_sample_before():
     time = np.array([0.0, 0.01, 0.02, 0.03]) + 5.0
-    applied = recorded(time, np.full(4, 3e5), np.array([0.0, 0.0, 2.0, 1.0]), CLOCK)
+    applied = recorded_input(time, np.full(4, 3e5), np.array([0.0, 0.0, 2.0, 1.0]), CLOCK)
     assert applied.valve_commands.tolist() == [FILL, VENT, HOLD]
 
 
 def test_without_commands_the_valves_fill():
-    applied = recorded(np.array([0.0, 1.0]), np.array([0.0, 1e5]), None, CLOCK)
+    applied = recorded_input(np.array([0.0, 1.0]), np.array([0.0, 1e5]), None, CLOCK)
     assert set(applied.valve_commands.tolist()) == {FILL}
     assert applied.demanded_pressures[-1] == pytest.approx(1e5)
     assert np.array_equal(
-        applied.demanded_pressures, bypassed([0.0, 1.0], [0.0, 1e5], CLOCK).demanded_pressures
+        applied.demanded_pressures, bypassed_input([0.0, 1.0], [0.0, 1e5], CLOCK).demanded_pressures
     )

@@ -9,7 +9,7 @@ import pytest
 
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.bench.applied import bench_input
-from uictest.rig.bench.inputs import BenchInput, joined, stepwise, triangular
+from uictest.rig.bench.inputs import BenchInput, joined_inputs, stepwise_input, triangular_input
 from uictest.rig.bench.loading import load_bench, recipe_path
 from uictest.rig.bench.rig import clock_of
 from uictest.rig.bench.run import run_bench
@@ -31,14 +31,14 @@ def clock(case):
 @pytest.fixture(scope="module")
 def pulled(case, clock):
     """Three bar, then vent for a second, hold and fill again."""
-    full = stepwise([3e5], 3.0, clock)
+    full = stepwise_input([3e5], 3.0, clock)
     commands = np.repeat([VENT, HOLD, FILL], [100, 50, 150])
     cycle = BenchInput(np.full(300 * clock.steps_per_cycle, 3e5), commands)
-    return run_bench(case, joined([full, cycle]))
+    return run_bench(case, joined_inputs([full, cycle]))
 
 
 def test_plain_and_compiled_bench_give_the_same_bits(case, clock):
-    applied = triangular([1.5e5], 0.0, 5e5, clock)
+    applied = triangular_input([1.5e5], 0.0, 5e5, clock)
     plain, compiled = run_bench(case, applied, run_bench_test), run_bench(case, applied)
     for name, _ in BENCH_CHANNELS:
         assert np.array_equal(plain[name], compiled[name]), name

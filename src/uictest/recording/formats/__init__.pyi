@@ -2,7 +2,7 @@ from .choice import FORMATS as FORMATS, format_of as format_of, writer_of as wri
 from .dialect import Dialect as Dialect
 from .isolation import read_contents as read_contents
 from .problems import (
-    BrokenOffError as BrokenOffError,
     MissingExtraError as MissingExtraError,
+    ReadingInterruptedError as ReadingInterruptedError,
     UnreadableError as UnreadableError,
 )

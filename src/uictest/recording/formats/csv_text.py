@@ -24,7 +24,7 @@ from uictest.recording.formats.problems import UnreadableError
 from uictest.recording.formats.sample_lines import (
     LONGEST_LINE,
     SampleLines,
-    refuse_open_quotation,
+    reject_open_quotation,
     sample_lines,
 )
 from uictest.recording.recording import Recording
@@ -101,7 +101,7 @@ def _names_and_units(
 def _cells(heading: Sequence[str], number: int, dialect: Dialect) -> list[str]:
     if number > len(heading):
         raise UnreadableError(f"the file has no line {number}")
-    refuse_open_quotation(number, heading[number - 1])
+    reject_open_quotation(number, heading[number - 1])
     return cells_of(heading[number - 1], dialect.delimiter)
 
 

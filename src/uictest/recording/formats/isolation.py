@@ -19,10 +19,10 @@ from uictest.recording.contents import Contents, Group
 from uictest.recording.formats.choice import format_of
 from uictest.recording.formats.dialect import Dialect
 from uictest.recording.formats.limits import LARGEST_FILE, READING_SECONDS
-from uictest.recording.formats.problems import BrokenOffError, MissingExtraError, UnreadableError
+from uictest.recording.formats.problems import MissingExtraError, ReadingInterruptedError, UnreadableError
 
 _MODULE = "uictest.recording.formats.reader"
-REFUSED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
+REJECTED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
 """Exit codes of the reading process, besides 0."""
 _KILLED = {getattr(signal, name, None) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")}
 """Signals that come from outside; a file that crashes its reader causes others."""
@@ -69,16 +69,20 @@ def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) 
     if done.returncode == 0:
         return
     if done.returncode == EXTRA_MISSING:
-        raise MissingExtraError(_refusal(folder))
+        raise MissingExtraError(_reason_in(folder))
     if done.returncode == NO_ROOM:
-        raise BrokenOffError(errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} to read {path}", str(folder.parent))
+        raise ReadingInterruptedError(
+            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} to read {path}", str(folder.parent)
+        )
     if -done.returncode in _KILLED:
         name = signal.Signals(-done.returncode).name
-        raise BrokenOffError(errno.EINTR, f"the process that reads it was killed ({name})", str(path))
-    raise UnreadableError(_refusal(folder) or f"reading it as {name} ended abruptly: the file is damaged")
+        raise ReadingInterruptedError(
+            errno.EINTR, f"the process that reads it was killed ({name})", str(path)
+        )
+    raise UnreadableError(_reason_in(folder) or f"reading it as {name} ended abruptly: the file is damaged")
 
 
-def _refusal(folder: Path) -> str:
+def _reason_in(folder: Path) -> str:
     place = folder / "refusal.txt"
     return place.read_text(encoding="utf-8") if place.exists() else ""
 

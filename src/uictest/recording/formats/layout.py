@@ -43,7 +43,7 @@ def table_layout(heading: Sequence[str], dialect: Dialect) -> TableLayout:
 
     Raises UnreadableError where it is not of the declared dialect; the message says what to declare.
     """
-    _refuse_width(heading)
+    _reject_width(heading)
     lines = dict(_content(heading, dialect))
     if not lines:
         raise UnreadableError("the file holds no table: every line is blank or a comment")
@@ -73,7 +73,7 @@ def cells_of(line: str, delimiter: str) -> list[str]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
 
 
-def _refuse_width(heading: Sequence[str]) -> None:
+def _reject_width(heading: Sequence[str]) -> None:
     for number, line in enumerate(heading, start=1):
         cells = 1 + max(map(line.count, _SEPARATORS))
         if cells > MOST_CHANNELS:

@@ -29,7 +29,7 @@ def read(path: Path) -> Contents:
     try:
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
             rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
-            _refuse_same_names(schema.names)
+            _reject_same_names(schema.names)
             names = [field.name for field in schema if _holds_samples(field.type)]
             check_size([(rows,)] * len(schema))
             table = parquet.read(columns=names, use_threads=False)
@@ -48,7 +48,7 @@ def write(recording: Recording, path: Path) -> None:
     write_parquet(recording, path)
 
 
-def _refuse_same_names(names: list[str]) -> None:
+def _reject_same_names(names: list[str]) -> None:
     for name, count in Counter(names).items():
         if count > 1:
             raise UnreadableError(f"{count} columns have the name {name!r}")

@@ -14,7 +14,7 @@ class MissingExtraError(Exception):
     """A format whose library is not installed; the message is the line that installs it."""
 
 
-class BrokenOffError(OSError):
+class ReadingInterruptedError(OSError):
     """Reading was interrupted by the machine, whatever the file contains: a full disk, a killed process."""
 
 

@@ -20,11 +20,11 @@ import numpy as np
 from uictest.recording.contents import Contents, Group
 from uictest.recording.formats.choice import module_of
 from uictest.recording.formats.dialect import Dialect
-from uictest.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REFUSED, TOO_LARGE
+from uictest.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
 from uictest.recording.formats.limits import READING_MEMORY, READING_SECONDS
 from uictest.recording.formats.problems import MissingExtraError, UnreadableError
 
-_LONGEST_REFUSAL = 500
+_LONGEST_REASON = 500
 _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
 """What writing temporary files fails by, and reading a file never."""
 
@@ -35,16 +35,16 @@ def main(name: str, path: str, dialect: str) -> int:
     try:
         contents = read_here(name, Path(path), Dialect.from_dict(json.loads(dialect)))
     except MissingExtraError as error:
-        return _refuse(str(error), EXTRA_MISSING)
+        return _reject(str(error), EXTRA_MISSING)
     except UnreadableError as error:
-        return _refuse(str(error), REFUSED)
+        return _reject(str(error), REJECTED)
     except MemoryError:
-        return _refuse("it asks for more memory than reading may take", TOO_LARGE)
+        return _reject("it asks for more memory than reading may take", TOO_LARGE)
     # A library that meets a damaged file may raise anything at all.
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
             return NO_ROOM
-        return _refuse(f"damaged, or nothing that can be read as {name} ({type(error).__name__})", REFUSED)
+        return _reject(f"damaged, or nothing that can be read as {name} ({type(error).__name__})", REJECTED)
     try:
         write_contents(contents, Path.cwd())
     except OSError:
@@ -89,8 +89,8 @@ def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str,
     }
 
 
-def _refuse(reason: str, code: int) -> int:
-    text = " ".join(reason.split())[:_LONGEST_REFUSAL]
+def _reject(reason: str, code: int) -> int:
+    text = " ".join(reason.split())[:_LONGEST_REASON]
     try:
         Path("refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
     except OSError:

@@ -67,7 +67,7 @@ def sample_lines(
     return SampleLines(tuple(skipped), width)
 
 
-def refuse_open_quotation(number: int, line: str) -> None:
+def reject_open_quotation(number: int, line: str) -> None:
     """Raise UnreadableError for a line whose quotation marks are no pairs."""
     if line.count('"') % 2:
         raise UnreadableError(f"line {number} has a quotation mark that is not closed")
@@ -84,7 +84,7 @@ def _lines(file: TextIO) -> Iterator[tuple[int, str]]:
 
 def _counts(number: int, line: str, delimiter: str) -> tuple[int, int]:
     """Return how many cells a line has, and how many up to its last value."""
-    refuse_open_quotation(number, line)
+    reject_open_quotation(number, line)
     if '"' in line:
         cells = cells_of(line, delimiter)
         return len(cells), max(k for k, cell in enumerate(cells, start=1) if cell)

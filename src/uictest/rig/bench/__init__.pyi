@@ -2,9 +2,9 @@ from .applied import bench_input as bench_input
 from .inputs import (
     BenchInput as BenchInput,
     Clock as Clock,
-    bypassed as bypassed,
-    joined as joined,
-    recorded as recorded,
+    bypassed_input as bypassed_input,
+    joined_inputs as joined_inputs,
+    recorded_input as recorded_input,
 )
 from .loading import (
     BenchTest as BenchTest,

@@ -7,12 +7,12 @@ from uictest import identification
 from uictest.rig.bench.inputs import (
     BenchInput,
     Clock,
-    joined,
-    random_pressure,
-    recorded,
-    stepwise,
-    triangular,
-    wsp_cycling,
+    joined_inputs,
+    random_input,
+    recorded_input,
+    stepwise_input,
+    triangular_input,
+    wsp_cycling_input,
 )
 from uictest.rig.bench.loading import BenchTest
 from uictest.rig.bench.recipe import (
@@ -37,7 +37,7 @@ def bench_input(test: BenchTest) -> BenchInput:
     Raises as reading a recording does.
     """
     clock = clock_of(test.case)
-    return joined(_segment(segment, test, clock) for segment in test.recipe.inputs)
+    return joined_inputs(_segment(segment, test, clock) for segment in test.recipe.inputs)
 
 
 def _segment(segment: Input, test: BenchTest, clock: Clock) -> BenchInput:
@@ -49,17 +49,17 @@ def _segment(segment: Input, test: BenchTest, clock: Clock) -> BenchInput:
         case WspCycling():
             return _wsp_cycling(segment, clock)
         case Rest(duration=duration):
-            return stepwise([0.0], duration, clock)
+            return stepwise_input([0.0], duration, clock)
         case Stepwise(levels=levels, hold=hold):
-            return stepwise(levels, hold, clock)
+            return stepwise_input(levels, hold, clock)
         case Triangular(peaks=peaks, floor=floor, ramp=ramp):
-            return triangular(peaks, floor, BAR / ramp, clock)
+            return triangular_input(peaks, floor, BAR / ramp, clock)
         case Random(lowest=lowest, highest=highest):
-            return random_pressure(lowest, highest, segment.interval, segment.duration, segment.seed, clock)
+            return random_input(lowest, highest, segment.interval, segment.duration, segment.seed, clock)
 
 
 def _wsp_cycling(segment: WspCycling, clock: Clock) -> BenchInput:
-    return wsp_cycling(
+    return wsp_cycling_input(
         segment.pressure,
         segment.lead,
         segment.cycles,
@@ -77,7 +77,7 @@ def _simulated_stop(segment: StopReplay, case: Case, clock: Clock) -> BenchInput
     recording = simulate(replace(case, scenario=scenario), clock.cycle_time).recording
     assert recording is not None
     commands = recording[f"valve_command_{segment.wheelset}"]
-    return recorded(recording["time"], recording["demanded_pressure"], commands, clock)
+    return recorded_input(recording["time"], recording["demanded_pressure"], commands, clock)
 
 
 def _recorded_file(segment: FileReplay, folder: Path, clock: Clock) -> BenchInput:
@@ -85,4 +85,4 @@ def _recorded_file(segment: FileReplay, folder: Path, clock: Clock) -> BenchInpu
     if segment.command is not None:
         names["command"] = segment.command
     channels = identification.read_record(folder / segment.file, names).channels
-    return recorded(channels["time"], channels["pressure"], channels.get("command"), clock)
+    return recorded_input(channels["time"], channels["pressure"], channels.get("command"), clock)

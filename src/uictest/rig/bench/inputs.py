@@ -38,7 +38,7 @@ class BenchInput:
     valve_commands: NDArray[np.int64]
 
 
-def joined(inputs: Iterable[BenchInput]) -> BenchInput:
+def joined_inputs(inputs: Iterable[BenchInput]) -> BenchInput:
     """One input after the other."""
     parts = list(inputs)
     return BenchInput(
@@ -47,38 +47,38 @@ def joined(inputs: Iterable[BenchInput]) -> BenchInput:
     )
 
 
-def bypassed(times: Sequence[float], pressures: Sequence[float], clock: Clock) -> BenchInput:
+def bypassed_input(times: Sequence[float], pressures: Sequence[float], clock: Clock) -> BenchInput:
     """A pressure given at times in s from 0 on, straight between them; the valves always fill."""
     cycles = clock.cycles(float(times[-1]))
     demanded_pressures = np.interp(clock.times(cycles), times, pressures)
     return BenchInput(demanded_pressures, np.full(cycles, FILL))
 
 
-def stepwise(levels: Sequence[float], hold: float, clock: Clock) -> BenchInput:
+def stepwise_input(levels: Sequence[float], hold: float, clock: Clock) -> BenchInput:
     """Pressure levels in Pa, each demanded at once and for ``hold`` s."""
     cycles = clock.cycles(hold)
     demanded_pressures = np.repeat(np.asarray(levels, dtype=float), cycles * clock.steps_per_cycle)
     return BenchInput(demanded_pressures, np.full(cycles * len(levels), FILL))
 
 
-def triangular(peaks: Sequence[float], floor: float, rate: float, clock: Clock) -> BenchInput:
+def triangular_input(peaks: Sequence[float], floor: float, rate: float, clock: Clock) -> BenchInput:
     """Ramps from ``floor`` Pa up to each peak and down again, at ``rate`` Pa/s."""
     corners = [floor] + [pressure for peak in peaks for pressure in (peak, floor)]
     times = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corners)) / rate)])
-    return bypassed(list(times), corners, clock)
+    return bypassed_input(list(times), corners, clock)
 
 
-def random_pressure(
+def random_input(
     lowest: float, highest: float, interval: float, duration: float, seed: int, clock: Clock
 ) -> BenchInput:
     """Straight lines between pressures drawn evenly from a range, one every ``interval`` s."""
     count = max(round(duration / interval), 1)
     drawn = np.random.Generator(np.random.Philox(seed)).uniform(lowest, highest, count + 1)
     drawn[0] = 0.0
-    return bypassed(list(np.arange(count + 1) * interval), list(drawn), clock)
+    return bypassed_input(list(np.arange(count + 1) * interval), list(drawn), clock)
 
 
-def wsp_cycling(
+def wsp_cycling_input(
     pressure: float,
     lead: float,
     cycles: int,
@@ -101,7 +101,7 @@ def wsp_cycling(
     return BenchInput(np.full(len(commands) * clock.steps_per_cycle, pressure), commands)
 
 
-def recorded(
+def recorded_input(
     times: NDArray[np.float64],
     pressures: NDArray[np.float64],
     commands: NDArray[np.float64] | None,

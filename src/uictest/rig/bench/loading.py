@@ -67,7 +67,7 @@ def load_bench(
     recipe: BenchRecipe = validated(BenchRecipe, plain(tree), tree)
     stop = _scenario_tree(tree, recipe, overrides, seed)
     files = Files(Roots.of([path], trusted))
-    _refuse_traces_outside(tree, recipe, files)
+    _reject_traces_outside(tree, recipe, files)
     scenario, documents = resolve(stop, Parts(files))
     shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.place.document.display
     inputs = {shown: tree.place.document.sha256}
@@ -75,7 +75,7 @@ def load_bench(
     return BenchTest(recipe, Case(recipe.name, scenario, path, {}, inputs), path.parent)
 
 
-def _refuse_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None:
+def _reject_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None:
     """Raise ScenarioErrors for a recording outside the folders that may be read."""
     for number, segment in enumerate(recipe.inputs):
         if isinstance(segment, FileReplay):

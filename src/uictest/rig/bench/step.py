@@ -8,7 +8,7 @@ setting of the compensation.
 from typing import Any
 
 from uictest.physics import sqrt
-from uictest.rig.bench.rig import BenchRig
+from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, BenchRig
 from uictest.rig.bench.trace import sample
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.cycle import command_valve, read_module_sensors, sensor_noise
@@ -44,28 +44,28 @@ def start_bench(rig: BenchRig) -> None:
     """Set the state of zeroed records: the reservoir is full, the brake released, the valves fill."""
     p = rig.settings[0]
     start_supply(rig.car, p)
-    for i in range(2):
+    for i in range(MODULES):
         module = rig.modules[i]
         module.has_caliper = 1.0 - i
         module.filling_cycles = LONG_AGO
         module.fill_opening = 1.0
         module.pressure = p.atmospheric_pressure
-    for i in range(4):
+    for i in range(len(SETTINGS)):
         rig.computed[i].pressure = p.atmospheric_pressure
 
 
 def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
     """Read the sensors and pass one command to the valves of both modules."""
     p = rig.settings[0]
-    for i in range(2):
+    for i in range(MODULES):
         module = rig.modules[i]
         read_module_sensors(module, p, cycle, i)
         module.valve_command = valve_command
         command_valve(module, p)
-    share = p.loadcell_noise / sqrt(3.0)
+    share = p.loadcell_noise / sqrt(LOADCELLS)
     caliper = rig.modules[0]
     caliper.loadcell_error = 0.0
-    for k in range(3):
+    for k in range(LOADCELLS):
         rig.loadcell_errors[k] = share * sensor_noise(p, cycle, _LOADCELL + k)
         caliper.loadcell_error += rig.loadcell_errors[k]
     rig.car.substep = 0.0
@@ -80,7 +80,7 @@ def step_bench(rig: BenchRig) -> None:
     follow_demanded_pressure(rig.car, drawn, p)
     step_clamping(caliper, p)
     step_clamping(tank, p)
-    for i in range(4):
+    for i in range(len(SETTINGS)):
         computed = rig.computed[i]
         computed.pressure = tank.pressure
         computed.pressure_error = tank.pressure_error

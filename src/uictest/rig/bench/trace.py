@@ -2,7 +2,7 @@
 
 from uictest.physics import analogue_reading
 from uictest.record import Record, channel, layout_of, units_of
-from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, NONE, BenchRig
+from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, LOADCELLS, NONE, BenchRig
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Wheelset
 
@@ -97,7 +97,7 @@ def _loadcell(force: float, error: float, p: Parameters) -> float:
     return analogue_reading(
         force,
         p.loadcell_gain_error,
-        p.loadcell_offset / 3.0,
+        p.loadcell_offset / LOADCELLS,
         error,
         p.loadcell_range,
         p.loadcell_resolution,

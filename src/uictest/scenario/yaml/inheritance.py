@@ -27,7 +27,7 @@ def inherit(
     while (entry := generations[-1].entries.get("extends")) is not None:
         reference = _reference(entry)
         parent = fetch(reference)
-        _refuse_circle(parent, generations, reference)
+        _reject_circle(parent, generations, reference)
         generations.append(parent)
     documents = tuple(each.place.document for each in generations)
     merged = generations.pop().without("extends")
@@ -49,7 +49,7 @@ def _laid_over(parent: Map, child: Map) -> Map:
     return merged
 
 
-def _refuse_circle(parent: Map, generations: list[Map], reference: Scalar) -> None:
+def _reject_circle(parent: Map, generations: list[Map], reference: Scalar) -> None:
     seen = [each.place.document.display for each in generations]
     display = parent.place.document.display
     if display in seen:

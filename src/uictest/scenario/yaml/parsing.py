@@ -66,7 +66,7 @@ class _Parser:
         self.events: Iterator[Any] = iter(())
 
     def parse(self) -> Node:
-        self._refuse_control_characters()
+        self._reject_control_characters()
         root: Node | None = None
         try:
             root = self._root()
@@ -78,7 +78,7 @@ class _Parser:
             raise ScenarioErrors(self.diagnostics, root)
         return root
 
-    def _refuse_control_characters(self) -> None:
+    def _reject_control_characters(self) -> None:
         match = _FORBIDDEN.search(self.text, 1 if self.text.startswith(_BYTE_ORDER_MARK) else 0)
         if match is not None:
             before = Document("", self.document.folder, self.text[: match.start()]).lines
