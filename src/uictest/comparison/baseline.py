@@ -1,4 +1,4 @@
-"""A run against the results that were accepted before."""
+"""Compare a run with the results that were accepted before."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _TABLES = ("subjects", "parts")
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Which cases a run was asked for.
+    """The cases that a run selects.
 
     Args:
         selected: ids of the cases to be run.
@@ -96,7 +96,7 @@ class Baseline:
             yield from case_differences(accepted, result, self.tolerances)
 
     def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
-        """Yield the parameters that the cases were run with differently when they were accepted."""
+        """Yield the parameters that have changed since the cases were accepted."""
         both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
         yield from parameter_lines(parameter_changes(both))
         yield from unknown_parameters(both, ("baseline", "run"))

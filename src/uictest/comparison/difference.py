@@ -1,4 +1,4 @@
-"""What a comparison found."""
+"""The result of a comparison."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ class Comparison:
     """Two things compared.
 
     Args:
-        first, second: what they are called.
+        first, second: their names.
         compared: how many quantities were compared.
         differences: those that are not the same, within tolerance or not.
-        notes: what is known to be different about how they came about.
-        overlays: both drawn over each other.
+        notes: inputs, versions and settings that differ.
+        overlays: plots of both sides.
         undrawn: which stops are not drawn, and why.
-        parameters: what the cases of two runs were run with differently.
+        parameters: those that differ between two runs.
 
     """
 

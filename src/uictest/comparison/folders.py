@@ -1,4 +1,4 @@
-"""Two run folders: their results, and the recordings that both hold."""
+"""Compare two run folders: their results, and the recordings that both contain."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from uictest.comparison.tolerance import Tolerances
 from uictest.report import counted
 
 DRAWN = 12
-"""Stops drawn at most, those that differ first."""
+"""Largest number of stops drawn."""
 
 Pair = tuple["recording.Recording", "recording.Recording"]
 

@@ -10,10 +10,10 @@ from uictest.comparison.channels import common_channels, only_in
 from uictest.report import Curve, Panel, PlotLine, PlotTrace, curve_of, interval_of, printable
 
 DRAWN = 12
-"""Channels drawn where none are chosen."""
+"""Largest number of channels drawn where none are chosen."""
 
 FIRST_DRAWN = ("speed", *(f"slide_{n}" for n in (1, 2, 3, 4)), "tank_pressure_1", "clamping_force_1")
-"""Channels that tell most about a stop: they come first where none are chosen."""
+"""The most informative channels of a stop: they come first where none are chosen."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The parameters that are not the same in two runs of a case."""
+"""The parameters that differ between two runs of a case."""
 
 from __future__ import annotations
 

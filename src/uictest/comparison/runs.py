@@ -13,11 +13,11 @@ from uictest.measures import column_unit
 from uictest.report import Difference, wheelset_quantity
 
 _DIGEST_LENGTH = 64
-"""Hexadecimal digits of a SHA-256, of which a reader is shown the first."""
+"""Hexadecimal digits of a SHA-256; readers see the first twelve."""
 
 
 def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
-    """Compare two runs; cases belong together by their ids, and a case on one side only is a difference."""
+    """Compare two runs. Cases are paired by id; a case on one side only is a difference."""
     ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
     differences: list[Difference] = []
     compared = 0
@@ -81,7 +81,7 @@ def _measures(result: evaluation.CaseResult) -> dict[str, float]:
 
 
 def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:
-    """Yield what went into the runs differently: it explains differences and is none by itself."""
+    """Yield the inputs that differ between two runs: they explain differences but do not count as such."""
     ours, theirs = first.manifest, second.manifest
     yield from _changes({"seed": ours.seed}, {"seed": theirs.seed})
     yield from _changes(ours.versions, theirs.versions, "versions: ")
@@ -96,7 +96,7 @@ def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[s
 def unknown_parameters(
     both: Sequence[tuple[evaluation.CaseResult, evaluation.CaseResult]], names: tuple[str, str]
 ) -> Iterator[str]:
-    """Yield which of two runs, by its name, has no parameters to compare where the other one has."""
+    """Yield the run that has no parameters to compare while the other run has."""
     for place, name in enumerate(names):
         if both and all(pair[1 - place].parts and not pair[place].parts for pair in both):
             yield f"the {name} does not hold its parameters: an earlier version of uictest made it"
@@ -105,7 +105,7 @@ def unknown_parameters(
 def _changes(
     first: Mapping[str, str | int | None], second: Mapping[str, str | int | None], prefix: str = ""
 ) -> Iterator[str]:
-    """Yield a line for each name that has not the same value on both sides."""
+    """Yield a line for each name whose values differ."""
     for name in dict.fromkeys([*first, *second]):
         if first.get(name) != second.get(name):
             yield f"{prefix}{name}: {_shown(first.get(name))} -> {_shown(second.get(name))}"

@@ -1,4 +1,4 @@
-"""How far two values may lie apart, and whether two numbers do."""
+"""Tolerances, and the comparison of two numbers."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Tolerance:
 
 
 DEFAULT = Tolerance(absolute=1e-6, relative=1e-3)
-"""Chosen: far below what an engineer would act on, far above what compilers make of the same arithmetic."""
+"""Chosen: far below what an engineer would act on, far above the rounding of different compilers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def _read(text: str) -> tuple[str | None, str, float]:
 def compare_numbers(
     case: str, quantity: str, first: float, second: float, tolerances: Tolerances, unit: str = ""
 ) -> Difference | None:
-    """Return how two numbers differ, None where they are the same. No number equals only no number."""
+    """Return how two numbers differ, None where they are the same. NaN equals NaN alone."""
     if first == second or (math.isnan(first) and math.isnan(second)):
         return None
     if not (math.isfinite(first) and math.isfinite(second)):

@@ -30,10 +30,10 @@ _MOST_PARAMETERS = 20
 def comparison_lines(
     comparison: Comparison, *, every: bool = False, width: int | None = None
 ) -> Iterator[str]:
-    """Yield a table of the differences out of tolerance, then what is known to differ.
+    """Yield a table of the differences out of tolerance, then parameters and notes.
 
-    Of a measure that the wheelsets of a stop have, the worst stands for all. `every`: all of all differences.
-    The table keeps to `width` characters, None for any width.
+    The table has only the worst wheelset for each measure of wheelsets; with `every`, it has all differences.
+    It is at most `width` characters wide, None for any width.
     """
     shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
     if shown:
@@ -87,7 +87,7 @@ def verdict_line(comparison: Comparison) -> str:
 def _columns(differences: Sequence[report.Difference]) -> list[TableColumn]:
     """Return the table of differences; without a case for recordings."""
     words = ["within" if difference.within else report.DIFFERS for difference in differences]
-    # A word that all rows share is the first to give way.
+    # A word that all rows share is left out first.
     rank_of_words = 5 if len(set(words)) == 1 else 0
     cases = [printable(difference.case) for difference in differences]
     columns = [

@@ -5,7 +5,7 @@ from .baseline import (
     not_compared_sentences as not_compared_sentences,
 )
 from .content import CaseDescription as CaseDescription, RunContent as RunContent
-from .csv_text import Cell as Cell, csv_text as csv_text
+from .csv_text import csv_text as csv_text
 from .difference import (
     Difference as Difference,
     side_text as side_text,
@@ -119,7 +119,6 @@ from .wording import (
     line_word as line_word,
     listed as listed,
     number as number,
-    outcome_word as outcome_word,
     tally as tally,
     tone as tone,
 )

@@ -25,10 +25,10 @@ class BaselineComparison:
         compared: how many quantities were compared.
         within: how many of them differ within their tolerance.
         differences: quantities out of tolerance by case id; `first` is the baseline, `second` the run.
-        missing: cases that the scenario files no longer have, id -> file; they are in `differences`, too.
+        missing: cases that the scenario files no longer have, id -> file; `differences` has them as well.
         not_run: ids of cases of the baseline that were selected and not run.
         not_selected: ids of cases of the baseline that were not selected.
-        notes: what went in differently.
+        notes: inputs that differ.
 
     """
 
@@ -79,7 +79,7 @@ def run_tally(results: Iterable[evaluation.CaseResult], baseline: BaselineCompar
 
 
 def baseline_summary(baseline: BaselineComparison) -> str:
-    """Return one line that says how the run compares with its baseline."""
+    """Return the result of the comparison with the baseline on one line."""
     quantities = counted(baseline.compared, "quantity", "quantities")
     beyond = len(baseline.all_differences)
     counts = f"{beyond} out of tolerance, {baseline.within} different within tolerance"

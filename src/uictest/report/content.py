@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class CaseDescription:
-    """What a case is about, in the user's words: title, tags and main settings, name -> text.
+    """Description of a case in the user's words: title, tags and main settings, name -> text.
 
-    `settings` holds what a simulated stop was run with; of a recorded one it holds the conditions that it was
-    judged by, and `recorded`, else empty, says where its samples come from.
+    `settings` are those that a simulated stop was run with, or the conditions that a recorded stop was judged
+    by. `recorded` states the origin of the samples of a recorded stop; it is empty for a simulated one.
     """
 
     title: str = ""
@@ -38,9 +38,9 @@ class RunContent:
         results: every case.
         manifest: where the results come from.
         complete: False where selected cases are missing from the results.
-        subjects: what cases are about, by id; a case may lack one.
-        traces: what there is to draw, by id.
-        baseline: how the run compares with its baseline; None where it was given none.
+        subjects: descriptions of cases, by id; a case may have none.
+        traces: what the plots are drawn from, by id.
+        baseline: the comparison with the baseline; None without one.
 
     """
 
@@ -53,7 +53,7 @@ class RunContent:
     baseline: BaselineComparison | None = None
 
     def subject(self, case_id: str) -> CaseDescription:
-        """Return what a case is about; an empty subject where that is not known."""
+        """Return the description of a case; an empty one where there is none."""
         return self.subjects.get(case_id, CaseDescription())
 
     def differences(self, case_id: str) -> Sequence[Difference]:
@@ -61,11 +61,11 @@ class RunContent:
         return self.baseline.differences.get(case_id, ()) if self.baseline else ()
 
     def passes(self, result: evaluation.CaseResult) -> bool:
-        """Return whether a case meets its expectation and nothing of it differs from the baseline."""
+        """Return whether a case meets its expectation and does not differ from the baseline."""
         return result.met and not self.differences(result.id)
 
     def word(self, result: evaluation.CaseResult) -> str:
-        """Return the word of a case: how it stands to its expectation and to the baseline."""
+        """Return the word of a case, from its expectation and the baseline."""
         return case_word(result, self.differences(result.id))
 
     def explanation(self, result: evaluation.CaseResult) -> list[str]:

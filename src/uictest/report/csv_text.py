@@ -1,4 +1,4 @@
-"""Rows as CSV text: user text guarded, missing figures as empty cells."""
+"""Rows as CSV text: user text guarded, missing numbers as empty cells."""
 
 from __future__ import annotations
 

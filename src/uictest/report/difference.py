@@ -53,12 +53,12 @@ def difference_sentence(difference: Difference) -> str:
 
 
 def wheelset_quantity(measure: str, wheelset: int) -> str:
-    """Return what a measure of one wheelset is called among the quantities of a stop."""
+    """Return the name of a measure of one wheelset among the quantities of a stop."""
     return f"{measure}_{wheelset}"
 
 
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
-    """Return the differences; of a measure that the wheelsets of a stop have, the worst stands for all."""
+    """Return the differences, with only the worst wheelset for each measure of wheelsets."""
     columns = {wheelset_quantity(name, n): name for name in measures.WHEELSET_COLUMNS for n in WHEELSETS}
     by_measure: dict[tuple[str, str], list[Difference]] = {}
     for difference in differences:

@@ -13,7 +13,7 @@ from uictest.report import formats
 from uictest.report.content import RunContent
 
 IN_EVERY_RUN: Final = ("csv", "junit")
-"""Formats that the folder of a run has without being asked for."""
+"""Formats that every run is written in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class ReportFormat:
     """A format; a module of `formats/` registers its own under the name `FORMAT`.
 
     Args:
-        files: returns the files that a run becomes, by their names.
+        files: returns the files of a run in this format, by name.
         draws_stops: whether it draws stops, so that a report needs their traces.
 
     """

@@ -1,4 +1,4 @@
-"""The manifest: what went into a run, the same on every machine that runs it."""
+"""The manifest: the inputs of a run, the same on every machine."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def manifest_form(manifest: RunManifest) -> dict[str, Any]:
 
 
 def read_manifest(document: Mapping[str, Any]) -> RunManifest:
-    """Return the manifest in the results of a run; what an earlier version did not write is empty.
+    """Return the manifest in the results of a run; fields that an earlier version did not write are empty.
 
     Raises ValueError where a field holds something else.
     """

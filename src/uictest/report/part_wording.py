@@ -1,4 +1,4 @@
-"""The parts that cases were run with in words: what each part is called, and what was changed in it."""
+"""The parts that cases were run with, in words: the name of each part and its changes."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _PATHS = (".yaml", ".yml")
 def part_sentence(part: evaluation.EffectivePart, setting: str = "") -> str:
     """Return name, setting and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`.
 
-    A part whose root is no library part says so: its name may be that of one. A section of a scenario has no
-    name; the text is empty where it changes nothing.
+    A part whose root is not in the library is marked as an own part, because it may have the name of a
+    library part. A section of a scenario has no name; its text is empty if it changes nothing.
     """
     changes = "; ".join(_changes(part, part.key if part.name else ""))
     texts = (part.name, _own_root(part), setting, changes and f"changed: {changes}")
@@ -33,7 +33,7 @@ def changed_parameters(
 ) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
-    What the scenario says itself is held against its defaults. The keys of `varied` are left out.
+    Values of the scenario itself are compared with its defaults. The keys of `varied` are left out.
     """
     return [printable(change) for part in parts.values() for change in _differences(part, varied)]
 
@@ -45,14 +45,14 @@ def changes_line(result: evaluation.CaseResult) -> list[str]:
 
 
 def base_word(part: evaluation.EffectivePart) -> str:
-    """Return what the values are called that a part is held against."""
+    """Return the name of the values that a part is compared with."""
     if part.based_on is None:
         return "default"
     return part.based_on if part.based_on.endswith(_PATHS) else "library"
 
 
 def _own_root(part: evaluation.EffectivePart) -> str:
-    """Return that a part does not go back to the library, and to which file of its user; else nothing."""
+    """Return that a part is the user's own, and its root file if it has one; empty for a library part."""
     if not part.name or base_word(part) == "library":
         return ""
     return f"own part based on {part.based_on}" if part.based_on else "own part"

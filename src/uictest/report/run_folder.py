@@ -1,7 +1,7 @@
 """The folder of one run: filled under a temporary name, renamed when it is complete.
 
-What a run that was killed left under such a name is removed by the next one. Beside the folders, `latest`
-names the newest: a symbolic link, or a text file where links are impossible.
+The next run removes what a killed run left under such a name. `latest` next to the folders names the newest:
+a symbolic link, or a text file where links are impossible.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ LATEST = "latest"
 
 
 class RunFolder:
-    """A folder that appears as `parent/name` when it is published, and not at all if it is not.
+    """A folder that appears as `parent/name` when it is published, and otherwise not at all.
 
-    Used as a context manager: leaving the block without `publish` removes everything that was created, the
-    parents included. A name that is taken gets `-2`, `-3`, ... at its end.
+    Use it as a context manager: leaving the block without `publish` removes everything that was created,
+    including parents. A name that is taken gets `-2`, `-3`, ... at its end.
 
     Args:
         parent: the folder of all runs; made if it is missing.

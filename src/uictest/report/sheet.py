@@ -1,4 +1,4 @@
-"""Rows on the sheets of a workbook: text stays text, whatever it begins with; no figure, no content."""
+"""Rows on the sheets of a workbook: text stays text, and a missing number is an empty cell."""
 
 from __future__ import annotations
 

@@ -22,12 +22,12 @@ _NAMED = 3
 
 
 def number(value: float | None) -> str:
-    """Return a figure with five significant digits, `-` where there is none (None or NaN)."""
+    """Return a number with five significant digits, `-` where there is none (None or NaN)."""
     return "-" if value is None or value != value else f"{value:.5g}"
 
 
 def quantity(value: float | None, unit: str) -> str:
-    """Return a figure with its unit; the unit 1 of a pure number is left out."""
+    """Return a number with its unit; the unit 1 of a pure number is left out."""
     return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
 
 
@@ -60,7 +60,7 @@ def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Ver
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
-    value, margin = (quantity(figure, verdict.unit) for figure in (verdict.value, verdict.margin))
+    value, margin = (quantity(size, verdict.unit) for size in (verdict.value, verdict.margin))
     reason = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
     return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {reason}")
 

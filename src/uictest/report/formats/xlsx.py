@@ -19,7 +19,7 @@ from uictest.report.wording import definition_sentence, result_word
 
 
 def workbook_bytes(content: RunContent) -> bytes:
-    """Return the workbook of a run. Missing figures are empty cells."""
+    """Return the workbook of a run. Missing numbers are empty cells."""
     buffer = io.BytesIO()
     with open_workbook(buffer) as workbook:
         styles = styles_of(workbook)
@@ -53,7 +53,7 @@ def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row
 
 
 def result_row(result: evaluation.CaseResult) -> Row:
-    """Return the word of a case, its outcome, figures, parameters and reason."""
+    """Return the word of a case, its outcome, measures, parameters and reason."""
     row: Row = {"verdict": result_word(result)}
     row |= {"outcome": result.outcome, "expect": result.expect}
     row |= result.measures or {}

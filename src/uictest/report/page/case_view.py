@@ -80,7 +80,7 @@ def case_view(
         subject,
         case_word(result, differences),
         case_explanation(result, differences) if differences or not result.met else (),
-        list(headline_measures(result)),
+        list(_headline(result)),
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),
         list(_marked(result, marks)),
@@ -119,7 +119,7 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
         )
 
 
-def headline_measures(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
+def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
     """Yield the measures that a brake engineer asks for first."""
     measures = result.measures
     if measures is not None:

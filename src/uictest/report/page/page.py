@@ -8,7 +8,7 @@ from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import side_text
-from uictest.report.page.case_view import CaseView, case_view, gauge_of, headline_measures, plots_json
+from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
@@ -39,7 +39,6 @@ def page_html(content: RunContent) -> str:
         with_plots=bool(drawn),
         baseline_lines=_baseline_lines(content.baseline),
         failing_first=failing_first,
-        headline_measures=headline_measures,
         gauge_of=gauge_of,
         number=number,
         tone=tone,

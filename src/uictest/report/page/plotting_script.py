@@ -1,4 +1,4 @@
-"""The plotting script of the pages: out of the installed package, packed once and kept."""
+"""The plotting script of the pages: read from the installed package, packed once and cached."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class PackedScript(NamedTuple):
     """A script as a page holds it.
 
     Args:
-        digest: SHA-256 of the script itself, Base64; by it a browser knows that it may run.
+        digest: SHA-256 of the script itself, Base64, by which a browser permits it.
         packed: the script deflated, in Base64: less than half as long.
 
     """
@@ -42,7 +42,7 @@ def plotting_script() -> PackedScript:
 
 
 def packed_script(script: str) -> PackedScript:
-    """Return a script digested and packed, which takes as long as ten stops for one of this size."""
+    """Return a script with its digest, packed. For plotly's script this takes as long as ten stops."""
     text = script.encode("utf-8")
     return PackedScript(script_digest(script), base64.b64encode(zlib.compress(text, 9)).decode("ascii"))
 

@@ -1,4 +1,4 @@
-"""Templates become pages here: every text escaped, every script known by its digest, nothing loaded."""
+"""Render templates to pages: texts are escaped, scripts are permitted by digest, nothing is loaded."""
 
 from __future__ import annotations
 

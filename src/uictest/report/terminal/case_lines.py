@@ -22,7 +22,7 @@ SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps
 
 
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
-    """Return the line of one case; the explanation of one that is not met, or differs, stands at its end."""
+    """Return the line of one case, ending with the reason if it is not met or differs from the baseline."""
     words = [line_word(case_word(result, differences)), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}", *_measures(result)]
     if differences or not result.met:
@@ -45,7 +45,7 @@ def criterion_lines(result: evaluation.CaseResult) -> Iterator[str]:
 
 
 def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield what each criterion was taken to mean, once for all cases that it meant the same in."""
+    """Yield the definitions of each criterion, once for all cases in which they are the same."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
         for verdict in result.criteria:
@@ -58,7 +58,7 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
 
 
 def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield the parts that cases were run with and what was changed in them, once for all cases alike."""
+    """Yield the parts that cases were run with and their changes, once for all cases with the same part."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
         for role, sentence in part_sentences(result.parts).items():

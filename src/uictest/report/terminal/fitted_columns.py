@@ -1,4 +1,4 @@
-"""A table that keeps to the width of a terminal: names stay whole, figures give way."""
+"""A table that keeps to the width of a terminal: names are kept whole, measures are left out."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class TableColumn:
         title: what it is called; a line feed begins the second line of its heading.
         cells: its texts, one for each row; shown as they are, so printable.
         rank: the column with the highest rank gives way first; one of rank 0 never does.
-        right: whether it holds figures, which are aligned to the right.
+        right: whether it holds numbers, which are aligned to the right.
         wraps: whether its texts may continue on the next line.
 
     """

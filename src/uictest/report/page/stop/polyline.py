@@ -1,4 +1,4 @@
-"""A line through samples as SVG path data, with no more points than the eye can tell apart."""
+"""A line through samples as SVG path data, with no more points than a reader can distinguish."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from uictest.report.page.case_view import CaseView, case_view, gauge_of, headline_measures, plots_json
+from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
@@ -58,7 +58,6 @@ def sweep_page_html(content: SweepContent) -> str:
         counted=counted,
         failing_first=failing_first,
         measure_words=measure_words,
-        headline_measures=headline_measures,
         gauge_of=gauge_of,
         share_words=share_words,
         tone=tone,
