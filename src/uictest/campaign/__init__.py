@@ -1,4 +1,4 @@
-"""Batches of cases: selecting them, running them, keeping their results in order."""
+"""Batches of cases: select them, run them, return their results in order."""
 
 import lazy_loader
 

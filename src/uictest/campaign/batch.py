@@ -1,4 +1,4 @@
-"""Many cases on the threads of this machine. The compiled rig runs without the interpreter's lock."""
+"""Run many cases on threads. The compiled rig releases the interpreter's lock."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ def run_cases(
 ) -> BatchResult:
     """Run the cases on `jobs` threads, and return the results in the order of the cases.
 
-    A KeyboardInterrupt ends the batch; the results that are there are kept.
+    A KeyboardInterrupt ends the batch; finished results are kept.
 
     Args:
-        cases: what to run.
+        cases: to run.
         jobs: number of threads.
-        recording: which cases to record [default: those that miss their expectation].
-        maxfail: number of missed cases after which nothing further is reported, so that the results do not
+        recording: the cases to record [default: those that miss their expectation].
+        maxfail: number of missed cases after which no further case is reported, so that the results do not
             depend on `jobs`.
-        parts: effective parts by case id; each result carries those of its case.
+        parts: effective parts by case id, which are added to the results.
         on_result: called in this thread, once per case, in the order of the cases.
     """
     batch = BatchResult()

@@ -13,7 +13,7 @@ from uictest.recording import Recording
 
 @dataclass(frozen=True, slots=True)
 class RecordingRequest:
-    """Which cases to record (`failed`: those that miss their expectation), a sample every so many seconds."""
+    """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s."""
 
     cases: Literal["all", "failed", "none"] = "failed"
     every: float = 0.01
@@ -50,7 +50,7 @@ def _simulate_and_judge(case: scenario.Case, request: RecordingRequest, started:
         case, stop.measures, stop.wheelset_measures, perf_counter() - started
     )
     if request.cases == "failed" and not result.met:
-        # A stop repeats itself exactly, so it can be recorded once the case is known to have missed.
+        # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
         stop = rig.simulate(case, record_every=request.every)
     return CaseRun(result, stop.recording)
 

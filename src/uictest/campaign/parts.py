@@ -25,6 +25,6 @@ def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:
 
 
 def with_parts(case_run: CaseRun, parts: PartsOfCases) -> CaseRun:
-    """Return the run of a case with the parts of the case in its result."""
+    """Return the run of a case with its parts in the result."""
     result = case_run.result
     return replace(case_run, result=replace(result, parts=parts.get(result.id, {})))

@@ -1,4 +1,4 @@
-"""One function applied to many arguments on several threads, the results in the order of the arguments."""
+"""Apply a function to many arguments on several threads, with results in the order of the arguments."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _PENDING_PER_THREAD = 4
 class ThreadedMap(Generic[Argument, Result]):
     """Applies `work` to each argument on `jobs` threads; iterate over it, inside `with`, for the results.
 
-    Leaving the `with` block cancels the calls that have not started. It waits for those in progress, but not
-    after an exception: a call cannot be broken off, and after an interrupt nobody waits for it.
+    Leaving the `with` block cancels the calls that have not started, and waits for those in progress. After
+    an exception it does not wait: a call cannot be cancelled, and an interrupt should take effect at once.
 
     Args:
-        work: the function; what it raises is raised where its result would be returned.
-        arguments: one for each call, read only as far as calls are pending.
+        work: the function; its exceptions are raised when its result is requested.
+        arguments: one for each call, read only when the call is submitted.
         jobs: number of threads.
         pending: most calls that are submitted and whose results are not yet returned [default: 4 per thread].
     """
@@ -67,7 +67,7 @@ class ThreadedMap(Generic[Argument, Result]):
             yield result
 
     def finished(self) -> Iterator[Result]:
-        """Yield the results that are there and were not yet returned, in the order of the arguments."""
+        """Yield the finished results that were not yet returned, in the order of the arguments."""
         for future in self._pending:
             if future.done() and not future.cancelled():
                 yield future.result()

@@ -1,6 +1,6 @@
 """The command line."""
 
-# Whoever stops the program while this module is loaded still sees Python's traceback: it imports little.
+# An interrupt while this module is loaded still shows Python's traceback, so it imports little.
 import gc
 import os
 import sys
@@ -22,14 +22,14 @@ def main() -> None:
         raise_when_asked()
         code = int(execute(sys.argv[1:]))
     except KeyboardInterrupt:
-        # Asked a second time, while the first was being answered.
+        # A second interrupt, while the first was being handled.
         code = 2
-    # Everything is written by now. Tearing down numba's interpreter state would take longer than a stop does.
+    # Everything is written by now, and tearing down numba takes longer than a stop.
     os._exit(code)
 
 
 def _start_lightly() -> None:
-    # Nothing here multiplies large matrices, and numpy's BLAS would start a thread per core to wait for that.
+    # Nothing here multiplies large matrices, but numpy's BLAS would start a thread per core.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    # What imports make stays: to look through it for garbage every few hundred objects is in vain.
+    # Objects made by imports are never garbage: searching them every few hundred allocations is wasted.
     gc.set_threshold(100_000)

@@ -1,4 +1,4 @@
-"""The program: which commands there are."""
+"""The program and its commands."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _EPILOG = (
     "3 simulation or internal error, 4 usage or invalid file, 5 nothing selected."
 )
 
-# Plain help, not rich's: it starts faster, and what the user typed cannot be taken for markup.
+# Plain help instead of rich's: it starts faster, and user text is never read as markup.
 app = typer.Typer(
     name="uictest",
     add_completion=False,
@@ -62,7 +62,7 @@ for _name, _function in (
 def _show_help_alone(context: typer.Context) -> None:
     if context.invoked_subcommand is None:
         data(context.get_help())
-        # Not success: in a pipeline a command that is missing must not look like a test that passed.
+        # Not a success: in a pipeline a missing command must not look like a passed test.
         raise typer.Exit(ExitCode.USAGE)
 
 

@@ -1,4 +1,4 @@
-"""From paths and selection options to the cases that are meant."""
+"""Load and select the cases that paths and options name."""
 
 from __future__ import annotations
 
@@ -58,14 +58,14 @@ def select_cases(
 
 
 def nothing_selected(cases: Sequence[scenario.Case]) -> str:
-    """Return the message that says among how many cases and which tags nothing was selected."""
+    """Return the message for an empty selection, with the number of cases and their tags."""
     tags = sorted({tag for case in cases for tag in case.scenario.tags})
     known = ", ".join(tags) or "none"
     return f"uictest: nothing selected among {counted(len(cases), 'case')}; their tags: {known}"
 
 
 def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> str:
-    """Return the ids, one per line; where described, title and tags behind a tab stop each."""
+    """Return the ids, one per line; if `described`, each with title and tags, separated by tabs."""
     return "\n".join(_described(case) if described else printable(case.id) for case in cases)
 
 
@@ -87,7 +87,7 @@ def _described(case: scenario.Case) -> str:
 
 
 def cases_json(cases: Sequence[scenario.Case]) -> str:
-    """Return what can be known of the cases before they run, as a JSON array."""
+    """Return ids, files, titles, tags, expectations and swept values of cases as a JSON array."""
     return json.dumps([_description(case) for case in cases], indent=2)
 
 

@@ -1,4 +1,4 @@
-"""From arguments to exit code: the one place where what goes wrong becomes a message and a number."""
+"""From arguments to exit code: the one place where errors become messages and exit codes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TYPER_INTERRUPTED = 130
 
 
 def execute(arguments: Sequence[str]) -> ExitCode:
-    """Run one command line, and return its exit code; nothing but the code leaves, not even an exception."""
+    """Run one command line, and return its exit code. Raises nothing."""
     use_safe_encoding()
     code = _outcome(CommandLine(arguments))
     reason = lost_data()
@@ -38,7 +38,7 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         message("uictest: interrupted")
         return ExitCode.INTERRUPTED
     except SystemExit:
-        # Outside its standalone mode typer leaves in this way only where the reader of `--help` has gone.
+        # Outside its standalone mode typer exits only if the reader of `--help` has gone.
         return ExitCode.MET
     except OSError as error:
         return _failed(_reason(error), invocation)
@@ -49,7 +49,7 @@ def _outcome(invocation: CommandLine) -> ExitCode:
 def _call(invocation: CommandLine) -> ExitCode:
     code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
     if code == _TYPER_INTERRUPTED:
-        # What typer makes of it outside its standalone mode, without a word.
+        # Outside its standalone mode typer returns this code for an interrupt.
         raise KeyboardInterrupt
     return ExitCode(code or 0)
 

@@ -1,4 +1,4 @@
-"""Exit codes, and the error that stands for one. A crash is never 1, and a count is never an exit code."""
+"""Exit codes, and the error for invalid input. A crash never exits with 1, and no exit code is a count."""
 
 from __future__ import annotations
 

@@ -16,14 +16,14 @@ from uictest import comparison, report
 
 @dataclass(slots=True)
 class CommandLine:
-    """The arguments as typed, and how much the user wants to see (0; 1 and more with `-v`)."""
+    """The arguments as typed, and the verbosity: the number of `-v`."""
 
     arguments: Sequence[str]
     verbosity: int = 0
 
 
 class Format(StrEnum):
-    """What stdout is made for."""
+    """Format of the output on stdout."""
 
     TEXT = "text"
     JSON = "json"
@@ -31,7 +31,7 @@ class Format(StrEnum):
 
 
 class PlainFormat(StrEnum):
-    """What stdout is made for, where there is nothing to annotate."""
+    """Format of the output on stdout of commands without annotations."""
 
     TEXT = "text"
     JSON = "json"
@@ -185,7 +185,7 @@ def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
 
 
 def junit_file(path: Path | None, output: Path) -> Path | None:
-    """Return where `--junitxml` writes. Raises typer.BadParameter where no file can be.
+    """Return the file of `--junitxml`. Raises typer.BadParameter where it cannot be written.
 
     A folder in or above `output` may be missing: the command makes it.
     """
@@ -201,7 +201,7 @@ def junit_file(path: Path | None, output: Path) -> Path | None:
 
 
 def report_formats(text: str, option: str, accepted: Sequence[str]) -> list[str]:
-    """Return the formats in a comma list, each once. Raises typer.BadParameter for one there is not."""
+    """Return the formats in a comma list, each once. Raises typer.BadParameter for an unknown one."""
     words = [word.strip() for word in text.split(",") if word.strip()]
     for word in words:
         if word not in accepted:

@@ -19,7 +19,7 @@ def data(text: str) -> bool:
     """Write data to stdout at once, a line feed at its end.
 
     Returns whether stdout accepted it: if not, the caller can stop. A reader that has gone (`| head`) is no
-    error; any other reason is, and :func:`lost_data` returns it at the end.
+    error. Any other reason is one, and :func:`lost_data` returns it at the end.
     """
     try:
         sys.stdout.write(f"{text}\n")
@@ -46,21 +46,21 @@ def lost_data() -> str:
 
 
 def message(text: str) -> None:
-    """Write a message of one or more lines to stderr, with nothing in it that could drive a terminal."""
+    """Write a message of one or more lines to stderr, with control characters escaped."""
     with contextlib.suppress(OSError):
         sys.stderr.write("".join(f"{printable(line)}\n" for line in text.split("\n")))
         sys.stderr.flush()
 
 
 def use_safe_encoding() -> None:
-    """Let both streams spell out the characters that they cannot encode."""
+    """Let both streams escape the characters that they cannot encode."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
 def coloured(choice: str, stream: TextIO) -> bool:
-    """Return whether to colour a stream: as chosen, else on a terminal that is not dumb without NO_COLOR."""
+    """Return whether to colour a stream; with `auto`, on a terminal that is not dumb, without NO_COLOR."""
     if choice != "auto":
         return choice == "always"
     plain = os.environ.get("NO_COLOR", "") != "" or os.environ.get("TERM") == "dumb"

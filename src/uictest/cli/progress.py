@@ -1,4 +1,4 @@
-"""Signs of progress: a bar on a terminal, a line now and then elsewhere, a message before compiling."""
+"""Progress: a bar on a terminal, a line every 30 s elsewhere, a message before compiling."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from time import monotonic
 
 from uictest.cli.output import interactive, message
 
-HEARTBEAT = 30.0  # seconds between two signs of life where nobody watches
+HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 
 Advance = Callable[[], None]
 
@@ -59,6 +59,6 @@ def _heartbeat(total: int) -> Iterator[Advance]:
 
 
 def announce_compilation(*, warm: bool, quiet: bool = False) -> None:
-    """Write that the rig is compiled first, unless the cache has it compiled (`warm`) or all is `quiet`."""
+    """Announce that the rig is compiled, unless the cache has it (`warm`) or the command is `quiet`."""
     if not (warm or quiet):
         message("uictest: compiling the rig (once per installation, ten to forty seconds)...")

@@ -102,9 +102,9 @@ def one_case(
 
 
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
-    """Use every file, and return what comes of it.
+    """Apply `use` to every file, and return its results.
 
-    Raises InvalidInputError with every file's error, BrokenOffError where the machine ends the reading.
+    Raises InvalidInputError with every file's error, ReadingInterruptedError where the machine ends the reading.
     """
     results: list[Result] = []
     errors: list[str] = []
@@ -114,7 +114,7 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
         except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
             errors.append(f"uictest: {path}: {error}")
         except formats.ReadingInterruptedError:
-            raise  # no fault of the file
+            raise  # not an error of the file
         except OSError as error:
             errors.append(f"uictest: {path}: {error.strerror or error}")
     if errors:

@@ -1,4 +1,4 @@
-"""How a command enters the program: its first sentence stands whole in the list of commands."""
+"""Register commands: the list of commands shows the whole first sentence of each."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def command(group: typer.Typer, name: str) -> Callable[[Function], Function]:
 
 
 def first_sentence(text: str) -> str:
-    """Return the first sentence of a help text on one line; typer by itself cuts it where a line ends."""
+    """Return the first sentence of a help text on one line; typer would cut it at the end of a line."""
     words = text.split()
     end = next((place for place, word in enumerate(words, start=1) if word.endswith(".")), len(words))
     return " ".join(words[:end])

@@ -1,4 +1,4 @@
-"""Folders of finished runs that a user names."""
+"""Folders of finished runs that users name."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def holds_sweep(folder: Path) -> bool:
 
 
 def why_no_run(folder: Path) -> str:
-    """Return why a place holds no run, the place named; nothing where it seems to hold one."""
+    """Return why a path is no run, e.g. `there is no PATH`; empty if it looks like one."""
     if not folder.exists():
         return f"there is no {folder}"
     if not folder.is_dir():

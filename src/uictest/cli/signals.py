@@ -12,19 +12,19 @@ _ASKING = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
 def leave_when_asked() -> None:
-    """Leave the process at once: nothing is begun yet, and an exception could be lost in an import."""
+    """Exit at once on a signal: nothing has begun, and an import could swallow an exception."""
     _handle(_leave)
 
 
 def raise_when_asked() -> None:
-    """Raise KeyboardInterrupt, so that what is finished is reported and the rest tidied up."""
+    """Raise KeyboardInterrupt on a signal, so that finished cases are reported and files are cleaned up."""
     _handle(signal.default_int_handler)
 
 
 def _handle(handler: Callable[[int, FrameType | None], object]) -> None:
     for name in _ASKING:
         number = getattr(signal, name, None)  # Windows has no SIGHUP
-        # What the caller wants ignored stays so: nohup ignores SIGHUP.
+        # Signals that the caller ignores stay ignored: nohup ignores SIGHUP.
         if number is not None and signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, handler)
 

@@ -1,4 +1,4 @@
-"""`uictest bench`: the caliper without vehicle, under pressures and valve commands of a recipe."""
+"""`uictest bench`: test the caliper alone under the pressures and valve commands of a recipe."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def _run(test: rig_bench.BenchTest) -> recording.Recording:
 
 
 def _writer(target: Path) -> Callable[[recording.Recording, Path], object]:
-    """Return what writes a recording to a file of this name. Raises InvalidInputError."""
+    """Return the function that writes a recording to a file of this name. Raises InvalidInputError."""
     if target.suffix.lower() not in _FORMATS:
         raise InvalidInputError(f"uictest: {target}: write a .parquet or a .csv file")
     if not target.parent.is_dir():

@@ -95,12 +95,12 @@ def _recording(path: Path) -> recording.Recording:
     except OSError as error:
         raise InvalidInputError(f"uictest: {path}: {error.strerror or error}") from error
     return each_file(
-        [path], lambda one: recording.recording_of(formats.read_contents(one), {"source": one.name})
+        [path], lambda file: recording.recording_of(formats.read_contents(file), {"source": file.name})
     )[0]
 
 
 def _names(first: Path, second: Path) -> tuple[str, str]:
-    """Return what two files are called: their names, or their paths where those are the same."""
+    """Return the names of two files, or their paths if the names are the same."""
     if first.name != second.name:
         return first.name, second.name
     return str(first), str(second)

@@ -1,4 +1,4 @@
-"""`uictest evaluate`: judge recordings by the code that judges simulated stops."""
+"""`uictest evaluate`: judge recorded stops like simulated ones."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OPTIONS = {
     "rig.wsp": "--wsp",
     "criteria": "--criteria",
 }
-"""What must be stated of a recording -> the option that states it."""
+"""Key that must be stated for a recording -> the option that states it."""
 
 Listing = Annotated[
     bool, typer.Option("--list", help="List the channels of the files and the channel map that fits.")
@@ -92,7 +92,7 @@ def evaluate(
 def _statements(
     criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
 ) -> Iterator[str]:
-    """Yield what the options state of the stops, as `--set` has it."""
+    """Yield the statements of the options in the form of `--set`."""
     listed = f"[{', '.join(criteria)}]" if criteria else None
     for key, text in zip(_OPTIONS, (rail, position, wsp, listed), strict=True):
         if text is not None:
@@ -105,7 +105,10 @@ def _case_of_stop(
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
 ) -> running.CaseOfStop:
-    """Return what makes a case of a recording. Raises InvalidInputError where too little is stated."""
+    """Return the function that makes the case of a recording.
+
+    Raises InvalidInputError if statements are missing.
+    """
     if scenario is not None:
         case = recordings.one_case(scenario, expression, statements, trusted)
         return lambda name, speed: case
@@ -141,7 +144,7 @@ def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
 
 
 def _proposal(contents: recording.Contents, dialect: formats.Dialect) -> Iterator[str]:
-    """Yield the preset that fits and what it leaves open, or a map to begin with where it does so in part."""
+    """Yield the preset that fits, or a proposed map if none fits or it fits only in part."""
     preset = field_data.fitting_preset(contents) if dialect == formats.Dialect() else None
     partly = field_data.lacks_speeds(contents)
     for remark in field_data.remarks(contents):

@@ -1,4 +1,4 @@
-"""`uictest export`: a recording in the formats of the engineers' own viewers."""
+"""`uictest export`: convert recordings to the formats of other programs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def export(
         for path in files
         for name in names
     }
-    _refuse_overwriting(list(targets.values()), force=force)
+    _reject_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, each_file(files, _recording), strict=True))
     output.mkdir(parents=True, exist_ok=True)
     for (path, name), target in targets.items():
@@ -61,7 +61,7 @@ def _formats(texts: Sequence[str]) -> list[str]:
     return names
 
 
-def _refuse_overwriting(targets: Sequence[Path], *, force: bool) -> None:
+def _reject_overwriting(targets: Sequence[Path], *, force: bool) -> None:
     twice = sorted({str(target) for target in targets if targets.count(target) > 1})
     if twice:
         raise InvalidInputError(f"uictest: several recordings would be written to {', '.join(twice)}")

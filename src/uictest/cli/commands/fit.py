@@ -133,7 +133,7 @@ def _lines(fit: fitting.Fit) -> list[str]:
 
 
 def _publish(fitted: _FittedStop, arguments: Sequence[str], output: Path) -> Path:
-    """Write the fitted scenario, simulate it, and write how it compares; return the folder."""
+    """Write the fitted scenario, simulate it, and write how well it agrees; return the folder."""
     manifest = report.run_manifest(arguments, None, fitted.case.inputs, 1)
     with report.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         scenario = _write_scenario(fitted, folder.path)

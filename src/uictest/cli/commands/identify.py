@@ -1,4 +1,4 @@
-"""`uictest identify`: the numbers of the compensation from a recording."""
+"""`uictest identify`: identify the numbers of the compensation from a recording."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def hysteresis(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
-    kept = _base(base, trusted or ())
+    base_part = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     acting_intervals = [_interval(text) for text in intervals or ()]
     roles = {"pressure": pressure, "force": force} | ({} if acting_intervals else {"command": command})
@@ -134,7 +134,7 @@ def hysteresis(
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         text = identification.with_hysteresis(
-            kept, part_name, result, provenance, acting_time, transition_time
+            base_part, part_name, result, provenance, acting_time, transition_time
         )
         _write(output, text)
     return ExitCode.MET
@@ -156,14 +156,14 @@ def cylinder(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
-    kept = _base(base, trusted or ())
+    base_part = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
     result = _cylinder(record, recorded, criterion, held_out)
     data(cylinder_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
-        _write(output, identification.with_cylinder(kept, part_name, result, provenance))
+        _write(output, identification.with_cylinder(base_part, part_name, result, provenance))
     return ExitCode.MET
 
 

@@ -1,4 +1,4 @@
-"""`uictest library`: the parts that come with the program, and those of its users."""
+"""`uictest library`: list and show the parts of the library, and show those of users."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _show_numbers(part: yaml.Part) -> None:
 
 
 def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
-    """Return key, number, mark and the name of the source, which may be called like its mark."""
+    """Return key, number, mark and the name of the source; no name if it is the same as the mark."""
     if number.source is None:
         return (number.key, number.quantity.text, scenario.mark_of(number.quantity, {}), "")
     mark, name = number.source.mark, number.quantity.source
@@ -108,7 +108,7 @@ def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
 def _difference(
     number: scenario.SourcedNumber, original: Mapping[str, scenario.SourcedNumber], part: yaml.Part
 ) -> str:
-    """Return what the part that this one extends has instead; empty where it has the same."""
+    """Return the number in the part that this one extends; empty if it is the same."""
     if part.original is None:
         return ""
     other = original.get(number.key)

@@ -1,4 +1,4 @@
-"""`uictest reproduce`: the studies of the paper, the paper's values next to ours."""
+"""`uictest reproduce`: run the studies and show the paper's values next to ours."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from uictest.cli.output import coloured, data, interactive, message
 from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
 
-_FIGURES = "pip install 'uictest[figures]'"
+_INSTALL_FIGURES = "pip install 'uictest[figures]'"
 
 
 def reproduce(
@@ -102,9 +102,7 @@ def _draw(results: Sequence[studies.StudyResult], output: Path) -> None:
         for result in results:
             studies.write_figures(output, result)
     except ImportError as error:
-        message(
-            f"uictest: no figures, since {error.name or 'matplotlib'} is not installed: {_FIGURES} draws them"
-        )
+        message(f"uictest: no figures: {error.name or 'matplotlib'} is not installed ({_INSTALL_FIGURES})")
 
 
 def _show(results: Sequence[studies.StudyResult], colour: Colour, *, quiet: bool) -> None:

@@ -1,4 +1,4 @@
-"""`uictest sweep`: many cases of one scenario, in chunks that survive an interruption."""
+"""`uictest sweep`: run many cases of one scenario, in chunks that survive an interruption."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`--baseline`: the results of a run against those that were accepted before."""
+"""`--baseline`: compare the results of a run with accepted ones, or accept them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from uictest.scenario import yaml
 
 @dataclass(frozen=True, slots=True)
 class BaselineChoice:
-    """What `--baseline`, `--accept` and `--tolerance` ask for; `folder` is None without a baseline."""
+    """The options `--baseline`, `--accept` and `--tolerance`; `folder` is None without a baseline."""
 
     folder: Path | None
     tolerances: comparison.Tolerances
@@ -26,28 +26,28 @@ class BaselineChoice:
 
     @classmethod
     def of(cls, folder: Path | None, tolerances: comparison.Tolerances, *, accepting: bool) -> BaselineChoice:
-        """Return the choice. Raises typer.BadParameter where there is nothing to accept into."""
+        """Return the choice. Raises typer.BadParameter for `--accept` without a baseline."""
         if accepting and folder is None:
             raise typer.BadParameter("there is no --baseline to update", param_hint="--accept")
         return cls(folder, tolerances, accepting)
 
 
 def scope_of(selected: Sequence[scenario.Case], searched: Sequence[Path]) -> comparison.Scope:
-    """Return what a run was asked for; `searched` are the files and folders of which it takes every case."""
+    """Return the cases that a run selects; `searched` are paths of which it takes every case."""
     return comparison.Scope(
         frozenset(case.id for case in selected), [yaml.display_name(path) for path in searched]
     )
 
 
 def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison.Baseline | None:
-    """Return the baseline; None without one, or where the run that is accepted is the first one there.
+    """Return the baseline; None without one, or if the first run is accepted.
 
     Raises InvalidInputError where it cannot be read.
     """
     folder = choice.folder
     if folder is None or (choice.accepting and not (folder / report.RESULTS).exists()):
         return None
-    way_out = (
+    advice = (
         f"remove {folder} to start a new one"
         if choice.accepting
         else "--accept makes the results of a run the baseline"
@@ -56,9 +56,9 @@ def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison
         return comparison.read_baseline(folder, scope, choice.tolerances)
     except OSError as error:
         reason = f"{error.filename}: {error.strerror}"
-        raise InvalidInputError(f"uictest: {folder} is no baseline: {reason}; {way_out}") from error
+        raise InvalidInputError(f"uictest: {folder} is no baseline: {reason}; {advice}") from error
     except ValueError as error:
-        raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {way_out}") from error
+        raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {advice}") from error
 
 
 def accept_or_compare(
@@ -69,7 +69,7 @@ def accept_or_compare(
     *,
     quiet: bool,
 ) -> ExitCode:
-    """Make a run the baseline, or show how it compares with it; nothing without a baseline or reports.
+    """Accept a run as the baseline, or show the comparison; do nothing without a baseline or reports.
 
     Returns MISSED where the run differs, else MET. Raises OSError.
     """
@@ -85,7 +85,7 @@ def accept_or_compare(
 
 
 def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool) -> ExitCode:
-    """Show on stderr how the run compares with its baseline, if with any; with `quiet` only where it differs.
+    """Show the comparison with the baseline on stderr; if `quiet`, only if the run differs.
 
     Returns MISSED where it differs, else MET.
     """
@@ -100,7 +100,7 @@ def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool)
 
 
 def _accept(run: Published, folder: Path, baseline: comparison.Baseline | None) -> None:
-    """Make the results of a run the baseline; what the run did not select stays. Raises OSError."""
+    """Make the results of a run the baseline, and keep cases that it did not select. Raises OSError."""
     document = comparison.accepted_document(json.loads(run.document), baseline)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in (("manifest.json", document["manifest"]), (report.RESULTS, document)):

@@ -17,7 +17,7 @@ from uictest.cli.running.drawing import TraceCollection
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """Cases to run, how to run them, and where their reports go."""
+    """Cases to run, options of the run, and the places of the reports."""
 
     cases: Sequence[scenario.Case]
     parts: campaign.PartsOfCases
@@ -31,12 +31,12 @@ class Batch:
     quiet: bool
     verbose: bool
     baseline: comparison.Baseline | None = None
-    """What to compare with, if anything."""
+    """The baseline to compare with, if any."""
 
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """A run whose reports are written: their folder, what they show, and the text of results.json."""
+    """A run whose reports are written: their folder, their content, and the text of results.json."""
 
     place: Path
     content: report.RunContent
@@ -44,13 +44,13 @@ class Published:
 
 
 def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Published | None]:
-    """Run a batch and publish its reports; an interrupted one reports what is finished, if anything is.
+    """Run a batch and publish its reports; after an interruption, those of the finished cases.
 
-    Returns the results, and the published run; None where there is nothing to report. Raises OSError where
-    the reports cannot be written, and removes what was written.
+    Returns the results, and the published run, None if no case is finished. Raises OSError if the reports
+    cannot be written, and removes those that were.
     """
     started = perf_counter()
-    # The folder comes first: one that cannot be written should not cost a simulation.
+    # The folder comes first: if it cannot be written, nothing should be simulated.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
         drawing = TraceCollection(batch.cases, batch.recording, needed=report.draws_stops(batch.formats))
         done = _simulate(batch, folder.path, display, drawing)
@@ -72,7 +72,7 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
 def _write_reports(
     batch: Batch, folder: report.RunFolder, done: campaign.BatchResult, traces: Mapping[str, report.PlotTrace]
 ) -> tuple[report.RunContent, str]:
-    """Write all reports; return what they show and the text of results.json."""
+    """Write all reports; return their content and the text of results.json."""
     complete = len(done.results) == len(batch.cases)
     subjects = campaign.descriptions_of(batch.cases)
     content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
@@ -86,7 +86,7 @@ def _write_reports(
 
 
 def _append_step_summary(content: report.RunContent) -> None:
-    # The run is published by now: a summary that cannot be written does not undo it.
+    # The run is published already: a failure to write the summary does not undo it.
     try:
         report.append_step_summary(content)
     except OSError as error:

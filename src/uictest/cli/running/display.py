@@ -1,4 +1,4 @@
-"""What a run shows on stdout: a table on a terminal, one line per case elsewhere, or a document."""
+"""Displays of a run on stdout: a table on a terminal, one line per case elsewhere, or a document."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ANSI_END = "\x1b[0m"
 
 
 class Display(Protocol):
-    """Shows results while they come in, and what remains to be shown at the end."""
+    """Shows results while the batch runs, and the rest at its end."""
 
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
@@ -42,7 +42,7 @@ class Lines:
                 data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
-        """Show the missing cases of the baseline; with -v what criteria mean and what cases were run with."""
+        """Show the missing cases of the baseline; with -v also the definitions of criteria, and parts."""
         for line in report.missing_lines(content.baseline) if content.baseline else ():
             self._show(report.DIFFERS, line)
         if self._verbose:
@@ -117,13 +117,13 @@ class VerdictTable:
 
 
 def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield what cases have in common: the meaning of criteria, and parts."""
+    """Yield the definitions of criteria and the parts, once for all cases."""
     yield from report.definition_lines(results)
     yield from report.part_lines(results)
 
 
 def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool) -> Display:
-    """Return the display for a format; `text` is a table where a person reads and lines elsewhere."""
+    """Return the display for a format; `text` is a table on a terminal and lines elsewhere."""
     if shown is Format.JSON:
         return ResultsDocument()
     display: type[Lines | VerdictTable] = Lines

@@ -13,9 +13,9 @@ from uictest.report import page
 class TraceCollection:
     """Collects the traces of a batch.
 
-    A batch of few cases is recorded as it runs. Of a large one the cases to draw are only known at its end;
-    they are simulated again, which is cheap beside the batch. So are those of a batch whose recordings are
-    too coarse for the valves: a page shows every command.
+    A small batch is recorded while it runs. The cases to draw of a large batch are known only at its end:
+    they are simulated again, which is cheap compared with the batch. So are those of a batch whose recordings
+    are too coarse for the valves, because a page shows every command.
     """
 
     cases: Sequence[scenario.Case]
@@ -29,12 +29,12 @@ class TraceCollection:
         return replace(self.request, cases="all") if self._while_running else self.request
 
     def add(self, case_run: campaign.CaseRun) -> None:
-        """Add what is drawn of a case."""
+        """Add the trace of a case."""
         if self._while_running and case_run.recording is not None:
             self.traces[case_run.result.id] = report.trace_of(case_run.recording, case_run.result.criteria)
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
-        """Return what there is to draw, the worst cases of a large batch simulated again."""
+        """Return the traces; simulate the worst cases of a large batch again."""
         if self.needed and not self._while_running and not done.interrupted:
             ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]
             worst = {result.id: result for result in ranked[: page.DRAWN]}

@@ -12,7 +12,7 @@ from uictest.cli.output import message
 
 
 def failed_last(cases: Sequence[scenario.Case], output: Path) -> list[scenario.Case]:
-    """Return the cases that failed last; all of them, with a message, where none is known to have failed.
+    """Return the cases that failed last; if none is known, all of them, with a message.
 
     Raises InvalidInputError where the results of the newest run cannot be read.
     """
@@ -27,16 +27,16 @@ def failed_last(cases: Sequence[scenario.Case], output: Path) -> list[scenario.C
 
 
 def _newest_run(output: Path) -> Path | None:
-    """Return the newest run of scenarios: `latest`, or where that holds recordings the newest beside it."""
+    """Return the newest run of scenarios: `latest`, or the newest other folder if that judged recordings."""
     latest = report.latest_run(output)
     if latest is None or not _is_of_recordings(latest):
         return latest
-    beside = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
-    return next((file.parent for file in beside if _command(file.parent) == "run"), None)
+    manifests = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
+    return next((file.parent for file in manifests if _command(file.parent) == "run"), None)
 
 
 def _age(manifest: Path) -> tuple[str, int]:
-    """Return what sorts runs by their start: the time in the name, to the second, then that of the file."""
+    """Return the key that sorts runs by their start: the second in the name, then the time of the file."""
     return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
 
 
@@ -45,7 +45,7 @@ def _is_of_recordings(run: Path) -> bool:
 
 
 def _command(run: Path) -> str:
-    """Return which command made a run; nothing where that cannot be read."""
+    """Return the command that made a run; empty if it cannot be read."""
     try:
         return str(json.loads((run / "manifest.json").read_bytes())["command"][1])
     except (OSError, ValueError, LookupError, TypeError):

@@ -17,7 +17,7 @@ from uictest.units import KILOMETRE_PER_HOUR
 CaseOfStop = Callable[[str, float], "scenario.Case"]
 """Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
-"""m/s, for the scenario of a record whose speed cannot be used: its result is an error whatever it says."""
+"""m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class RecordedFile:
 class RecordedBatch:
     """Recorded stops with the cases that they are judged as, and where their reports go.
 
-    `recording` says whose samples are kept; `arguments` are those of the command line.
+    `recording` selects the cases whose samples are kept; `arguments` are those of the command line.
     """
 
     files: Sequence[RecordedFile]
@@ -65,7 +65,7 @@ class RecordedBatch:
 
 
 def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> list[RecordedFile]:
-    """Read every file. Raises InvalidInputError with the errors of all that are no recordings."""
+    """Read every file. Raises InvalidInputError with the errors of all files that cannot be read."""
 
     def read(path: Path) -> RecordedFile:
         try:
@@ -89,7 +89,7 @@ def run_recorded(batch: RecordedBatch, display: Display) -> tuple[campaign.Batch
 
 
 def _judge(batch: RecordedBatch) -> list[campaign.CaseRun]:
-    """Judge every stop; the samples it was judged by come with its result."""
+    """Judge every stop; each result has the samples that it was judged by."""
     return [
         campaign.CaseRun(field_data.unusable_result(case, file.defects))
         if file.stop is None

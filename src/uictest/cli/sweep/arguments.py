@@ -1,4 +1,4 @@
-"""Convert the arguments of `uictest sweep` to what they stand for."""
+"""Convert the arguments of `uictest sweep` to plans, selections and searches."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def cluster_address(address: str | None) -> str | None:
 
 
 def frontier_search(plan: sweep.Plan, key: str | None, tolerance: str | None) -> sweep.FrontierSearch | None:
-    """Return the search that `--frontier` and `--tolerance` ask for. Raises typer.BadParameter."""
+    """Return the search of `--frontier` and `--tolerance`. Raises typer.BadParameter."""
     if key is None:
         return None
     try:

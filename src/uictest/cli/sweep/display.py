@@ -15,7 +15,7 @@ _IDS_AT_ONCE = 4096
 
 
 def show_ids(selection: sweep.CaseSelection) -> bool:
-    """Write the ids of the selected cases to stdout, one per line; return whether somebody read them all."""
+    """Write the ids of the selected cases to stdout, one per line; return whether all were accepted."""
     for first in range(0, selection.size, _IDS_AT_ONCE):
         indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
         if not data("\n".join(map(printable, selection.plan.ids(indices)))):
@@ -74,7 +74,7 @@ def missed_lines(result: report.SweepResult) -> Iterator[str]:
 
 
 def reason_missed(reason: str) -> str:
-    """Return why a case is not met; a case that passes has no reason of its own."""
+    """Return why a case is not met; one that passes unexpectedly has no reason of its own."""
     return reason or "another outcome was expected"
 
 
@@ -119,7 +119,7 @@ def _parameter(each: report.SobolSensitivity) -> str:
 
 
 def _most_important(scans: Sequence[report.FrontierScan]) -> Sequence[report.FrontierScan]:
-    """Return the scans if they fit, else as many as fit, those with flips first."""
+    """Return the scans if they are few, else the first ones, those with flips before the others."""
     if len(scans) <= _MOST_ROWS:
         return scans
     return sorted(scans, key=lambda each: not each.flips)[:_MOST_ROWS]

@@ -1,4 +1,4 @@
-"""Progress of a sweep: a bar with rate and remaining time on a terminal, else a line now and then."""
+"""Progress of a sweep: a bar with rate and remaining time on a terminal, else a line every 30 s."""
 
 from __future__ import annotations
 

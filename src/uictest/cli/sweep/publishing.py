@@ -13,7 +13,7 @@ from uictest.cli.sweep.run import SweepRun, prepared_runner
 
 
 def publish(run: SweepRun, store: sweep.ChunkStore) -> tuple[report.SweepResult, str, report.SweepContent]:
-    """Write the result of a finished sweep; return it, its document, and what reports show.
+    """Write the result of a finished sweep; return it, its document, and the content of reports.
 
     Raises OSError, and MissingChunksError.
     """
@@ -33,7 +33,7 @@ def publish(run: SweepRun, store: sweep.ChunkStore) -> tuple[report.SweepResult,
 def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
     content = report.read_sweep(folder, traces=report.draws_stops(run.formats))
     report.write_sweep_formats(folder, content, run.formats)
-    # The results are written already: a step summary that cannot be written is no reason to fail.
+    # The results are written already: a failure to write the step summary does not undo them.
     try:
         report.append_sweep_step_summary(content)
     except OSError as error:
@@ -44,10 +44,9 @@ def _write_reports(run: SweepRun, folder: Path) -> report.SweepContent:
 def _run_worst(
     run: SweepRun, indices: Sequence[int], folder: Path
 ) -> tuple[tuple[evaluation.CaseResult, ...], Mapping[str, report.CaseDescription]]:
-    """Run the worst cases again, with explanations and recordings, which go beside the tables.
+    """Run the worst cases again with explanations, and write their recordings next to the tables.
 
-    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt where it is
-    interrupted.
+    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
     """
     cases = sweep.full_cases(run.selection.plan, indices)
     shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)

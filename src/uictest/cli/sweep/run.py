@@ -27,7 +27,7 @@ from uictest.sweep import (
 
 @dataclass(frozen=True)
 class SweepRun:
-    """The cases of a sweep, how to run them, and where the results go."""
+    """The cases of a sweep, options of the run, and the folder of the results."""
 
     selection: CaseSelection
     manifest: dict[str, Any]
@@ -48,7 +48,7 @@ class SweepRun:
 
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
-    """`--maxfail` cases missed their expectation; the message has their number and the first."""
+    """`--maxfail` cases missed their expectation; the message gives their number and the first."""
 
 
 def run_missing_chunks(run: SweepRun, store: ChunkStore) -> None:
@@ -138,7 +138,7 @@ def _run_on_cluster(
 
 
 def prepared_runner(run: SweepRun) -> ChunkRunner:
-    """Return a runner whose rig is compiled, after a message where that takes time.
+    """Return a runner with a compiled rig, after a message if it must be compiled first.
 
     Raises InvalidInputError where the sweep needs a GPU and there is none.
     """
@@ -160,7 +160,7 @@ def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
             f"uictest: no CUDA device found ({error}); leave --device out to use the processor"
         ) from error
     except ImportError as error:
-        # The compiler for GPUs is imported at its first use, and belongs to the extra, too.
+        # The compiler for GPUs belongs to the extra as well, and is imported at its first use.
         raise InvalidInputError(
             "uictest: --device cuda needs the extra: pip install 'uictest[cuda]'"
         ) from error
