@@ -1,4 +1,4 @@
-"""The experiments of the paper, and ours about its rig; each compares its values with the paper's."""
+"""The experiments of the paper and our own about its rig; each compares its values with the paper's."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The comparison with the paper in words: the same in the table, the lines and the files."""
+"""The comparison with the paper in words, for the table, the lines and the files."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def band_text(quantity: StudyQuantity) -> str:
 
 
 def paper_text(study: Study) -> str:
-    """Return the sentence on what the paper says."""
+    """Return a sentence with the text of the paper."""
     if not study.paper:
         return "Our own study: the paper has no values to compare with."
     return f"The data of the paper's figures and tables are not public; its text says: {study.paper}."

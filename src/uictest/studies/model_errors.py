@@ -1,4 +1,4 @@
-"""Errors of each setting of the compensation against a caliper under the same valve commands."""
+"""Errors of each setting of the compensation, compared with a caliper under the same valve commands."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def model_errors(stop_runner: StopRunner, points: Sequence[Point]) -> list[Model
 
 
 def _errors(case: scenario.Case, stop: Recording, wheelset: int) -> dict[tuple[str, str], float]:
-    """Largest errors in % by key and setting."""
+    """Return the largest errors in %, by key and setting."""
     recording = replayed(case, stop, wheelset)
     top, cylinder = maximum_pressure(case), recording["tank_pressure_1"]
     measured = recording["clamping_force_1"]

@@ -1,4 +1,4 @@
-"""The slide test and its neighbours in friction and command, on both topologies, under many seeds."""
+"""Stops around the slide test: nearby friction and command, on both topologies, under many seeds."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Point:
 
 
 def neighbourhood(stop_runner: StopRunner) -> list[Point]:
-    """Return the nine points, friction slowest; stops that another study has run are not run again."""
+    """Return the nine points, friction slowest; stops of other studies are not run again."""
     changes = (_frictions(stop_runner), f"brake.command={','.join(_COMMANDS)}")
     one = stop_runner.cases("slide-80", *changes, f"rig.compensation={','.join(SETTINGS)}")
     four = stop_runner.cases("slide-80-four-caliper", *changes)

@@ -1,4 +1,4 @@
-"""A quantity of a study: its value, what the paper says of it, and the band it must lie in."""
+"""A quantity of a study: its value, the text of the paper, and the band in which it must lie."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ BandStatus = Literal["holds", "misses", "shown"]
 """`shown`: there is no band, the value is only shown."""
 
 NOT_PUBLIC = "not public"
-"""Stands for the paper's value where its text gives none."""
+"""Replaces the paper's value where its text gives none."""
 NOT_ASKED = "not asked"
-"""Stands for the paper's value where the question is ours alone."""
+"""Replaces the paper's value where only we ask the question."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class StudyQuantity:
         key: its name in files.
         title: its name for people.
         unit: unit of all its values; empty for a pure number.
-        paper: what the text of Lee and Kang (2015) says of it, in words.
+        paper: its value in the text of Lee and Kang (2015), in words.
         lower: least value that holds, itself included.
         upper: greatest value that holds; itself excluded where `below` is set.
         below: whether the value must stay below the upper bound.

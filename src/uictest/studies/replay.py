@@ -16,13 +16,13 @@ def replayed(
 ) -> recording.Recording:
     """Return the bench recording of both modules under the demand and the commands of one wheelset (1..4).
 
-    Only so do both modules obey the same commands: in the stop each obeys those of its own wheelset.
+    In the stop each module obeys the commands of its own wheelset, so the two cannot be compared there.
 
     Args:
         case: the case of the stop.
         stop: its recording, a sample every :data:`CYCLE`.
         wheelset: whose commands are given.
-        release: whether the brake is released in the end, without which there is no BC releasing.
+        release: whether the brake is released at the end; without it there is no BC releasing.
     """
     clock = bench.clock_of(case)
     commands = stop[f"valve_command_{wheelset}"]

@@ -47,7 +47,7 @@ def slope_spread(stop_loops: Sequence[Loop]) -> float:
 
 
 def slopes_table(stop_loops: Sequence[Loop], varied: str) -> Table:
-    """Return slope and intercept of every phase of every stop; `varied` names what was varied."""
+    """Return slope and intercept of every phase of every stop; `varied` names the varied parameter."""
     rows = [
         (loop.level, phase, loop.lines.lines.get(phase), loop.lines.largest_force)
         for loop in stop_loops

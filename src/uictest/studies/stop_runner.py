@@ -1,4 +1,4 @@
-"""Run the stops and bench tests of studies on the threads of this machine; a stop is run once."""
+"""Run the stops and bench tests of studies on threads; each stop is run once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Stops:
 
 
 class StopRunner:
-    """Runs the stops of studies, and remembers them.
+    """Runs the stops of studies, and caches them.
 
     Args:
         jobs: threads to simulate on.

@@ -30,7 +30,7 @@ class StudyFindings:
         values: the value of every quantity of the study, by key.
         tables: data, by the name of the file.
         drawings: what draws each figure, by the name of the file.
-        notes: sentences about the findings.
+        notes: sentences on the findings.
     """
 
     values: Mapping[str, StudyValue]
@@ -46,10 +46,10 @@ class Study:
     Args:
         name: its name on the command line.
         title: one line for people.
-        paper: what the text of the paper says, whose figure and table data are not public; empty where the
-            study is ours alone.
-        quantities: what is compared.
-        run: runs it.
+        paper: the statement of the paper's text; the data of its figures and tables are not public. Empty for
+            a study of our own.
+        quantities: those that are compared.
+        run: function that runs it.
         position: place in the list of studies: those of the paper in its order, then ours.
     """
 

@@ -16,7 +16,6 @@ BAND = "#e4eef5"
 BLUE, ORANGE, GREEN, PINK, SKY = "#0b6fb3", "#d4580a", "#0a8f6c", "#b8518f", "#6fb1dd"
 """After Okabe and Ito, darkened for print: distinguishable with colour vision deficiency."""
 
-MEASURED = INK
 WHEELSETS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
 SETTINGS = {"none": ORANGE, "hysteresis": PINK, "cylinder": GREEN, "full": BLUE, "four-caliper": INK}
 PHASES = {

@@ -1,1 +1,1 @@
-"""What a sweep varies: its file, its axes and draws, and the values of each case."""
+"""Plan a sweep: its file, its axes and draws, and the values of each case."""

@@ -144,15 +144,15 @@ class _Reader:
         plan_size = 1
         for group in groups:
             plan_size *= group.size
-        longest = sum(_longest_label(group) for group in groups) + len(self._file.name) + 2
+        longest_id = sum(_longest_label(group) for group in groups) + len(self._file.name) + 2
         if plan_size > MOST_CASES:
             hint = "draw a sample instead of every combination"
             raise single_error(
                 self._tree.place, f"{plan_size} cases; at most {MOST_CASES} are accepted", hint=hint
             )
-        if longest > LONGEST:
+        if longest_id > LONGEST:
             raise single_error(
-                self._tree.place, f"case ids of up to {longest} characters; {LONGEST} are accepted"
+                self._tree.place, f"case ids of up to {longest_id} characters; {LONGEST} are accepted"
             )
 
     def _raise_diagnostics(self) -> None:

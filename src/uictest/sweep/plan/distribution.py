@@ -23,9 +23,9 @@ def quantile(distribution: Distribution) -> Quantile:
         return _place(len(distribution.choice))
     if distribution.normal is not None:
         return _cut_off_normal(distribution.normal)
-    amounts = distribution.uniform or distribution.log_uniform or distribution.triangular
-    assert amounts is not None
-    numbers = [float(amount.number) for amount in amounts]
+    quantities = distribution.uniform or distribution.log_uniform or distribution.triangular
+    assert quantities is not None
+    numbers = [float(quantity.number) for quantity in quantities]
     if distribution.log_uniform is not None:
         return _log_uniform(*numbers)
     return _triangular(*numbers) if distribution.triangular is not None else _uniform(*numbers)
@@ -56,7 +56,7 @@ def _triangular(low: float, mode: float, high: float) -> Quantile:
 
 def _cut_off_normal(normal: Normal) -> Quantile:
     mean, deviation, low, high = (
-        float(amount.number) for amount in (normal.mean, normal.deviation, normal.lower, normal.upper)
+        float(quantity.number) for quantity in (normal.mean, normal.deviation, normal.lower, normal.upper)
     )
     standard = _cut_off_standard_normal((low - mean) / deviation, (high - mean) / deviation)
     return lambda probabilities: np.clip(mean + deviation * standard(probabilities), low, high)

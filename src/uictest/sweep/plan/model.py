@@ -174,17 +174,17 @@ class Distribution(Model):
         if sum(value is not None for _, value in self) != 1:
             yield Inconsistency((), "give exactly one distribution", f"accepted: {', '.join(self._forms())}")
             return
-        amounts = self.uniform or self.log_uniform or self.triangular
-        if amounts is None:
+        values = self.uniform or self.log_uniform or self.triangular
+        if values is None:
             return
         key = "log-uniform" if self.log_uniform else self.form
-        numbers = [amount.number for amount in amounts]
-        if common_unit(amounts) is None:
+        numbers = [quantity.number for quantity in values]
+        if common_unit(values) is None:
             yield Inconsistency((key,), "the numbers of a distribution have different units", _ONE_UNIT)
         elif numbers != sorted(numbers) or numbers[0] == numbers[-1]:
-            yield Inconsistency((key,), f"the values must rise from {amounts[0]} to {amounts[-1]}")
+            yield Inconsistency((key,), f"the values must rise from {values[0]} to {values[-1]}")
         elif self.log_uniform and numbers[0] <= 0:
-            yield Inconsistency((key,), f"{amounts[0]} has no logarithm")
+            yield Inconsistency((key,), f"{values[0]} has no logarithm")
 
 
 class Sample(Model):

@@ -12,7 +12,7 @@ from uictest.sweep.plan.scenario_values import value_at
 
 @dataclass(frozen=True, slots=True)
 class DrawnRange:
-    """The bounds of a distribution, as written, and the scenario's own value."""
+    """The bounds of a distribution, as written, and the value of the scenario itself."""
 
     key: str
     low: Quantity

@@ -149,7 +149,7 @@ class Plan:
         return columns
 
     def ids(self, indices: Numbers) -> list[str]:
-        """Return the ids of the cases with the given indices: unique, and the same for ever."""
+        """Return the ids of the cases with the given indices: unique, and the same in every run."""
         labels_by_group = [
             group.labels(rows, self.short)
             for group, rows in zip(self.groups, self.rows(indices), strict=True)

@@ -49,7 +49,7 @@ def _sobol_run(dimensions: int, seed: int, first: int, count: int) -> Points:
 
     engine: Any = qmc.Sobol(dimensions, scramble=True, rng=seed)
     if first == 0:
-        # scipy warns of a first draw whose size is not a power of two.
+        # scipy warns if the size of the first draw is not a power of two.
         count = 1 << (count - 1).bit_length()
     else:
         engine.fast_forward(first)

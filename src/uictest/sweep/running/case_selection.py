@@ -1,4 +1,4 @@
-"""Which cases of a sweep are selected, and how they are divided into chunks."""
+"""The selected cases of a sweep, and their division into chunks."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class CaseSelection:
 
 
 def select_cases(plan: Plan, expression: str | None, device: Device = "cpu") -> CaseSelection:
-    """Return the cases for whose id, sweep file or tag an expression is true. Raises ExpressionError."""
+    """Return the cases whose id, sweep file or tags match an expression. Raises ExpressionError."""
     if expression is None:
         return CaseSelection(plan, device=device)
     matches = parse(expression)

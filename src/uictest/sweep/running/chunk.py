@@ -27,7 +27,7 @@ WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _CHUNKS_AHEAD = 2
 """Chunks that wait or are ready beyond those in progress: bounds memory."""
-# Reading a field of a numpy record takes ten times as long as one of a tuple, and judging reads many.
+# Judging reads many fields, and a numpy record takes ten times as long to read as a tuple.
 _tuple_of: Any = namedtuple
 _Stop = _tuple_of("_Stop", STOP_MEASURES.names)
 _Wheelset = _tuple_of("_Wheelset", WHEELSET_MEASURES.names)
@@ -83,7 +83,7 @@ class ChunkRunner:
         try:
             wheelsets = [_Wheelset(*wheelset) for wheelset in stop[1]]
             return evaluate_simulated(case, _Stop(*stop[0]), wheelsets, explain=False)
-        except Exception as error:  # one case that cannot be judged is a row, never the end of the sweep
+        except Exception as error:  # a case that cannot be judged becomes a row and does not end the sweep
             return error_result(case, f"{type(error).__name__}: {error}")
 
 
@@ -97,7 +97,7 @@ def run_on_threads(
 ) -> None:
     """Run the chunks with the given numbers; `write_chunk` gets each in this thread, in this order.
 
-    Whatever ends this function, a KeyboardInterrupt too, the chunks that `write_chunk` got are kept.
+    After any exception, KeyboardInterrupt included, the chunks that `write_chunk` got are kept.
     """
     jobs = min(jobs, len(numbers)) or 1
     with ThreadedMap(

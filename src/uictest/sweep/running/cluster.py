@@ -49,9 +49,8 @@ def run_on_cluster(
 ) -> None:
     """Run chunks on the cluster whose scheduler is at `address`; `write_chunk` gets each when it is finished.
 
-    A chunk whose worker dies is given to another worker. Where there is no worker at the start, `on_wait` is
-    called once.
-    Raises ClusterError; ImportError without the extra `dask`.
+    A chunk whose worker dies is given to another worker. If there is no worker at the start, `on_wait` is
+    called once. Raises ClusterError; ImportError without the extra `dask`.
     """
     with _connected(address) as client:
         results = _results(client, selection, iter(numbers), on_wait)
@@ -60,7 +59,7 @@ def run_on_cluster(
 
 
 def _with_cluster_errors(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[tuple[int, bytes]]:
-    """Pass results on. An error of the cluster becomes a ClusterError, one of the caller's does not."""
+    """Yield the results. Errors of the cluster become ClusterError, those of the caller do not."""
     try:
         yield from results
     except _errors() as error:
@@ -72,7 +71,7 @@ def _summary_of(error: Exception) -> str:
 
 
 def _silence_distributed() -> None:
-    """Keep the log of distributed off stderr: what matters arrives as an error."""
+    """Keep the log of distributed off stderr: errors arrive as exceptions."""
     for name in list(logging.root.manager.loggerDict):
         if name.partition(".")[0] == "distributed":
             logging.getLogger(name).setLevel(logging.CRITICAL)

@@ -1,4 +1,4 @@
-"""What simulates the cases of a block: the lanes of this processor, or a GPU."""
+"""Devices that simulate the cases of a block: the SIMD lanes of the processor, or a GPU."""
 
 from __future__ import annotations
 

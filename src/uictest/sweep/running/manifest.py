@@ -1,4 +1,4 @@
-"""Everything that the results of a sweep depend on: equal manifests mean equal results."""
+"""Manifest of a sweep, with everything that its results depend on: equal manifests, equal results."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _LABELS: Final = {
     "device": "--device",
     "cases_in_a_part": "cases per chunk",
 }
-"""Names that users know entries by, where these differ from the keys."""
+"""Key -> the name that users know it by, where the two differ."""
 
 
 def sweep_manifest(
@@ -39,7 +39,7 @@ def sweep_manifest(
     """Return the manifest of a sweep, which does not depend on the machine.
 
     Files are named relative to the sweep file, so that the manifest is the same from every working folder;
-    but `file`, which people and GitHub look up, is named as the user named it.
+    but `file`, which people and GitHub look up, is the path that the user gave.
     """
     plan = selection.plan
     folder = Path(plan.file).parent
@@ -67,7 +67,7 @@ def sweep_manifest(
 def manifest_differences(
     one: Mapping[str, Any], other: Mapping[str, Any], whose: tuple[str, str] = ("before", "now")
 ) -> Iterator[str]:
-    """Yield the differences of two manifests in words; `whose` says which of them has a value.
+    """Yield the differences of two manifests in words; `whose` names the two manifests.
 
     The name of the sweep file does not count, only its content.
     """

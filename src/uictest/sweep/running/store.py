@@ -1,4 +1,4 @@
-"""The finished chunks of a sweep on disk: files whose names hold the digest of their content."""
+"""The finished chunks of a sweep on disk: files whose names contain the digest of their content."""
 
 from __future__ import annotations
 

@@ -113,7 +113,7 @@ class FrontierSearch:
     def _cases(
         self, combinations: Sequence[int], numbers: Sequence[Decimal]
     ) -> tuple[Plan, NDArray[np.int64]]:
-        """Return a plan with these values of the parameter, and the indices of its cases with them."""
+        """Return a plan in which the parameter has these values, and the indices of its cases."""
         distinct = sorted(set(numbers))
         group = ListedGroup((self.key,), tuple((self._value(number),) for number in distinct))
         groups = list(self.plan.groups)
@@ -161,7 +161,7 @@ def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
 
 
 def _kind_of(example: Quantity, unit: str) -> str:
-    """Return a kind of quantity in which the unit has the meaning that it has for the example."""
+    """Return a kind of quantity in which the unit means the same as for the example."""
     kinds = (kind for kind in KINDS.values() if kind.canonical == example.unit)
     return next(kind.name for kind in kinds if (unit in kind.units if unit else kind.bare))
 

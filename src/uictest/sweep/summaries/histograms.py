@@ -60,7 +60,10 @@ def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
 
 @dataclass
 class HistogramCounts:
-    """Cases by bin of a measure and outcome: add the range of every chunk, then open the bins, then count."""
+    """Cases by bin of a measure and outcome.
+
+    Call `add_range` for every chunk, then `open_bins`, then `add` for every chunk.
+    """
 
     measure: ReportedMeasure
     minimum: float = np.inf

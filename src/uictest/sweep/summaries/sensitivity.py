@@ -15,7 +15,7 @@ Numbers = NDArray[np.float64]
 _RESAMPLES: Final = 200
 _CONFIDENCE: Final = 0.95
 _WIDE: Final = 0.2
-"""Width of a confidence interval above which an index says little: chosen."""
+"""Width of a confidence interval above which a note says so: chosen."""
 
 
 def uncertainty_note(sensitivities: Sequence[SobolSensitivity]) -> str:

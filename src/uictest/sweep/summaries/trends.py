@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 MOST_VALUES: Final = 200
-"""Values up to which a parameter has trends: with more, the rows themselves show it better."""
+"""Largest number of values for which a parameter has trends; with more, plot the rows themselves."""
 
 
 class TrendSums:
