@@ -104,7 +104,7 @@ def one_case(
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
     """Apply `use` to every file, and return its results.
 
-    Raises InvalidInputError with every file's error, ReadingInterruptedError where the machine ends the reading.
+    Raises InvalidInputError with every file's error, ReadingInterruptedError where reading was cut off.
     """
     results: list[Result] = []
     errors: list[str] = []

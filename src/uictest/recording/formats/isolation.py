@@ -34,7 +34,7 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
     Raises:
         UnreadableError: the file is no recording, damaged, or too large; the message says which.
         MissingExtraError: the library for its format is not installed.
-        BrokenOffError: the temporary folder is full, or the process that reads was killed.
+        ReadingInterruptedError: the temporary folder is full, or the process that reads was killed.
         OSError: the file cannot be opened.
 
     """
