@@ -116,7 +116,12 @@ def test_a_column_of_another_version_is_refused(results) -> None:
     document["cases"][0]["measures"] = {"braking_distance_m": 465.0}
     with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should have the columns braking_distance_m"):
         results_of(document)
-    document["cases"][0]["measures"] = dict.fromkeys(STOP_COLUMNS, "far")
+
+
+@pytest.mark.parametrize("value", ["far", True, 10**400])
+def test_a_measure_that_is_no_number_is_refused(results, value: object) -> None:
+    document = result_document(results)
+    document["cases"][0]["measures"] = dict.fromkeys(STOP_COLUMNS, value)
     with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should hold numbers only"):
         results_of(document)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -23,9 +24,14 @@ def _columns(content: object, known: Collection[str]) -> dict[str, float]:
     """Return the numbers of a document in these columns, null as NaN."""
     if not isinstance(content, Mapping) or set(content) != set(known):
         raise ValueError(f"Input should have the columns {', '.join(known)}")
-    if any(value is not None and type(value) not in (int, float) for value in content.values()):
+    if not all(value is None or _is_number(value) for value in content.values()):
         raise ValueError("Input should hold numbers only")
     return {name: math.nan if (value := content[name]) is None else value for name in known}
+
+
+def _is_number(value: object) -> bool:
+    # JSON writes whole numbers of any length; one beyond the largest float is no measure.
+    return type(value) is float or (type(value) is int and abs(value) <= sys.float_info.max)
 
 
 _finite = PlainSerializer(json_form)
