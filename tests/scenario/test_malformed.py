@@ -238,6 +238,11 @@ PARTS: list[Row] = [
         *(4, 42, "vehicle.body.mas", "unknown key 'mas'", "'mass'"),
     ),
     (
+        "key of another algorithm",
+        HEAD + "controller: {extends: slip-band, deep_slide: 30 %}\n",
+        *(4, 34, "controller.deep_slide", "unknown key 'deep_slide'", "'upper_slide'"),
+    ),
+    (
         "inline part in part",
         HEAD + "vehicle:\n  body: {mass: 30 t, pitch_inertia: 1e6 kg m2}\n",
         *(5, 3, "vehicle.body.height", "missing key 'height'", "centre of gravity"),

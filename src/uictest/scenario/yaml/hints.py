@@ -32,8 +32,11 @@ _SWITCHED: Final = {
 }
 
 
-def hint_for_key(model: Any, key: Key, node: Node) -> str:
-    """What to write instead of an unknown ``key`` of ``model`` that holds ``node``."""
+def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
+    """What to write instead of an unknown ``key`` of ``model`` that holds ``node``.
+
+    ``written`` is the key without tags: another member of the union there may have it, which is no place.
+    """
     name = str(key[-1])
     accepted = accepted_keys(model, key[:-1])
     half = _half(name, accepted)
@@ -43,7 +46,7 @@ def hint_for_key(model: Any, key: Key, node: Node) -> str:
     longer = longer_name(name, accepted)
     if longer is not None:
         return f"did you mean '{longer}'?"
-    places = [".".join(place) for place in _places(model, name)]
+    places = [".".join(place) for place in _places(model, name) if place != written]
     if len(places) == 1:
         return f"did you mean {places[0]}?"
     return f"keys of that name: {', '.join(places)}" if places else suggestion(name, accepted)

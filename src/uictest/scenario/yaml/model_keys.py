@@ -25,7 +25,10 @@ def fields_named(model: Any, key: Key, name: str) -> Iterator[Any]:
 
 
 def models_at(model: Any, key: Key) -> list[Any]:
-    """The models that the mapping at ``key`` may be; indices, names in a dict and tags are skipped."""
+    """The models that the mapping at ``key`` may be; indices and names in a dict are skipped.
+
+    A tag, which pydantic puts into the key, selects the member of a union.
+    """
     here = models_in(model)
     for element in key:
         inner = [
@@ -34,8 +37,21 @@ def models_at(model: Any, key: Key) -> list[Any]:
             for name, field in each.model_fields.items()
             if element in (name, field.alias)
         ]
-        here = [inner_model for annotation in inner for inner_model in models_in(annotation)] or here
+        within = [inner_model for annotation in inner for inner_model in models_in(annotation)]
+        here = within or _members(here, element) or here
     return here
+
+
+def _members(models: list[Any], tag: str | int) -> list[Any]:
+    return [
+        each
+        for each in models
+        if any(_is_literal(field.annotation, tag) for field in each.model_fields.values())
+    ]
+
+
+def _is_literal(annotation: Any, value: object) -> bool:
+    return get_origin(annotation) is Literal and get_args(annotation) == (value,)
 
 
 def models_in(annotation: Any) -> list[Any]:

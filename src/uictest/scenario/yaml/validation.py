@@ -84,12 +84,11 @@ def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key 
 def _unknown_key(key: Key, model: Any, tree: Node, prefix: Key) -> Diagnostic:
     entry, _ = entry_at(tree, key)
     name = str(key[-1])
-    hint = hint_for_key(model, key, entry.node)
+    written = _written_key(key, tree)
+    hint = hint_for_key(model, key, written, entry.node)
     if "." in name:
         hint = "dotted keys belong in matrix, zip, include, exclude and --set; write nested keys here"
-    return diagnose(
-        entry.key, f"unknown key {quoted(name)}", dotted((*prefix, *_written_key(key, tree))), hint
-    )
+    return diagnose(entry.key, f"unknown key {quoted(name)}", dotted((*prefix, *written)), hint)
 
 
 def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, prefix: Key) -> Diagnostic:
