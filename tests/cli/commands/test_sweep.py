@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from uictest import rig, sweep as room
+from uictest import report, rig, sweep as room
 from uictest.sweep.running.chunk import ChunkRunner
 
 from ..conftest import HANGING, Start
@@ -98,6 +98,11 @@ def test_merged_shards_are_the_whole(call: Call, study: Path, counted: list[int]
     assert counted == []
     assert contents("merged/study") == contents("whole/study")
     assert call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "shard1/study").code == 4
+
+
+def test_help_names_the_formats_of_a_sweep(call: Call) -> None:
+    help_text = " ".join(call("sweep", "--help").out.split())
+    assert f"joined by commas: {', '.join(report.SWEEP_FORMATS)}. [default" in help_text
 
 
 def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:
