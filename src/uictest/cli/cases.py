@@ -42,7 +42,7 @@ def load_cases(
         raise InvalidInputError(str(errors)) from errors
 
 
-def select_cases(
+def select_by_options(
     cases: Sequence[scenario.Case], expression: str | None, tag: str | None
 ) -> list[scenario.Case]:
     """Return the cases that `-k` and `-m` select. Raises typer.BadParameter for a malformed expression."""

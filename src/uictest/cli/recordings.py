@@ -10,7 +10,7 @@ from typing import Annotated, TypeVar
 import typer
 
 from uictest import field_data, scenario
-from uictest.cli.cases import load_cases, select_cases
+from uictest.cli.cases import load_cases, select_by_options
 from uictest.cli.exit_codes import InvalidInputError
 from uictest.recording import formats
 from uictest.scenario import yaml
@@ -92,7 +92,7 @@ def one_case(
     path: Path, expression: str | None, overrides: Sequence[str], trusted: Sequence[Path] | None
 ) -> scenario.Case:
     """Return the one case of a scenario file. Raises InvalidInputError where there are several or none."""
-    cases = select_cases(load_cases([path], overrides, None, trusted), expression, None)
+    cases = select_by_options(load_cases([path], overrides, None, trusted), expression, None)
     if len(cases) != 1:
         ids = ", ".join(case.id for case in cases[:8]) or "none is selected"
         raise InvalidInputError(

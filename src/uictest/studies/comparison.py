@@ -48,9 +48,9 @@ def lines(result: StudyResult) -> list[str]:
     return shown + [f"  {note}" for note in result.findings.notes]
 
 
-def comparison_table(result: Sequence[StudyResult]) -> Table:
+def comparison_table(results: Sequence[StudyResult]) -> Table:
     """Return every comparison of every study as columns of `comparison.csv`."""
-    rows = [(each.study, comparison) for each in result for comparison in each.comparisons]
+    rows = [(each.study, comparison) for each in results for comparison in each.comparisons]
     quantities = [comparison.quantity for _, comparison in rows]
     return {
         "study": [study.name for study, _ in rows],

@@ -13,9 +13,9 @@ from uictest.studies.study import StudyResult
 SCHEMA = "uictest/studies/1"
 
 
-def document(result: Sequence[StudyResult]) -> str:
+def document(results: Sequence[StudyResult]) -> str:
     """Return the document as JSON; a value that is not finite is null."""
-    return json.dumps({"schema": SCHEMA, "studies": [_study(each) for each in result]}, indent=2)
+    return json.dumps({"schema": SCHEMA, "studies": [_study(each) for each in results]}, indent=2)
 
 
 def _study(result: StudyResult) -> dict[str, Any]:

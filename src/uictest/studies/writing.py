@@ -25,11 +25,11 @@ def write_tables(folder: Path, result: StudyResult) -> list[Path]:
     return written
 
 
-def write_comparison(folder: Path, result: Sequence[StudyResult]) -> None:
+def write_comparison(folder: Path, results: Sequence[StudyResult]) -> None:
     """Write the comparison with the paper into `comparison.csv` and `studies.json`. Raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
-    write_text_atomic(folder / "comparison.csv", table_text(comparison_table(result)))
-    write_text_atomic(folder / "studies.json", document(result) + "\n")
+    write_text_atomic(folder / "comparison.csv", table_text(comparison_table(results)))
+    write_text_atomic(folder / "studies.json", document(results) + "\n")
 
 
 def write_figures(folder: Path, result: StudyResult) -> list[Path]:

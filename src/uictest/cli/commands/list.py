@@ -7,7 +7,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from uictest.cli import sweep as sweeping
-from uictest.cli.cases import case_lines, case_table, cases_json, load_cases, nothing_selected, select_cases
+from uictest.cli.cases import (
+    case_lines,
+    case_table,
+    cases_json,
+    load_cases,
+    nothing_selected,
+    select_by_options,
+)
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
 from uictest.cli.output import data, message, terminal_width
@@ -26,7 +33,7 @@ def list_cases(
     if paths and all(map(sweeping.is_sweep, paths)):
         return _list_sweeps(paths, expression, overrides, trusted)
     cases = load_cases(paths, overrides, None, trusted)
-    selected = select_cases(cases, expression, tag)
+    selected = select_by_options(cases, expression, tag)
     if not selected:
         message(nothing_selected(cases))
         return ExitCode.NOTHING_SELECTED

@@ -16,7 +16,7 @@ from uictest.cli.cases import (
     load_cases,
     nothing_selected,
     scenario_paths,
-    select_cases,
+    select_by_options,
 )
 from uictest.cli.exit_codes import ExitCode, of_batch, worst
 from uictest.cli.output import data, message
@@ -106,7 +106,7 @@ def _selected(
     cases: Sequence[scenario.Case], expression: str | None, tag: str | None, last_run: Path | None
 ) -> list[scenario.Case]:
     """Return the cases selected by expression and tag, and by their last run below `last_run`, if given."""
-    selected = select_cases(cases, expression, tag)
+    selected = select_by_options(cases, expression, tag)
     return selected if last_run is None else running.failed_last(selected, last_run)
 
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, sweep as room
+from uictest import report, sweep as sweeps
 from uictest.cli import sweep as sweeping
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import (
@@ -144,7 +144,9 @@ def sweep(
         return ExitCode.MET
     run = sweeping.SweepRun(
         selection=selection,
-        manifest=room.sweep_manifest(selection, expression=expression, overrides=overrides or (), seed=seed),
+        manifest=sweeps.sweep_manifest(
+            selection, expression=expression, overrides=overrides or (), seed=seed
+        ),
         folder=output / plan.name,
         jobs=1 if device is Device.CUDA else jobs,
         shard=sweeping.shard_of(shard),
