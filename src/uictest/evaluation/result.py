@@ -88,7 +88,7 @@ class CaseResult:
 
     @property
     def met(self) -> bool:
-        """Whether the outcome is the expected one; a skipped case meets only the expectation `pass`."""
+        """Whether the outcome is the expected one; a skipped case counts as `pass`."""
         return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
 
 

@@ -17,7 +17,7 @@ _LONGEST_REST = 2.0
 _LONGEST_DROPOUT = 1.0
 """s after a fall of which the train must be slow for more than half; chosen."""
 _LEAST_DECELERATION, _LARGEST_DECELERATION = 0.01, 20.0
-"""m/s2: less than a train loses that rolls out, and twice the acceleration of gravity; chosen."""
+"""m/s2: less than that of a train that coasts, and twice the acceleration of gravity; chosen."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,7 +54,7 @@ class Estimate:
         if self.standing == "not reached":
             return f"{self.name}: no wheelset came there"
         if self.standing == "at least":
-            return f"{self.name}: at least {self.value:.4f}; nothing slid there, so the data cannot tell more"
+            return f"{self.name}: at least {self.value:.4f}; nothing slid there, so it may be higher"
         share = 100.0 * self.half_width / self.value
         return f"{self.name}: {self.value:.4f} +- {self.half_width:.4f} ({share:.1f} %, 95 % confidence)"
 

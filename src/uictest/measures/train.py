@@ -45,7 +45,7 @@ def observe_train(
     speed: float,
     reservoir_pressure: float,
 ) -> None:
-    """Take in the next sample, after the wheelsets' (s since the command, m, m/s, Pa gauge)."""
+    """Observe the next sample, after those of the wheelsets (s since the command, m, m/s, Pa gauge)."""
     _observe_deceleration(measures, definition, time, speed)
     measures.reservoir_minimum_pressure = minimum(measures.reservoir_minimum_pressure, reservoir_pressure)
     measures.previous_time = measures.end_time

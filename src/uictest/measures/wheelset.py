@@ -40,7 +40,7 @@ def observe_wheelset(
     venting: float,
     clamping_force: float,
 ) -> None:
-    """Take in the next sample of wheelset ``number`` (1..4), before the train's.
+    """Observe the next sample of wheelset ``number`` (1..4), before the train's.
 
     Args:
         measures: measures of the wheelset.
@@ -81,7 +81,7 @@ def keep_slide(
     if not speed > definition.moving_speed:
         return
     k = _highest_class_below(speed)
-    # What counts above one speed counts above every lower one: where one class has as much, so have those.
+    # A slide counts above every lower speed, too: once a class holds as much, so do all classes below.
     while k >= 0 and not measures.maximum_slide_above[k] >= samples.slide:
         measures.maximum_slide_above[k] = samples.slide
         k -= 1

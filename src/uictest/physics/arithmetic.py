@@ -70,11 +70,12 @@ def sqrt(x: float) -> float:
 def fma(a: float, b: float, c: float) -> float:
     """Return a b + c rounded once (IEEE 754 fusedMultiplyAdd).
 
-    Where a compiler may choose what to fuse, machines round differently; so we choose. Compiled code uses the
-    processor's instruction where it has one. This is what it computes, in operations that every machine has:
-    product and sum are found exactly, as sums of numbers, then rounded (S. Boldo and G. Melquiond, Emulation
-    of FMA and correctly rounded sums, IEEE Trans. Computers 57 (2008) 462-471). Where numbers exceed 1e290 or
-    the product is below 1e-290, the product is rounded before it is added.
+    A compiler that may choose what to fuse rounds differently on each machine, so the source chooses.
+    Compiled code uses the processor's instruction where it has one. This is what it computes, in
+    operations that every machine has: product and sum are found exactly, as sums of numbers, then rounded
+    (S. Boldo and G. Melquiond, Emulation of FMA and correctly rounded sums, IEEE Trans. Computers 57
+    (2008) 462-471). Where numbers exceed 1e290 or the product is below 1e-290, the product is rounded
+    before it is added.
     """
     product = a * b
     high, low = _exact_sum(c, _lost(a, b, product))

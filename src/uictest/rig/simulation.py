@@ -44,7 +44,7 @@ def simulate(case: Case, record_every: float | None = None) -> SimulatedStop:
 
 
 def is_compiled(cases: Iterable[Case]) -> bool:
-    """Return whether the rig lies compiled in the cache for the controllers of these cases."""
+    """Return whether the cache holds the rig with the controllers of these cases."""
     return stops_are_compiled(controller_of(case.scenario) for case in cases)
 
 

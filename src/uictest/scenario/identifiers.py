@@ -15,7 +15,7 @@ _UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
 
 
 def case_id(name: str, variant: Variant, short: dict[str, str]) -> str:
-    """``name`` or ``name[friction=0.10,command=90]``; ``short`` says what each swept key is called."""
+    """``name`` or ``name[friction=0.10,command=90]``; ``short`` maps swept keys to their short names."""
     if not variant:
         return name
     return f"{name}[{','.join(f'{short[setting.key]}={value_label(setting)}' for setting in variant)}]"

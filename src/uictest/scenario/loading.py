@@ -111,9 +111,8 @@ class _Loader:
         # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
         variants = expand_valid(merged, self.diagnostics)
         if self.overrides:
-            variants = distinct(
-                variants
-            )  # cases that differed in a key that the command line fixes are one now
+            # Cases that differed only in a key that the command line sets are the same now.
+            variants = distinct(variants)
         short = short_keys(list(dict.fromkeys(setting.key for variant in variants for setting in variant)))
         return _ScenarioFile(path, base, documents, short), variants
 

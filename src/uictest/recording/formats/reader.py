@@ -26,7 +26,7 @@ from uictest.recording.formats.problems import MissingExtraError, UnreadableErro
 
 _LONGEST_REASON = 500
 _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
-"""What writing temporary files fails by, and reading a file never."""
+"""Errors of writing temporary files; reading a file never raises them."""
 
 
 def main(name: str, path: str, dialect: str) -> int:
@@ -39,7 +39,7 @@ def main(name: str, path: str, dialect: str) -> int:
     except UnreadableError as error:
         return _reject(str(error), REJECTED)
     except MemoryError:
-        return _reject("it asks for more memory than reading may take", TOO_LARGE)
+        return _reject("reading it needs more memory than is allowed", TOO_LARGE)
     # A library that meets a damaged file may raise anything at all.
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:

@@ -131,9 +131,9 @@ def _run(controller: Controller, parameters: Any, rail: NDArray[np.float64]) -> 
 
 @contextmanager
 def without_contraction() -> Iterator[None]:
-    """Compile without fusing what is written apart, so that a GPU rounds as a processor does.
+    """Compile without fusing separate operations, so that a GPU rounds as a processor does.
 
-    numba-cuda hands its options to the compiler in one place and has no option of its own for this one.
+    numba-cuda has no option for it, but passes its options to the compiler in one function, replaced here.
     """
     from numba.cuda.cudadrv import nvvm
 

@@ -63,7 +63,7 @@ def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running
     align_stack()
     started = 0
     for k in range(running.size):
-        # A lane that finds the queue empty steps this case, and so meets no numbers that a case does not.
+        # A lane for which no case is left steps this one: its numbers stay those of a stop.
         _set_to_start(lanes, blank, cases.parameters[queue[0]], k)
         started = _start_next_case(lanes, blank, cases, queue, running, started, k)
     ended = 0

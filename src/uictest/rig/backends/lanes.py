@@ -44,8 +44,8 @@ def run_in_lanes(
 ) -> BatchMeasures:
     """Run the stop of every case; each gives the same bits as alone, whatever its neighbours.
 
-    Other threads may run meanwhile, on batches of their own. The first batch on a machine takes some
-    seconds more, for compilation.
+    Other threads may run batches of their own meanwhile. The first batch on a machine takes some seconds
+    more, since the lanes are compiled.
 
     Args:
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (cases,).
@@ -64,7 +64,7 @@ def run_in_lanes(
 
 
 def lanes_are_compiled(controllers: Iterable[Controller]) -> bool:
-    """Return whether the lanes of this processor lie compiled in the cache for these controllers."""
+    """Return whether the cache holds the lanes of this processor for these controllers."""
     return all(is_kept(_name(controller, register_width())) for controller in set(controllers))
 
 
@@ -157,9 +157,9 @@ def _compile(controller: Controller, width: int) -> Any:
 
 
 def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
-    """Return what lanes, a rig and cases are to compiled code, and the loop over a queue of cases.
+    """Return the types of lanes, of a rig and of cases, and the loop over a queue of cases.
 
-    What has no branches is translated for lanes, the rest for one.
+    Functions without branches are translated for all lanes at once, the others for one lane.
     """
     from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
 

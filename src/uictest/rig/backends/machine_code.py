@@ -1,7 +1,7 @@
-"""Compiled functions as object files: a warm start needs what the compiler made, not the compiler.
+"""Compiled functions as object files: a warm start loads them without the compiler.
 
-To import numba, and have it find code in its own cache, takes longer than a dozen stops. Its code
-generator alone loads a file in a tenth of that.
+Importing numba and finding code in its own cache takes longer than a dozen stops. Its code generator alone
+loads an object file in a tenth of that time.
 """
 
 import ctypes
@@ -37,14 +37,14 @@ def native_function(name: str, callback: Callable[[], Any], arguments: int) -> C
 
 
 def is_kept(name: str) -> bool:
-    """Whether a function lies compiled in the cache, so that it can be called at once."""
+    """Return whether a function is in the cache, so that it can be called without compiling."""
     return _kept(name) is not None
 
 
 def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
-    """Return where a record or an array begins. Machine code would believe any other layout, too.
+    """Return the address of a record or an array. Machine code does not check the layout behind it.
 
-    Raises TypeError where it is not laid out so.
+    Raises TypeError for another layout or shape.
     """
     if values.dtype != layout or values.shape != shape or not values.flags.c_contiguous:
         raise TypeError(
@@ -81,7 +81,7 @@ def object_file(callback: Any, name: str) -> bytes:
         if not function.is_declaration and function.name != name:
             function.linkage = "internal"
     machine = _machine()
-    # What only calls from Python need would not be found where numba is not loaded.
+    # Code for calls from Python refers to symbols that are there only where numba is loaded.
     unused = binding.create_new_module_pass_manager()
     unused.add_global_dead_code_eliminate_pass()
     unused.run(module, binding.create_pass_builder(machine, binding.create_pipeline_tuning_options()))
@@ -89,7 +89,7 @@ def object_file(callback: Any, name: str) -> bytes:
 
 
 def load_object_file(code: bytes) -> Any:
-    """Load an object file into this process; what is returned knows its addresses and keeps it there."""
+    """Load an object file into this process and return what gives its addresses and keeps it loaded."""
     from llvmlite import binding
 
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine())

@@ -31,7 +31,7 @@ _ARGUMENTS = (
 
 
 def stops_are_compiled(controllers: Iterable[Controller]) -> bool:
-    """Return whether the stop with each of these controllers lies compiled in the cache."""
+    """Return whether the cache holds the stop with each of these controllers."""
     return all(is_kept(_name(controller)) for controller in set(controllers))
 
 

@@ -34,7 +34,7 @@ from uictest.units import BAR
 def bench_input(test: BenchTest) -> BenchInput:
     """Return demanded pressures and valve commands of a recipe; stops that it replays are simulated.
 
-    Raises as reading a recording does.
+    Raises UnsuitableRecordError or OSError for a recording that cannot be used.
     """
     clock = clock_of(test.case)
     return joined_inputs(_segment(segment, test, clock) for segment in test.recipe.inputs)

@@ -114,6 +114,6 @@ def recorded_input(
     if commands is None:
         return BenchInput(demanded_pressures, np.full(cycles, FILL))
     middles = (np.arange(cycles) + 0.5) * clock.cycle_time
-    # A sample says which command was in force when it was taken, hence since the one before it.
+    # A sample holds the command in force when it was taken, that is since the sample before it.
     at = np.searchsorted(times - start, middles, side="left")
     return BenchInput(demanded_pressures, commands[np.minimum(at, len(commands) - 1)].astype(np.int64))

@@ -18,7 +18,7 @@ _COUNT = len(SETTINGS)
 
 
 def is_compiled() -> bool:
-    """Return whether the bench lies compiled in the cache, so that a test starts at once."""
+    """Return whether the cache holds the compiled bench, so that a test starts at once."""
     return is_kept(_NAME)
 
 

@@ -20,7 +20,7 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
     """Advance caliper and compensation of one module and choose the force that the vehicle receives.
 
     A module with a caliper gives what its loadcells read. A module without one gives the force computed
-    from its pressure sensor. Both have a computed force, so that it can be held against the measured
+    from its pressure sensor. Both have a computed force, so that it can be compared with the measured
     one.
     """
     gauge = wheelset.pressure - p.atmospheric_pressure

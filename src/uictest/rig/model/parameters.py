@@ -11,7 +11,7 @@ from uictest.record import derived, from_scenario, layout_of
 
 
 def inverse(value: float) -> float:
-    """Return 1 / ``value``: the step multiplies, for a division takes as long as dozens of products."""
+    """Return 1 / ``value``: the step multiplies, since a division takes as long as dozens of products."""
     return 1.0 / value
 
 

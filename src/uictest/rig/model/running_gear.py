@@ -2,7 +2,7 @@
 
 All forces come from the state at the beginning of the step; speeds are advanced first and positions
 with the new speeds (semi-implicit Euler), which keeps the energy of the suspensions bounded without
-damping of its own. Only the creep force is implicit, for it alone is stiff.
+damping of its own. Only the creep force is implicit, since only it is stiff.
 """
 
 from uictest.physics import (
@@ -30,9 +30,9 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 
 LOWEST_LOAD = 0.2
-"""Share of the reference load below which a wheel's load is not followed: far beyond what braking unloads."""
+"""Smallest load of a wheel, share of the reference load: far less than braking leaves; chosen."""
 HIGHEST_LOAD = 2.5
-"""Share of the reference load beyond which the contact ellipse grows no more."""
+"""Share of the reference load beyond which the contact ellipse stays as it is; chosen."""
 
 
 def clear_forces(frame: Frame) -> None:
