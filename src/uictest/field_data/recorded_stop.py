@@ -113,16 +113,29 @@ def prepare(
     defects += _cut_off(speed, trigger, rest)
     recording, standstill = _on_raster(filtered, trigger, rest, raster, tuple(defects))
     choices = {
-        "trigger": trigger.text,
-        "raster": f"{1e3 * raster:.6g} ms, signals linear, states held",
-        "standstill_speed": f"{preparation.standstill_speed.text} (chosen)",
-        "standstill": rest.text if rest else "not in the record",
-        "distance": "recorded" if "distance" in filtered else "integrated from speed",
+        **_choices(preparation, trigger, rest, raster, filtered),
         "filter": _filter_text(preparation, plausible, filtered),
         "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
     }
     intervals = {name: usual_interval(channel.time) for name, channel in filtered.items()}
     return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals)
+
+
+def _choices(
+    preparation: Preparation,
+    trigger: BrakeCommand,
+    rest: Standstill | None,
+    raster: float,
+    channels: Channels,
+) -> dict[str, str]:
+    """Return how trigger, raster, standstill and distance of a stop were chosen."""
+    return {
+        "trigger": trigger.text,
+        "raster": f"{1e3 * raster:.6g} ms, signals linear, states held",
+        "standstill_speed": f"{preparation.standstill_speed.text} (chosen)",
+        "standstill": rest.text if rest else "not in the record",
+        "distance": "recorded" if "distance" in channels else "integrated from speed",
+    }
 
 
 def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:

@@ -77,28 +77,35 @@ def identify_cylinder(
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
     """
-    require_finite({"time": time, "tank_pressure": tank_pressure, "cylinder_pressure": cylinder_pressure})
-    require_duration(time, _SHORTEST)
-    step = sampling_time(time, _LONGEST_STEP)
-    require_excitation("tank_pressure", tank_pressure, step)
-    require_excitation("cylinder_pressure", cylinder_pressure, step)
-    _require_dynamics(tank_pressure, cylinder_pressure)
+    step = _required_sampling_time(time, tank_pressure, cylinder_pressure)
     is_held_out = held_out(len(time), held_out_share)
-    parts = applications(tank_pressure, cylinder_pressure, step)
-    if not any(is_held_out[part].any() and not is_held_out[part].all() for part in parts):
+    brakings = applications(tank_pressure, cylinder_pressure, step)
+    if not any(is_held_out[braking].any() and not is_held_out[braking].all() for braking in brakings):
         raise UnsuitableRecordError("no brake application: the pressures must rise from rest and hold")
-    segments = [_segment(tank_pressure[part], cylinder_pressure[part], ~is_held_out[part]) for part in parts]
+    segments = [
+        _segment(tank_pressure[braking], cylinder_pressure[braking], ~is_held_out[braking])
+        for braking in brakings
+    ]
     poles, weights = refined(segments, step, least_squares_weights)
     if criterion == "largest-error":
         poles, weights = refined(segments, step, least_largest_weights, poles)
     model = assembled(poles, weights, step)
-    computed = [model.output(tank_pressure[part])[is_held_out[part]] for part in parts]
-    recorded = [
-        tuple(samples[part][is_held_out[part]] for samples in (tank_pressure, cylinder_pressure))
-        for part in parts
-    ]
-    tank, cylinder = (np.concatenate(column) for column in zip(*recorded, strict=True))
-    return _assessed(model, tank, cylinder, np.concatenate(computed))
+    computed = [model.output(tank_pressure[braking]) for braking in brakings]
+    held = np.concatenate([is_held_out[braking] for braking in brakings])
+    tank = np.concatenate([tank_pressure[braking] for braking in brakings])
+    cylinder = np.concatenate([cylinder_pressure[braking] for braking in brakings])
+    return _assessed(model, tank[held], cylinder[held], np.concatenate(computed)[held])
+
+
+def _required_sampling_time(time: Samples, tank: Samples, cylinder: Samples) -> float:
+    """Return the sampling time of a record in s. Raises UnsuitableRecordError where it cannot be fitted."""
+    require_finite({"time": time, "tank_pressure": tank, "cylinder_pressure": cylinder})
+    require_duration(time, _SHORTEST)
+    step = sampling_time(time, _LONGEST_STEP)
+    require_excitation("tank_pressure", tank, step)
+    require_excitation("cylinder_pressure", cylinder, step)
+    _require_dynamics(tank, cylinder)
+    return step
 
 
 def _require_dynamics(tank: Samples, cylinder: Samples) -> None:

@@ -93,11 +93,8 @@ def identify_hysteresis(
     require_finite({"time": time, "pressure": pressure, "force": force})
     require_duration(time, _SHORTEST)
     step = sampling_time(time, _LONGEST_STEP)
+    _require_force(force)
     largest = float(force.max())
-    if largest < _SMALLEST_FORCE:
-        raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
-    if np.ptp(force) < _LEAST_SPAN * largest:
-        raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
     is_held_out = held_out(len(time), held_out_share)
     lines = _lines(pressure, force, wsp_acting, ~is_held_out, step)
     computed = computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
@@ -111,6 +108,15 @@ def identify_hysteresis(
         float(np.sqrt(np.mean(error**2))),
         largest,
     )
+
+
+def _require_force(force: Samples) -> None:
+    """Raise UnsuitableRecordError if there is no clamping force, or one that hardly varies."""
+    largest = float(force.max())
+    if largest < _SMALLEST_FORCE:
+        raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
+    if np.ptp(force) < _LEAST_SPAN * largest:
+        raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
 
 
 def _lines(
