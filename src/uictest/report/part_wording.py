@@ -59,7 +59,7 @@ def _own_root(part: evaluation.EffectivePart) -> str:
 
 
 def _differences(part: evaluation.EffectivePart, varied: Collection[str]) -> Iterator[str]:
-    # The limits of a profile, which has no key, stand beside every verdict.
+    # A profile has no key; every verdict shows its limits.
     if part.key and part.key not in varied and (own := _own_root(part)):
         yield f"{part.key} {part.name} ({own})"
     yield from _changes(part, "", varied)

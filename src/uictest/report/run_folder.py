@@ -78,7 +78,7 @@ class RunFolder:
         return target
 
     def _remove_made_parents(self) -> None:
-        # Innermost first; one that meanwhile holds somebody else's files stays, and so do those around it.
+        # Innermost first. A folder that contains other files by now is kept, and so are its parents.
         with contextlib.suppress(OSError):
             for folder in reversed(self._made_parents):
                 folder.rmdir()
@@ -97,7 +97,7 @@ def _make_missing(folder: Path) -> list[Path]:
 
 
 def point_latest(run: Path) -> None:
-    """Let `latest` beside the run folder name it; it is replaced in one step. Raises OSError."""
+    """Let `latest`, next to the run folder, name it; it is replaced atomically. Raises OSError."""
     latest = run.parent / LATEST
     temporary = run.parent / f".{LATEST}.{os.urandom(4).hex()}.partial"
     _name_run(temporary, run.name)

@@ -1,4 +1,4 @@
-"""index.html: one page that explains a run or a sweep at a glance and needs nothing but itself."""
+"""index.html: one self-contained page of a run or a sweep."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""One drawn case as its part of the page needs it."""
+"""The data of one drawn case on a page."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ HeadlineMeasure = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class Gauge:
-    """A value beside its bounds, in per cent of a common scale; `value` is None where there is none."""
+    """A value and its bounds, in per cent of a common scale; `value` is None where there is none."""
 
     first: float
     last: float
@@ -120,7 +120,7 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
 
 
 def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
-    """Yield the measures that a brake engineer asks for first."""
+    """Yield the measures that a brake engineer looks at first."""
     measures = result.measures
     if measures is not None:
         yield "braking distance", _number(measures["braking_distance_m"]), "m"

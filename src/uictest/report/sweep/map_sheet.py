@@ -23,7 +23,7 @@ _SHARE: Final = {
     "min_value": 0.0,
     "mid_value": 0.5,
     "max_value": 1.0,
-    # Orange to blue is told apart by readers who do not see red and green apart.
+    # Readers with red-green deficiency can distinguish orange from blue.
     "min_color": "#f0a868",
     "mid_color": "#f7f7f7",
     "max_color": "#8fbfe0",

@@ -15,7 +15,7 @@ from uictest.report.sweep.values import SweptValue, Written
 
 SWEEP_SCHEMA: Final = "uictest/sweep-result/1"
 MET: Final = "met"
-"""Name of the map of cases that met their expectation, beside those of measures."""
+"""Name of the map of cases that met their expectation; the other maps have names of measures."""
 
 Circumstances = Mapping[str, Written]
 """The values of the other parameters at which something was found, by key."""

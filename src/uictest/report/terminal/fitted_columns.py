@@ -20,7 +20,7 @@ class TableColumn:
     Args:
         title: what it is called; a line feed begins the second line of its heading.
         cells: its texts, one for each row; shown as they are, so printable.
-        rank: the column with the highest rank gives way first; one of rank 0 never does.
+        rank: the column with the highest rank is left out first; one of rank 0 never is.
         right: whether it holds numbers, which are aligned to the right.
         wraps: whether its texts may continue on the next line.
 
@@ -39,10 +39,10 @@ class TableColumn:
 
 
 def fitted(columns: Sequence[TableColumn], width: int | None) -> tuple[list[TableColumn], list[TableColumn]]:
-    """Return the columns as they fit into so many characters, and those that gave way.
+    """Return the columns as they fit into so many characters, and those left out.
 
-    Columns give way until every text that wraps has its whole length, or half of the width shared with the
-    others. Texts that are still longer are wrapped.
+    Columns are left out until every text that wraps has its whole length, or half of the width shared with
+    the others. Texts that are still longer are wrapped.
     """
     if width is None:
         return list(columns), []
@@ -88,7 +88,7 @@ def wrapped_name(name: str, width: int) -> list[str]:
 
 
 def columns_not_shown(hidden: Sequence[TableColumn], place: str) -> str:
-    """Return the line that names the columns that gave way, and where they are; empty where none did."""
+    """Return the line that names the columns left out, and where to find them; empty if there is none."""
     names = ", ".join(title for column in hidden if (title := column.title.partition("\n")[0]))
     return f"not shown for lack of room: {names}; {place}" if names else ""
 

@@ -26,7 +26,7 @@ _MEASURES = {
     "mean\nm/s2": ("mean_deceleration_mps2", ".2f", 4),
     "adhesion\ng": ("initial_adhesion_g", ".3f", 6),
 }
-"""Heading -> measure, its format, and the rank in which it gives way on a narrow terminal."""
+"""Heading -> measure, its format, and the rank in which it is left out on a narrow terminal."""
 
 ALL_COLUMNS = "summary.csv and wheelsets.csv have all measures"
 
@@ -34,7 +34,7 @@ ALL_COLUMNS = "summary.csv and wheelsets.csv have all measures"
 def verdict_table(
     results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str], width: int
 ) -> tuple[Table, str]:
-    """Return the table of all cases in so many characters, and a line that says which columns gave way.
+    """Return the table of all cases in so many characters, and a line that names the columns left out.
 
     `word` gives the word of each case. User text enters as text, never as markup.
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from uictest import rig
 from uictest.studies.figures.valve_actuations import ActuationPanel, draw
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
@@ -35,7 +36,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
         "reference": [_actuations(stop, 2) for stop in of_four],
     }
     recorded_none, recorded_full = stop_runner.recordings([none, full], CYCLE)
-    traces = [
+    panels = [
         ActuationPanel("module 1, real caliper", recorded_full, 1),
         ActuationPanel("module 2, no model", recorded_none, 2),
         ActuationPanel("module 2, hysteresis and cylinder dynamics", recorded_full, 2),
@@ -43,7 +44,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     return StudyFindings(
         {name: spread(values) for name, values in counts.items()},
         tables={"actuations": {"seed": list(SEEDS), **counts}},
-        drawings={"valve-actuations": partial(draw, traces)},
+        drawings={"valve-actuations": partial(draw, panels)},
         notes=(
             f"{repeats_note(len(SEEDS))} The figure shows the first.",
             "Cycling amplifies small differences: one stop says little.",
@@ -51,9 +52,8 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     )
 
 
-def _actuations(stop: object, wheelset: int) -> float:
-    measures = stop.wheelset_measures  # type: ignore[attr-defined]
-    return float(measures[wheelset - 1].valve_actuations)
+def _actuations(stop: rig.SimulatedStop, wheelset: int) -> float:
+    return float(stop.wheelset_measures[wheelset - 1].valve_actuations)
 
 
 STUDY = Study(

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 
 def draw(recording: Recording, top: float, limit: float, figure: Figure) -> None:
-    """Draw tank 2 before and after the cylinder dynamics beside cylinder 1; shares of `top` Pa, `limit` %."""
+    """Draw tank 2, before and after the cylinder dynamics, and cylinder 1.
+
+    Differences are shown in % of `top`, Pa; `limit` is the bound on them, %.
+    """
     figure.set_size_inches(WIDTH, 4.4)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.3, 1.0))
     time, cylinder = recording["time"], recording["tank_pressure_1"]

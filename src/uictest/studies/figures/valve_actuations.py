@@ -27,23 +27,23 @@ class ActuationPanel:
     module: int
 
 
-def draw(traces: Sequence[ActuationPanel], figure: Figure) -> None:
+def draw(panels: Sequence[ActuationPanel], figure: Figure) -> None:
     """Draw the panels one below the other; a tick below the pressure marks each opening of the vent."""
-    figure.set_size_inches(WIDTH, 1.55 * len(traces) + 0.3)
-    panels = figure.subplots(len(traces), 1, sharex=True, sharey=True)
-    for axes, trace, colour in zip(panels, traces, (INK, ORANGE, BLUE), strict=False):
-        time = trace.recording["time"]
-        axes.plot(time, trace.recording[f"tank_pressure_{trace.module}"] / BAR, color=colour)
-        opened = openings(trace)
+    figure.set_size_inches(WIDTH, 1.55 * len(panels) + 0.3)
+    all_axes = figure.subplots(len(panels), 1, sharex=True, sharey=True)
+    for axes, panel, colour in zip(all_axes, panels, (INK, ORANGE, BLUE), strict=False):
+        time = panel.recording["time"]
+        axes.plot(time, panel.recording[f"tank_pressure_{panel.module}"] / BAR, color=colour)
+        opened = openings(panel)
         axes.plot(
             time[opened], np.full(len(opened), 0.18), "|", color=colour, markersize=8, markeredgewidth=1.4
         )
-        axes.set(title=f"{trace.title}: {len(opened)} actuations", ylabel="pressure, bar")
+        axes.set(title=f"{panel.title}: {len(opened)} actuations", ylabel="pressure, bar")
         from_zero(axes)
-    panels[-1].set_xlabel("time, s")
+    all_axes[-1].set_xlabel("time, s")
 
 
-def openings(trace: ActuationPanel) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def openings(panel: ActuationPanel) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Return the samples at which the module is commanded to open its vent."""
-    venting = trace.recording[f"valve_command_{trace.module}"] == _VENT
+    venting = panel.recording[f"valve_command_{panel.module}"] == _VENT
     return np.flatnonzero(venting[1:] & ~venting[:-1]) + 1

@@ -50,7 +50,7 @@ USUAL: Final = (
 
 
 def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
-    """Return the usual measures and the other columns of the rows that are asked for."""
+    """Return the usual measures and the other columns that are requested."""
     usual = {name for measure in USUAL for name in measure.columns}
     return [
         *USUAL,

@@ -1,4 +1,4 @@
-"""Something drawn into a plot beside its lines."""
+"""Marks: limits, instants and intervals that a plot shows besides its lines."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Kind = Literal["limit", "mean", "window", "band", "instant", "point", "interval"
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """Something drawn into a plot, in the plot's units.
+    """A mark in a plot, in the units of the plot.
 
     limit, mean: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
     where it has no end. instant: an upright line at `x0`. point: the place `x0`, `y`. interval: from `x0` to
