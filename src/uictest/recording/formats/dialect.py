@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
 
 COMMENT = "#"
 
@@ -36,17 +34,8 @@ class Dialect:
     first_line: int = 0
     encoding: str = "utf-8"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the fields by name."""
-        return asdict(self)
-
-    @classmethod
-    def from_dict(cls, fields: Mapping[str, Any]) -> Dialect:
-        """Return the dialect whose `to_dict` is `fields`."""
-        return cls(**fields)
-
     def changes_to(self, other: Dialect) -> str:
         """Return the `csv` section with the settings of another dialect that differ from this one."""
-        declared = self.to_dict()
-        changes = {name: value for name, value in other.to_dict().items() if value != declared[name]}
+        declared = asdict(self)
+        changes = {name: value for name, value in asdict(other).items() if value != declared[name]}
         return f"csv: {{{', '.join(f'{name}: {json.dumps(value)}' for name, value in changes.items())}}}"

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +53,7 @@ def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) 
     # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
     # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
     flags = ["-I", "-B", "-m", _MODULE]
-    command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(dialect.to_dict())]
+    command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect))]
     try:
         done = subprocess.run(
             command,

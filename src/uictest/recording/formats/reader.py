@@ -33,7 +33,7 @@ def main(name: str, path: str, dialect: str) -> int:
     """Read the file and leave its contents in the working folder; return the exit code."""
     _bound_resources()
     try:
-        contents = read_here(name, Path(path), Dialect.from_dict(json.loads(dialect)))
+        contents = read_here(name, Path(path), Dialect(**json.loads(dialect)))
     except MissingExtraError as error:
         return _reject(str(error), EXTRA_MISSING)
     except UnreadableError as error:
