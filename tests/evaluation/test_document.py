@@ -41,11 +41,12 @@ WHEELSET = ["maximum_slide", "locked_time_s", "valve_actuations", "maximum_clamp
 def results(shipped, scenario, case, stop, wheelsets):
     slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
     dry = case(scenario(shipped("uic-541-05-appendix-b"), shipped("uictest-stop")))
-    return [
+    results = [
         evaluate(dry, stop(), wheelsets(0.0, 0.0, 0.0, 0.0), duration=1.5),
         evaluate(slip_test, stop(minimum_deceleration=math.nan), wheelsets(0.5, math.nan, 0.5, 0.5)),
         error_result(slip_test, "diverged"),
     ]
+    return [dataclasses.replace(result, id=f"case-{n}") for n, result in enumerate(results)]
 
 
 def test_a_case_has_the_fields_of_the_interface(results) -> None:
@@ -148,6 +149,7 @@ BARE = {
         ({"schema": "uictest/result/1", "cases": [None]}, "not as schema"),
         ({"schema": "uictest/result/1", "cases": [BARE | {"met": True}]}, "cases.0.met: Unexpected"),
         ({"schema": "uictest/result/1", "cases": [BARE | {"outcome": "lost"}]}, "cases.0.outcome: Input"),
+        ({"schema": "uictest/result/1", "cases": [BARE, BARE]}, "two cases have the id 'a'"),
         ({"schema": "uictest/result/1", "cases": [BARE], "parts": {"a": {}}}, "parts.a.kind: Field req"),
     ],
 )

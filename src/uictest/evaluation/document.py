@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Final
 
@@ -55,18 +56,28 @@ def results_of(document: Mapping[str, Any]) -> list[CaseResult]:
     """Return the results in a document.
 
     Raises:
-        ValueError: the document is not of this schema, or a case in it lacks or adds a field.
+        ValueError: the document is not of this schema, or a case in it lacks or adds a field, or two share
+            an id.
 
     """
     schema = document.get("schema")
     if schema != SCHEMA:
         raise ValueError(f"expected a result document of schema {SCHEMA!r}, found {schema!r}")
     try:
-        return cases_of(document["cases"], parts_of(document))
+        results = cases_of(document["cases"], parts_of(document))
+        _require_distinct(results)
     except KeyError as error:
         raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: no {error}") from error
     except ValueError as error:
         raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: {error}") from error
+    return results
+
+
+def _require_distinct(results: Iterable[CaseResult]) -> None:
+    # Readers look cases up by id: of two, one would be compared and the other never seen.
+    counts = Counter(result.id for result in results)
+    if repeated := [case_id for case_id, count in counts.items() if count > 1]:
+        raise ValueError(f"two cases have the id {repeated[0]!r}")
 
 
 def to_json(document: Mapping[str, Any]) -> str:
