@@ -30,10 +30,28 @@ def test_a_run_comes_back_from_its_folder(
     assert read_run(tmp_path).traces == {}
 
 
-@pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "uictest/result/1"}', '{"schema": "other"}'])
-def test_what_is_no_run_is_refused_with_its_file(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "Expecting value"),
+        ("[]", "expected a JSON object, found list"),
+        ("{}", "expected a result document"),
+        ('{"schema": "uictest/result/1"}', "no 'cases'"),
+        ('{"schema": "other"}', "found 'other'"),
+        ("[" * 200_000, "maximum recursion depth"),
+    ],
+)
+def test_what_is_no_run_is_rejected_with_its_file(tmp_path: Path, text: str, reason: str) -> None:
     (tmp_path / "results.json").write_text(text)
-    with pytest.raises(ValueError, match=r"results\.json"):
+    with pytest.raises(ValueError, match=rf"results\.json: not the results of a run: .*{reason}"):
+        read_run(tmp_path)
+
+
+def test_complete_is_true_or_false(tmp_path: Path, make_result: MakeResult) -> None:
+    write_reports(tmp_path, RunContent("a-run", [make_result()]))
+    text = (tmp_path / "results.json").read_text()
+    (tmp_path / "results.json").write_text(text.replace('"complete": true', '"complete": "no"'))
+    with pytest.raises(ValueError, match="'complete' must be true or false, found 'no'"):
         read_run(tmp_path)
 
 

@@ -20,4 +20,5 @@ from .phases import (
     wsp_acting_from_commands as wsp_acting_from_commands,
     wsp_acting_in_intervals as wsp_acting_in_intervals,
 )
+from .result_text import cylinder_text as cylinder_text, hysteresis_text as hysteresis_text
 from .suitability import UnsuitableRecordError as UnsuitableRecordError

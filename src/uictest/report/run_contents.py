@@ -6,7 +6,6 @@ import dataclasses
 import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
 
 from uictest import evaluation, recording
 from uictest.report.content import RunContent
@@ -27,14 +26,16 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
     path = folder / RESULTS
     try:
         content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
         raise ValueError(f"{path}: not the results of a run: {error}") from error
     drawn = read_traces(folder, content.results) if traces else {}
     return dataclasses.replace(content, traces=drawn)
 
 
-def run_content(document: Mapping[str, Any], name: str) -> RunContent:
+def run_content(document: object, name: str) -> RunContent:
     """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
+    if not isinstance(document, Mapping):
+        raise ValueError(f"expected a JSON object, found {type(document).__name__}")
     try:
         results = evaluation.results_of(document)
         subjects = read_subjects(document)
@@ -42,7 +43,9 @@ def run_content(document: Mapping[str, Any], name: str) -> RunContent:
         baseline = read_baseline_comparison(document)
     except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error
-    complete = bool(document.get("complete", True))
+    complete = document.get("complete", True)
+    if not isinstance(complete, bool):
+        raise ValueError(f"'complete' must be true or false, found {complete!r}")
     return RunContent(name, results, manifest, complete, subjects, baseline=baseline)
 
 

@@ -14,7 +14,6 @@ import typer
 
 from uictest import field_data, identification, library, recording, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
-from uictest.cli.identified_text import cylinder_text, hysteresis_text
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
@@ -130,7 +129,7 @@ def hysteresis(
     recorded = _record(record, roles)
     acting = _wsp_acting(recorded, acting_intervals, acting_time)
     result = _hysteresis(record, recorded, acting, transition_time, held_out)
-    data(hysteresis_text(result))
+    data(identification.hysteresis_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         text = identification.with_hysteresis(
@@ -160,7 +159,7 @@ def cylinder(
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
     result = _cylinder(record, recorded, criterion, held_out)
-    data(cylinder_text(result))
+    data(identification.cylinder_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         _write(output, identification.with_cylinder(base_part, part_name, result, provenance))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from uictest import identification
+from uictest.identification.cylinder import CylinderResult
+from uictest.identification.hysteresis import HysteresisResult
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, PERCENT, in_unit
 
 
-def hysteresis_text(result: identification.HysteresisResult) -> str:
+def hysteresis_text(result: HysteresisResult) -> str:
     """Return the lines of the four phases, the widths of the loops and the errors on held-out samples."""
     lines = [
         f"{phase:<16}{line.slope / KILONEWTON_PER_BAR:9.4f} kN/bar"
@@ -24,7 +25,7 @@ def hysteresis_text(result: identification.HysteresisResult) -> str:
     return "\n".join(lines)
 
 
-def cylinder_text(result: identification.CylinderResult) -> str:
+def cylinder_text(result: CylinderResult) -> str:
     """Return the transfer function, its band and the errors on held-out samples."""
     model = result.transfer_function
     before, after = result.largest_before / PERCENT, result.largest_after / PERCENT
