@@ -24,7 +24,7 @@ from .format_registry import (
     draws_stops as draws_stops,
     write_formats as write_formats,
 )
-from .formats import SWEEP_FORMATS as SWEEP_FORMATS, format_names as format_names
+from .formats import format_names as format_names
 from .formats.junit import junit_xml as junit_xml
 from .formats.md import append_step_summary as append_step_summary
 from .github import (
@@ -48,11 +48,12 @@ from .run_report import (
     write_reports as write_reports,
 )
 from .sweep.content import SweepContent as SweepContent
-from .sweep.formats import write_sweep_formats as write_sweep_formats
+from .sweep.format_registry import write_sweep_formats as write_sweep_formats
+from .sweep.formats import sweep_format_names as sweep_format_names
+from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.github import sweep_annotations as sweep_annotations
 from .sweep.junit import sweep_junit_xml as sweep_junit_xml
 from .sweep.map_text import map_lines as map_lines
-from .sweep.markdown import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.reading import SWEEP_RESULTS as SWEEP_RESULTS, read_sweep as read_sweep
 from .sweep.result import (
     MET as MET,

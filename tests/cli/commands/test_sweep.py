@@ -102,7 +102,7 @@ def test_merged_shards_are_the_whole(call: Call, study: Path, counted: list[int]
 
 def test_help_names_the_formats_of_a_sweep(call: Call) -> None:
     help_text = " ".join(call("sweep", "--help").out.split())
-    assert f"joined by commas: {', '.join(report.SWEEP_FORMATS)}. [default" in help_text
+    assert f"joined by commas: {', '.join(report.sweep_format_names())}. [default" in help_text
 
 
 def test_an_unfinished_sweep_is_known_as_one(call: Call, study: Path) -> None:

@@ -40,7 +40,7 @@ def report(
     """
     folder = run_folder(run)
     is_sweep = (folder / reports.SWEEP_RESULTS).is_file()
-    accepted = reports.SWEEP_FORMATS if is_sweep else reports.format_names()
+    accepted = reports.sweep_format_names() if is_sweep else reports.format_names()
     names = report_formats(formats, "--format", accepted)
     write = _write_sweep if is_sweep else _write_run
     for path in write(folder, folder if output is None else output, names):

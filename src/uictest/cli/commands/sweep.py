@@ -94,7 +94,7 @@ SweepReports = Annotated[
     typer.Option(
         "--report",
         metavar="FORMATS",
-        help=f"Reports to write, joined by commas: {', '.join(report.SWEEP_FORMATS)}.",
+        help=f"Reports to write, joined by commas: {', '.join(report.sweep_format_names())}.",
     ),
 ]
 Restart = Annotated[bool, typer.Option("--restart", help="Discard finished chunks and start again.")]
@@ -133,7 +133,7 @@ def sweep(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""
-    format_names = report_formats(formats, "--report", report.SWEEP_FORMATS)
+    format_names = report_formats(formats, "--report", report.sweep_format_names())
     plan = sweeping.load_plan(file, overrides, seed, trusted)
     selection = sweeping.selected_cases(plan, expression, device.value)
     if selection.size == 0:

@@ -2,10 +2,6 @@
 
 import pkgutil
 from functools import cache
-from typing import Final
-
-SWEEP_FORMATS: Final = ("csv", "html", "md", "xlsx")
-"""Formats that a sweep can be reported in. `--junitxml` alone writes its JUnit XML."""
 
 
 @cache

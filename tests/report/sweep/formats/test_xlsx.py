@@ -11,7 +11,7 @@ import pytest
 
 from uictest.evaluation import CaseResult
 from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.workbook import sweep_workbook_bytes
+from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 
 openpyxl = pytest.importorskip("openpyxl")
 

@@ -9,6 +9,7 @@ from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.folding import folded, is_large, short_label
+from uictest.report.sweep.format_registry import one_file
 from uictest.report.sweep.notable import NotableCase, notable_cases
 from uictest.report.sweep.result import (
     Frontier,
@@ -190,3 +191,10 @@ def _measures(histograms: Sequence[MeasureHistogram]) -> MarkdownTable:
     ]
     columns = ("measure", "unit", "cases", "minimum", "mean", "maximum")
     return MarkdownTable(columns, "llrrrr", rows, "more measures are in `sweep.json`.")
+
+
+def _text(content: SweepContent) -> bytes:
+    return sweep_markdown(content).encode()
+
+
+FORMAT = one_file("summary.md", _text)

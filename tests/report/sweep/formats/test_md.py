@@ -10,7 +10,7 @@ from markdown_it import MarkdownIt
 from uictest.evaluation import CaseResult
 from uictest.report.github import LIMIT
 from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.markdown import append_sweep_step_summary, sweep_markdown
+from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]

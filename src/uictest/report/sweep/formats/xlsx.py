@@ -9,6 +9,7 @@ from uictest.report.formats.xlsx import manifest_rows, parameter_rows, result_ro
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.format_registry import one_file
 from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.result import SweepResult
@@ -76,3 +77,6 @@ def _worst(result: SweepResult) -> Iterator[Row]:
     for case in notable_cases(result):
         row: Row = {"case": case.id, "verdict": case.word, "outcome": case.outcome}
         yield row | (result_row(worst[case.id]) if case.id in worst else {}) | {"why": case.why}
+
+
+FORMAT = one_file("report.xlsx", sweep_workbook_bytes)

@@ -7,9 +7,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.report import SWEEP_FORMATS, format_names
+from uictest.report import format_names, sweep_format_names
 from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.formats import write_sweep_formats
+from uictest.report.sweep.format_registry import write_sweep_formats
 
 MakeSweep = Callable[..., SweepContent]
 
@@ -27,8 +27,8 @@ def content(make_sweep: MakeSweep) -> SweepContent:
 
 
 def test_a_sweep_has_every_format_of_a_run_that_is_made_from_finished_results(content: SweepContent) -> None:
-    assert set(format_names()) - set(SWEEP_FORMATS) == {"junit"}
-    for name in SWEEP_FORMATS:
+    assert set(format_names()) - set(sweep_format_names()) == {"junit"}
+    for name in sweep_format_names():
         assert write_sweep_formats(content.folder, content, [name])
 
 

@@ -1,0 +1,26 @@
+"""The tables of a sweep, which its own folder has from the beginning."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from uictest import recording
+from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.format_registry import SweepFormat
+
+
+def _write(folder: Path, content: SweepContent) -> list[Path]:
+    return [_copied(path, folder) for path in sorted(content.folder.glob("*.csv"))]
+
+
+def _copied(table: Path, folder: Path) -> Path:
+    """Return the table in a folder; where it is not yet, it is copied."""
+    target = folder / table.name
+    if target.resolve() != table.resolve():
+        with recording.atomic_path(target) as partial:
+            shutil.copyfile(table, partial)
+    return target
+
+
+FORMAT = SweepFormat(_write)
