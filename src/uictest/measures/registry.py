@@ -19,7 +19,7 @@ from uictest.measures.measure import (
 from uictest.measures.records import StopMeasures, WheelsetMeasures
 from uictest.units import in_unit
 
-_ORDER: Final = (*("stopping", "adhesion", "deceleration", "slide", "locking", "caliper", "air", "balances"),)
+_ORDER: Final = ["stopping", "adhesion", "deceleration", "slide", "locking", "caliper", "air", "balances"]
 """Order of the modules in results and lists; modules not named here follow in the order of their names."""
 
 
