@@ -87,7 +87,7 @@ def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[flo
 
 
 def _tank_rate(pressure: float, p: Any) -> float:
-    supply = p.atmospheric_pressure + p.demanded_pressure
+    supply = p.atmospheric_pressure + p.commanded_pressure
     inflow = mass_flow(
         supply,
         pressure,
