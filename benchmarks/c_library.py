@@ -130,6 +130,7 @@ class CLanes:
         self, parameters: Any, rails: NDArray[np.float64], measures: Any, wheelset_measures: Any
     ) -> None:
         """Run a stop for each parameter record and its row of ``rails``: place, friction, time, factor."""
+        _reject_modelled_air(parameters)
         self._stops(
             len(parameters),
             _address(parameters),
@@ -164,6 +165,7 @@ class CStop:
         """Run one stop on zeroed records; return the number of rows recorded, which is none."""
         if steps_per_sample:
             raise ValueError("the C rig records nothing")
+        _reject_modelled_air(parameters)
         self._stop(
             _address(car),
             _address(bogies),
@@ -175,6 +177,11 @@ class CStop:
             _address(wheelset_measures),
         )
         return 0
+
+
+def _reject_modelled_air(parameters: Any) -> None:
+    if np.any(parameters["uses_module_air"]):
+        raise ValueError("the C rig has no modelled air: it cannot run rig.compensation=thermal")
 
 
 def _address(values: Any) -> int:

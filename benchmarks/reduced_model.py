@@ -1,8 +1,8 @@
 """A reduced rig as a right-hand side for scipy's solve_ivp, made of the rig's own physics.
 
-Train speed; for each wheelset the tank pressure, the cylinder pressure (a first-order lag) and the rotation:
-thirteen states. Left out: suspensions, brake line and reservoir, piston, hysteresis, sensors and controller.
-LSODA, relative tolerance 1e-6.
+Train speed; for each wheelset the tank's pressure and temperature, the cylinder pressure (a first-order lag)
+and the rotation: seventeen states. Left out: suspensions, brake line and reservoir, piston, hysteresis,
+sensors and controller. LSODA, relative tolerance 1e-6.
 """
 
 from collections.abc import Callable
@@ -16,10 +16,10 @@ from stops import Stop
 
 from uictest.physics import arithmetic
 from uictest.physics.disc_brake import torque
-from uictest.physics.flow import mass_flow
+from uictest.physics.flow import coldness, mass_flow
 from uictest.physics.hysteresis import line
 from uictest.physics.polach import creep_force
-from uictest.physics.tank import pressure_change
+from uictest.physics.tank import changes, enthalpy
 from uictest.physics.wheelset import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
 
@@ -34,12 +34,9 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
     rates = _rates()
     p = opened(stop[0])
     friction = float(stop[1][1, 0])
-    start = np.concatenate(
-        [
-            [p.initial_speed],
-            np.tile([p.atmospheric_pressure, p.atmospheric_pressure, p.initial_speed / p.wheel_radius], 4),
-        ]
-    )
+    module = [p.atmospheric_pressure, p.air_temperature, p.atmospheric_pressure]
+    wheelset = [*module, p.initial_speed / p.wheel_radius]
+    start = np.array([p.initial_speed, *wheelset * 4])
     solution = solve_ivp(
         lambda _, x: rates(x, p, friction),
         (0.0, duration),
@@ -61,11 +58,11 @@ def _rates() -> Callable[..., list[float]]:
 
 
 def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[float]:
-    """Rates of the train speed (m/s) and each wheelset's two pressures (Pa) and rotation (rad/s)."""
+    """Rates of train speed; for each wheelset, of tank pressure and temperature, cylinder and rotation."""
     speed = max(float(x[0]), SLOWEST_CREEP)
     rates, braking = [0.0], 0.0
     for i in range(4):
-        tank, cylinder, rotation = (float(value) for value in x[1 + 3 * i : 4 + 3 * i])
+        tank, temperature, cylinder, rotation = (float(value) for value in x[1 + 4 * i : 5 + 4 * i])
         slip = speed - p.wheel_radius * rotation
         force, _ = creep_force(
             abs(slip),
@@ -79,25 +76,42 @@ def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[flo
             p.reduction_slip,
         )
         creep = 2.0 * force if slip > 0.0 else -2.0 * force
-        rates += [_tank_rate(tank, p), (tank - cylinder) / _CYLINDER_LAG]
+        rates += [*_tank_rates(tank, temperature, p), (tank - cylinder) / _CYLINDER_LAG]
         rates += [(p.wheel_radius * creep - _brake(cylinder, p)) / p.wheelset_inertia]
         braking += creep
     rates[0] = -braking / (8.0 * p.static_wheel_load / p.gravity)
     return rates
 
 
-def _tank_rate(pressure: float, p: Any) -> float:
+def _tank_rates(pressure: float, temperature: float, p: Any) -> tuple[float, float]:
+    """Rates of pressure and temperature: the changes of a step whose heat is known beforehand."""
     supply = p.atmospheric_pressure + p.commanded_pressure
     inflow = mass_flow(
         supply,
         pressure,
+        p.air_coldness,
+        coldness(temperature),
         p.fill_conductance,
-        p.flow_density,
         p.critical_ratio,
         p.subsonic_scale,
         p.laminar_slope,
     )
-    return pressure_change(pressure, p.polytropic_exponent / p.tank_volume, inflow, 0.0, p.air)
+    carried = enthalpy(inflow, p.air_temperature, temperature, p.heat_capacity_pressure)
+    heat = p.tank_exchange / p.step * (p.air_temperature - temperature)
+    warming, rise = changes(
+        pressure,
+        temperature,
+        pressure * p.tank_volume / (p.gas_constant * temperature),
+        inflow,
+        carried + heat,
+        p.tank_volume,
+        0.0,
+        p.air_temperature,
+        0.0,
+        p.gas_constant,
+        p.heat_capacity_volume,
+    )
+    return rise, warming
 
 
 def _brake(cylinder: float, p: Any) -> float:

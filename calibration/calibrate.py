@@ -18,7 +18,7 @@ from scipy.optimize import OptimizeResult, differential_evolution
 from uictest.rig.model.friction_law import FRICTIONS
 
 POPULATION = 30
-SPREAD = 0.06
+SPREAD = 0.1
 """Standard deviation of the first cloud, as a share of the bounds."""
 
 

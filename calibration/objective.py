@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import yaml
 from numpy.typing import NDArray
 from parameters import Fields, fields, values
 
@@ -19,7 +20,7 @@ SETTINGS: dict[str, Fields] = {
     "none": {"uses_cylinder_dynamics": 0.0, "uses_hysteresis": 0.0},
     "calipers": {"calipers": 4},
 }
-SEEDS = (0, 1)
+SEEDS = tuple(yaml.safe_load((Path(__file__).parent / "conditions.yaml").read_text("utf-8"))["seeds"])
 GIVEN_UP = 20.0
 """Added to the misfit where the slide test is too far off for the other stops to be worth running."""
 

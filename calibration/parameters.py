@@ -33,14 +33,13 @@ class Free:
 
 
 FREE = (
-    # Time constants of filling and venting that a linear filter can follow (studies/cylinder_dynamics).
     Free("vent_conductance", 2.6e-8, 3.2e-8, logarithmic=True),
     Free("fill_conductance", 5.5e-8, 7.5e-8, logarithmic=True),
     Free("switching_delay", 0.010, 0.080),
-    Free("slip_threshold", 0.3, 1.5),
-    Free("slide_threshold", 0.0, 0.03),
-    Free("vent_deceleration", 1.5, 8.0),
-    Free("hold_deceleration", 0.0, 2.5),
+    Free("slip_threshold", 0.3, 2.5),
+    Free("slide_threshold", 0.0, 0.06),
+    Free("vent_deceleration", 1.5, 12.0),
+    Free("hold_deceleration", 0.0, 4.0),
     Free("reacceleration_threshold", 0.1, 1.5),
     Free("acceleration_filter_time", 0.03, 0.08),
     Free("recovery_share", 0.2, 1.0),
@@ -48,7 +47,7 @@ FREE = (
     Free("fill_pulse_off", 0.02, 0.15),
     Free("refill_time", 0.1, 1.2),
     Free("commanded_pressure", 4.2e5, 4.8e5),  # emergency application, gauge
-    Free("friction", 0.145, 0.175),  # of the rail in the slide test
+    Free("friction", 0.155, 0.168),  # of the rail in the slide test
 )
 
 

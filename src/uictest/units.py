@@ -177,6 +177,8 @@ _KINDS = (
     ),
     _kind("frequency", "Hz", _unit("Hz", 1)),
     _kind("inverse speed", "s/m", _unit("s/m", 1)),
+    _kind("film coefficient", "W/(m2 K)", _unit("W/(m2 K)", 1)),
+    _kind("heat conductance", "W/K", _unit("W/K", 1)),
     _kind("gas constant", "J/(kg K)", _unit("J/(kg K)", 1)),
     _kind("number", "1"),
     _kind("count", "1"),

@@ -41,6 +41,14 @@ def test_c_rig_agrees_bit_for_bit(name: str) -> None:
     assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(stop.controller), stop))
 
 
+def test_c_rig_refuses_the_modelled_air_that_it_lacks() -> None:
+    """It would compute something else and say nothing."""
+    stop = short_stop("dry-120")
+    stop.parameters.uses_module_air = 1.0
+    with pytest.raises(ValueError, match="thermal"):
+        run_to_end(c_stop(), stop)
+
+
 def test_header_follows_the_records() -> None:
     from c_library import records_header
 

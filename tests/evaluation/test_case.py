@@ -28,6 +28,7 @@ def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
     assert figures["reservoir_minimum_bar"] == pytest.approx(7.2)
     assert figures["air_consumed_nl"] == pytest.approx(100.0)
     assert figures["air_residual"] == -3e-14
+    assert figures["air_energy_residual"] == 2e-13
     first = result.wheelsets[0]
     assert (first["maximum_slide"], first["valve_actuations"]) == (0.9, 11)
     assert first["maximum_clamping_force_n"] == 41e3
@@ -59,6 +60,12 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
         ({}, (0.1, 0.1, 0.1, 0.1), "pass", ""),
         ({"energy_residual": -0.002}, (0.1,), "invalid", "energy-balance"),
         ({"air_residual": np.nan}, (0.1,), "invalid", "air-balance: nan never keeps < 1e-09"),
+        (
+            {"air_energy_residual": -1e-9},
+            (0.1,),
+            "invalid",
+            "air-energy-balance: 1e-09 misses < 1e-09",
+        ),
         (
             {"stopped": 0.0, "end_speed": 3.0},
             (0.1,),
@@ -127,7 +134,9 @@ def test_a_stop_with_finite_measures_is_judged(sound_test, stop, wheelsets) -> N
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
-@pytest.mark.parametrize("name", ["air_residual", "energy_residual", "air_consumed", "end_distance"])
+@pytest.mark.parametrize(
+    "name", ["air_residual", "air_energy_residual", "energy_residual", "air_consumed", "end_distance"]
+)
 def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(
     sound_test, stop, wheelsets, name: str, value: float
 ) -> None:
@@ -144,8 +153,8 @@ def test_a_measure_of_a_wheelset_that_is_no_number_is_an_error_and_named(sound_t
     assert "no finite maximum_slide_2" in result.reason
 
 
-def test_a_stop_that_takes_no_air_has_no_air_balance(sound_test, stop, wheelsets) -> None:
-    measures = stop(air_consumed=0.0, air_residual=math.nan, end_time=0.086)
+def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test, stop, wheelsets) -> None:
+    measures = stop(air_consumed=0.0, air_residual=math.nan, air_energy_residual=math.nan, end_time=0.086)
 
     result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
 

@@ -33,6 +33,7 @@ MEASURES = [
     "air_consumed_nl",
     "energy_residual",
     "air_residual",
+    "air_energy_residual",
 ]
 WHEELSET = ["maximum_slide", "locked_time_s", "valve_actuations", "maximum_clamping_force_n", "air_vented_nl"]
 

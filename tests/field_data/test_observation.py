@@ -18,7 +18,7 @@ from uictest.scenario import Case
 from .conftest import judge_stop
 
 OURS = ("rail.condition=wet", "brake.position=R", "rig.wsp=active", "criteria=[uictest-stop]")
-BALANCES = ("energy-balance", "air-balance")
+BALANCES = ("energy-balance", "air-balance", "air-energy-balance")
 
 # What sampling can lose, per sampling interval T: a time is known to T, a distance to v T at the place it is
 # taken, an extreme to what the signal does within T, a duration to T at each of its ends.

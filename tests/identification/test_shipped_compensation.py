@@ -34,16 +34,18 @@ def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     """Lines to a thousandth, the response to a hundredth: the simplex ends elsewhere under another BLAS."""
     monkeypatch.chdir(tmp_path)
     steps = commands()
-    assert len(steps) == 4
-    assert [execute(arguments) for arguments in steps] == [0, 0, 0, 0]
+    assert len(steps) == 5
+    assert [execute(arguments) for arguments in steps] == [0, 0, 0, 0, 0]
     identified, shipped = load_compensation("six-inch.yaml"), load_compensation("six-inch")
     for phase in PHASES:
         line, other = getattr(identified.hysteresis, phase), getattr(shipped.hysteresis, phase)
         assert line.slope == pytest.approx(other.slope, rel=1e-3)
         assert line.intercept == pytest.approx(other.intercept, rel=1e-2)
     assert np.abs(response(identified) - response(shipped)).max() < 0.01
+    for name, value in identified.air:
+        assert value == pytest.approx(getattr(shipped.air, name), rel=1e-3), name
     assert identified.provenance.keys() == shipped.provenance.keys()
-    for topic in ("hysteresis", "cylinder"):
+    for topic in ("hysteresis", "cylinder", "air"):
         assert (
             identified.provenance[f"{topic} samples sha256"] == shipped.provenance[f"{topic} samples sha256"]
         )
@@ -51,8 +53,20 @@ def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_its_numbers_are_marked_identified_from_the_simulated_caliper() -> None:
     shipped = load_compensation("six-inch")
-    numbers = [shipped.linear.slope, shipped.cylinder.numerator[0]]
+    numbers = [shipped.linear.slope, shipped.cylinder.numerator[0], *(value for _, value in shipped.air)]
     numbers += [getattr(shipped.hysteresis, phase).slope for phase in PHASES]
     assert {shipped.sources[number.source].mark for number in numbers} == {"identified"}
-    assert shipped.provenance["hysteresis record origin"] == "simulated caliper"
-    assert shipped.provenance["cylinder record origin"] == "simulated caliper"
+    for topic in ("hysteresis", "cylinder", "air"):
+        assert shipped.provenance[f"{topic} record origin"] == "simulated caliper"
+
+
+def test_its_step_response_stays_where_it_has_arrived() -> None:
+    """Within 0.3 % of the end once it has come so near: the hysteresis keeps the largest pressure."""
+    part = load_compensation("six-inch")
+    numerator, denominator = map(tuple, (part.cylinder.numerator, part.cylinder.denominator))
+    model = TransferFunction(numerator, denominator, float(part.sampling_time))
+    response = model.output(np.concatenate([[0.0], np.ones(round(60.0 / model.sampling_time))]))
+    off = np.abs(response[1:] - 1.0)
+    arrived = int(np.argmax(off <= 3e-3))
+    assert off[arrived] <= 3e-3
+    assert off[arrived:].max() <= 3e-3

@@ -22,11 +22,15 @@ class Caliper:
     coulomb_friction: float = 60.0
     load_friction: float = 0.055
     viscous_friction: float = 200.0
+    contact_friction: float = 2e4
     clearance: float = 2.9e-3
     contact_stiffness: float = 8e6
 
+    def compression(self, stroke: float) -> float:
+        return max(stroke - self.clearance, 0.0)
+
     def contact(self, stroke: float) -> float:
-        return self.contact_stiffness * max(stroke - self.clearance, 0.0)
+        return self.contact_stiffness * self.compression(stroke)
 
     def friction(self, stroke: float) -> float:
         return self.coulomb_friction + self.load_friction * self.contact(stroke)
@@ -41,7 +45,12 @@ class Caliper:
 
     def after(self, stroke: float, pressure: float, step: float = STEP) -> float:
         derived = stiffnesses(
-            self.spring_rate, self.load_friction, self.viscous_friction, self.contact_stiffness, step
+            self.spring_rate,
+            self.load_friction,
+            self.viscous_friction,
+            self.contact_friction,
+            self.contact_stiffness,
+            step,
         )
         return stroke_after(
             stroke,
@@ -55,9 +64,10 @@ class Caliper:
 
 
 CALIPER = Caliper()
-SLOW = replace(CALIPER, viscous_friction=0.0)
+SLOW = replace(CALIPER, viscous_friction=0.0, contact_friction=0.0)
 strokes = st.floats(0.0, 4.5e-3)
 pressures = st.floats(0.0, 5e5)
+dampings = st.floats(0.0, 1e5)
 
 
 def brute_force(caliper: Caliper, stroke: float, pressure: float) -> float:
@@ -66,8 +76,9 @@ def brute_force(caliper: Caliper, stroke: float, pressure: float) -> float:
         if direction * caliper.net_force(stroke, pressure) > caliper.friction(stroke):
 
             def balance(y: float, direction: float = direction) -> float:
-                viscous = caliper.viscous_friction * (y - stroke) / STEP
-                return caliper.net_force(y, pressure) - direction * caliper.friction(y) - viscous
+                squeezed = caliper.compression(y) - caliper.compression(stroke)
+                viscous = caliper.viscous_friction * (y - stroke) + caliper.contact_friction * squeezed
+                return caliper.net_force(y, pressure) - direction * caliper.friction(y) - viscous / STEP
 
             return max(float(brentq(balance, stroke, end, xtol=1e-15, rtol=1e-14)), 0.0)
     return stroke
@@ -79,9 +90,11 @@ def sweep(caliper: Caliper, pressures: Iterable[float]) -> np.ndarray:
     return np.array(strokes)
 
 
-@given(strokes, pressures, st.floats(0.0, 1e4))
-def test_one_step_solves_the_equation_of_motion(stroke: float, pressure: float, viscous: float) -> None:
-    caliper = replace(CALIPER, viscous_friction=viscous)
+@given(strokes, pressures, st.floats(0.0, 1e4), dampings)
+def test_one_step_solves_the_equation_of_motion(
+    stroke: float, pressure: float, viscous: float, contact: float
+) -> None:
+    caliper = replace(CALIPER, viscous_friction=viscous, contact_friction=contact)
     assert caliper.after(stroke, pressure) == pytest.approx(brute_force(caliper, stroke, pressure), abs=1e-11)
 
 
@@ -94,10 +107,12 @@ def test_a_random_pressure_is_followed_as_by_brute_force() -> None:
     np.testing.assert_allclose(sweep(CALIPER, history.tolist()), expected, rtol=0.0, atol=1e-10)
 
 
-@given(strokes, st.floats(-0.999, 0.999), pressures)
-def test_no_motion_while_friction_carries_the_difference(stroke: float, share: float, viscous: float) -> None:
+@given(strokes, st.floats(-0.999, 0.999), pressures, dampings)
+def test_no_motion_while_friction_carries_the_difference(
+    stroke: float, share: float, viscous: float, contact: float
+) -> None:
     """However often it is pushed with less than the friction, the piston does not creep."""
-    caliper = replace(CALIPER, viscous_friction=viscous)
+    caliper = replace(CALIPER, viscous_friction=viscous, contact_friction=contact)
     free = -caliper.net_force(stroke, 0.0)
     pressure = (free + share * caliper.friction(stroke)) / caliper.piston_area
     after = stroke
@@ -139,7 +154,58 @@ def test_loop_is_as_wide_as_twice_the_friction() -> None:
     assert squeezing - releasing == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.parametrize("caliper", [SLOW, CALIPER, replace(CALIPER, viscous_friction=1e4)])
+def ramp(start: float, end: float, duration: float) -> list[float]:
+    return np.linspace(start, end, round(duration / STEP) + 1).tolist()
+
+
+def loop_width(caliper: Caliper, duration: float, stroke: float) -> float:
+    """Pressure between squeezing and releasing at a stroke, each from 0 to 5 bar within a duration, Pa."""
+    rising = ramp(0.0, 5e5, duration)
+    strokes = sweep(caliper, [*rising, *rising[::-1]])
+    up, down = strokes[: len(rising)], strokes[len(rising) :]
+    return float(np.interp(stroke, up, rising) - np.interp(stroke, down[::-1], rising))
+
+
+@pytest.mark.parametrize("duration", [0.5, 1.0, 4.0])
+def test_friction_of_the_contact_widens_the_loop_by_the_speed_of_the_pads(duration: float) -> None:
+    """By cN (z' squeezing + z' releasing) / A; under a ramp of p, z' = A p' / (kc (1 +- alpha) + k)."""
+    caliper = replace(SLOW, contact_friction=7e4)
+    force_rate = caliper.piston_area * 5e5 / duration
+    speeds = [
+        force_rate / (caliper.contact_stiffness * (1.0 + side * caliper.load_friction) + caliper.spring_rate)
+        for side in (1.0, -1.0)
+    ]
+    widened = loop_width(caliper, duration, 3.4e-3) - loop_width(SLOW, duration, 3.4e-3)
+    assert widened == pytest.approx(caliper.contact_friction * sum(speeds) / caliper.piston_area, rel=0.02)
+
+
+def test_free_travel_does_not_feel_the_friction_of_the_contact() -> None:
+    """Not in a bit: the pads do not touch, however quick the pressure is."""
+    damped = replace(CALIPER, contact_friction=1e5)
+    below = 0.999 * CALIPER.pressure_at(CALIPER.clearance, 1.0)
+    history = [*ramp(0.0, below, 0.05), *ramp(below, 0.0, 0.05)]
+    assert sweep(damped, history).tolist() == sweep(CALIPER, history).tolist()
+
+
+@pytest.mark.parametrize("end", [1.5e5, 3e5, 4e5])
+@pytest.mark.parametrize("start", [0.0, 5e5])
+def test_where_the_piston_comes_to_rest_does_not_depend_on_the_friction_of_the_contact(
+    start: float, end: float
+) -> None:
+    """Squeezed up or released down to a pressure and held there: all it does is to arrive later."""
+    history = [*ramp(0.0, start, 0.2), *[start] * 2000, *[end] * 2000]
+    at_rest = [
+        float(sweep(replace(CALIPER, contact_friction=friction), history)[-1]) for friction in (0.0, 2e4, 1e5)
+    ]
+    assert at_rest == pytest.approx([at_rest[0]] * 3, abs=1e-9)
+    direction = 1.0 if end > start else -1.0
+    assert CALIPER.pressure_at(at_rest[0], direction) == pytest.approx(end, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "caliper",
+    [SLOW, CALIPER, replace(CALIPER, viscous_friction=1e4), replace(CALIPER, contact_friction=1e5)],
+)
 def test_work_of_a_closed_loop_is_what_friction_turns_into_heat(caliper: Caliper) -> None:
     """The work of the air on the piston over a loop is positive and equals that of friction and damping."""
     time = STEP * np.arange(8001)
@@ -149,14 +215,16 @@ def test_work_of_a_closed_loop_is_what_friction_turns_into_heat(caliper: Caliper
     moved = np.diff(strokes[loop])
     work = float(np.sum(pressure[loop][1:] * moved) * caliper.piston_area)
     friction = np.array([caliper.friction(y) for y in strokes[loop][1:].tolist()])
-    heat = float(np.sum(friction * np.abs(moved)) + caliper.viscous_friction / STEP * np.sum(moved**2))
+    squeezed = np.diff([caliper.compression(y) for y in strokes[loop].tolist()])
+    damping = caliper.viscous_friction * moved**2 + caliper.contact_friction * squeezed**2
+    heat = float(np.sum(friction * np.abs(moved) + damping / STEP))
     assert work > 0.0
     assert work == pytest.approx(heat, rel=0.02)
 
 
-def test_quick_loops_are_wider_than_slow_ones() -> None:
+@pytest.mark.parametrize("damped", [replace(SLOW, viscous_friction=2e4), replace(SLOW, contact_friction=2e4)])
+def test_quick_loops_are_wider_than_slow_ones(damped: Caliper) -> None:
     """Friction that grows with speed: WSP cycles and brake applications give different lines."""
-    damped = replace(CALIPER, viscous_friction=2e4)
 
     def area(period: float) -> float:
         time = STEP * np.arange(round(2 * period / STEP) + 1)

@@ -131,6 +131,7 @@ FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
     "air_consumed_nl": 180.0,
     "energy_residual": 1e-5,
     "air_residual": 1e-12,
+    "air_energy_residual": 1e-12,
 }
 
 

@@ -6,7 +6,7 @@ import control
 import numpy as np
 import pytest
 
-from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE
+from uictest.physics.flow import REFERENCE_DENSITY
 from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
 from uictest.rig.assembly import friction_laws
 from uictest.rig.model.parameters import PARAMETERS
@@ -29,24 +29,75 @@ def test_wheels_carry_the_weight(rig: Any) -> None:
     assert 8.0 * p.static_wheel_load == pytest.approx(mass * STANDARD_GRAVITY)
 
 
-def test_orifice_law_is_that_of_the_air_and_the_valves(rig: Any) -> None:
-    ratios = ("brake.system.critical_pressure_ratio=0.4", "brake.system.laminar_pressure_ratio=0.98")
-    p = rig.parameters(*ratios, "brake.system.air.temperature=10 degC")[0]
-    assert p.flow_density == pytest.approx(REFERENCE_DENSITY * np.sqrt(REFERENCE_TEMPERATURE / 283.15))
+def test_orifice_law_is_that_of_the_valves(rig: Any) -> None:
+    p = rig.parameters(
+        "brake.system.critical_pressure_ratio=0.4", "brake.system.laminar_pressure_ratio=0.98"
+    )[0]
     assert (p.critical_ratio, p.subsonic_scale) == pytest.approx((0.4, 1.0 / 0.6))
     assert p.laminar_slope == pytest.approx(np.sqrt(1.0 - (0.58 / 0.6) ** 2) / 0.02)
 
 
+def test_air_has_the_heat_capacities_of_an_ideal_gas(rig: Any) -> None:
+    """Mayer: cp - cv = R; 718 and 1005 J/(kg K) for air."""
+    p = rig.parameters("brake.system.air.temperature=10 degC")[0]
+    assert p.heat_capacity_pressure - p.heat_capacity_volume == pytest.approx(p.gas_constant)
+    assert (p.heat_capacity_volume, p.heat_capacity_pressure) == pytest.approx((717.6, 1004.7), abs=0.1)
+    assert p.air_coldness == pytest.approx(293.15 / 283.15)
+
+
+@pytest.mark.parametrize("step", [0.25, 0.5])
+def test_walls_give_off_heat_by_film_coefficient_and_surface(rig: Any, step: float) -> None:
+    """In a step; the module with a caliper has the balls besides the wall of a tank."""
+    system = "brake.system"
+    p = rig.parameters(
+        f"simulation.time_step={step} ms",
+        f"{system}.brake_line.surface=2 m2",
+        f"{system}.brake_line.film_coefficient=50 W/(m2 K)",
+        f"{system}.tank.surface=0.1 m2",
+        f"{system}.tank.film_coefficient=40 W/(m2 K)",
+        f"{system}.caliper_tank.ball_surface=0.2 m2",
+        f"{system}.caliper_tank.film_coefficient=80 W/(m2 K)",
+    )[0]
+    exchanges = np.array([p.line_exchange, p.tank_exchange, p.caliper_tank_exchange])
+    np.testing.assert_allclose(exchanges / (1e-3 * step), [100.0, 4.0, 20.0])
+
+
+@pytest.mark.parametrize("step", [0.25, 0.5])
+def test_modelled_air_is_that_of_a_tank_in_units_of_pressure(rig: Any, step: float) -> None:
+    """A kilogram at the temperature of the wall is worth R T / V; heat is worth (k - 1) / V of it."""
+    model = "rig.compensation_model.air"
+    p = rig.parameters(
+        f"simulation.time_step={step} ms",
+        f"{model}.tank_heat_conductance=4 W/K",
+        f"{model}.caliper_heat_conductance=20 W/K",
+        f"{model}.swept_volume=0.05 L",
+        f"{model}.closing_pressure=0.4 bar",
+        f"{model}.opening_pressure=0.3 bar",
+    )[0]
+    per_kilogram = p.gas_constant * p.air_temperature / p.tank_volume
+    per_joule = (p.heat_capacity_ratio - 1.0) / p.tank_volume
+    exchanges = np.array([p.modelled_tank_exchange, p.modelled_exchange])
+    np.testing.assert_allclose(exchanges, 1e-3 * step * per_joule * p.air_temperature * np.array([4.0, 20.0]))
+    conductances = np.array([p.modelled_fill_conductance, p.modelled_vent_conductance])
+    valves = np.array([p.fill_conductance, p.vent_conductance])
+    np.testing.assert_allclose(conductances, 1e-3 * step * per_kilogram * REFERENCE_DENSITY * valves)
+    assert p.modelled_swept_share == pytest.approx(0.05e-3 / p.tank_volume)
+    gauge = np.array([p.modelled_closing_pressure, p.modelled_opening_pressure]) - p.atmospheric_pressure
+    np.testing.assert_allclose(gauge, [4e4, 3e4])
+
+
 @pytest.mark.parametrize("step", [0.25, 0.5])
 def test_caliper_is_stiffened_by_its_damping_within_a_step(rig: Any, step: float) -> None:
-    """Spring, damping and contact side by side; friction adds to what squeezing feels of the contact."""
+    """Spring, dampings and contact side by side; friction adds to what squeezing feels of the contact."""
     overrides = (f"simulation.time_step={step} ms", "rig.caliper.load_friction=10 %")
     p = rig.parameters(*overrides)[0]
     caliper = rig.case(*overrides).scenario.rig.caliper
     damping = caliper.viscous_friction / (1e-3 * step)
     assert p.piston_damping == pytest.approx(damping)
-    assert p.squeezing_stiffness == pytest.approx(1.1 * caliper.contact_stiffness)
-    assert p.releasing_stiffness == pytest.approx(0.9 * caliper.contact_stiffness)
+    contact_damping = caliper.contact_friction / (1e-3 * step)
+    assert p.contact_damping == pytest.approx(contact_damping)
+    assert p.squeezing_stiffness == pytest.approx(1.1 * caliper.contact_stiffness + contact_damping)
+    assert p.releasing_stiffness == pytest.approx(0.9 * caliper.contact_stiffness + contact_damping)
     free = caliper.spring_rate + damping
     assert p.free_compliance == pytest.approx(1.0 / free)
     assert p.squeezing_compliance == pytest.approx(1.0 / (free + p.squeezing_stiffness))

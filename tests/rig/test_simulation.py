@@ -27,6 +27,14 @@ def test_air_residual_is_below_1e_9_in_every_case(stops: dict[str, SimulatedStop
     } == {}
 
 
+def test_air_energy_residual_is_below_1e_9_in_every_case(stops: dict[str, SimulatedStop]) -> None:
+    assert {
+        name: s.measures.air_energy_residual
+        for name, s in stops.items()
+        if abs(s.measures.air_energy_residual) >= 1e-9
+    } == {}
+
+
 def test_every_case_comes_to_a_standstill(stops: dict[str, SimulatedStop]) -> None:
     assert {name for name, s in stops.items() if s.measures.stopped != 1.0} == set()
 

@@ -331,6 +331,30 @@ IMPOSSIBLE: list[Row] = [
         *(4, 64, "brake.system.caliper_tank.ball_volume", "do not fit", ""),
     ),
     (
+        "modelled air that a step overheats",
+        HEAD + "rig: {compensation: thermal, compensation_model: {extends: six-inch, air:"
+        " {caliper_heat_conductance: 9000 W/K}}}\n",
+        *(4, 102, "rig.compensation_model.air.caliper_heat_conductance", "too much", "at most 3.46e+03 W/K"),
+    ),
+    (
+        "modelled piston that sweeps a tank",
+        HEAD + "rig: {compensation: thermal, compensation_model: {extends: six-inch, air:"
+        " {swept_volume: 3 L}}}\n",
+        *(
+            4,
+            90,
+            "rig.compensation_model.air.swept_volume",
+            "leaves no air",
+            "below brake.system.tank.volume",
+        ),
+    ),
+    (
+        "modelled piston that moves back before it moves out",
+        HEAD + "rig: {compensation: thermal, compensation_model: {extends: six-inch, air:"
+        " {opening_pressure: 2 bar}}}\n",
+        *(4, 94, "rig.compensation_model.air.opening_pressure", "move back at 2 bar", "must not exceed"),
+    ),
+    (
         "kS above kA",
         HEAD + "rail: {condition: {extends: wet, reduction_slip: 0.5}}\n",
         *(4, 50, "rail.condition.reduction_slip", "kS = 0.5 exceeds kA = 0.30", "reduction_adhesion"),

@@ -63,7 +63,7 @@ def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
 
     controller = case.scenario.controller
     assert (controller.name, controller.based_on) == ("mine", "threshold")
-    assert (controller.original.slip_threshold, controller.original.hold_limit) == (1.146, 2.0)
+    assert (controller.original.slip_threshold, controller.original.hold_limit) == (1.477, 2.0)
 
 
 def test_a_copy_with_another_number_still_knows_what_it_was_changed_from(loaded: Loaded, head: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, load
+from uictest.scenario import COMPENSATION_SETTINGS, Case, load
 from uictest.scenario.parts.friction import FrictionProfile
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
@@ -22,7 +22,7 @@ def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
         "friction-step-120",
         "low-adhesion-80",
         "slide-80-four-caliper",
-        *(f"slide-80[compensation={setting}]" for setting in ("none", "hysteresis", "cylinder", "full")),
+        *(f"slide-80[compensation={setting}]" for setting in COMPENSATION_SETTINGS),
         "slip-120",
         *(f"wet-80-command[command={command}]" for command in (80, 90, 100)),
         *(f"wet-80-friction[friction={friction}]" for friction in ("0.09", "0.10", "0.11", "0.12")),

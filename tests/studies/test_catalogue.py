@@ -12,10 +12,12 @@ from uictest.studies.catalogue import find_studies
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
-    ("cylinder-dynamics", "after"): (None, 2.0),
+    ("cylinder-dynamics", "after_full"): (None, None),
+    ("cylinder-dynamics", "after_thermal"): (None, 2.0),
     ("cylinder-dynamics", "ratio"): (None, 0.45),
     ("force-accuracy", "module_1"): (None, 8.0),
     ("force-accuracy", "full"): (None, 8.0),
+    ("force-accuracy", "thermal"): (None, 8.0),
     ("bench-loops", "loop_width"): (0.45, 0.55),
     ("valve-actuations", "caliper"): (10.0, 12.0),
     ("valve-actuations", "none"): (19.0, 23.0),

@@ -6,7 +6,7 @@ import pytest
 from uictest.recording import Recording
 from uictest.scenario import Case
 from uictest.studies import StopRunner
-from uictest.studies.replay import CYCLE, maximum_pressure, replayed
+from uictest.studies.replay import CYCLE, maximum_pressure, replayed, replayed_in_turn
 
 
 @pytest.fixture(scope="module")
@@ -32,3 +32,10 @@ def test_a_released_brake_clamps_no_more(case: Case, stop: Recording) -> None:
     assert released["caliper_force_1"][-1] == 0.0
     assert not released["wsp_acting"][-1]
     np.testing.assert_array_equal(released["stroke_1"][: len(held)], held["stroke_1"])
+
+
+def test_wheelsets_are_replayed_one_after_the_other(case: Case, stop: Recording) -> None:
+    both = replayed_in_turn(case, stop, [1, 2], release=True)
+    first, second = (replayed(case, stop, n, release=True) for n in (1, 2))
+    assert len(both) == len(first) + len(second) - 1  # a recording begins with the state at rest
+    np.testing.assert_array_equal(both["stroke_1"][: len(first)], first["stroke_1"])

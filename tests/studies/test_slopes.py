@@ -14,7 +14,7 @@ def loop(level: str, **slopes: float) -> Loop:
     """A loop of which nothing is known but the slopes of some phases, in kN/bar."""
     lines = {phase: FittedLine(slope * 1e-2, -1500.0) for phase, slope in slopes.items()}
     nothing: Any = None
-    return Loop(level, nothing, HysteresisResult(lines, FittedLine(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
+    return Loop(level, nothing, HysteresisResult(lines, lines, FittedLine(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
 
 
 def test_the_phase_that_changes_most_decides() -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,21 @@ def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
     assert [[*map(str, each.stops)] for each in first] == [["0", "1", "2"]] * 2
     assert [[*map(str, each.stops)] for each in again] == [["2", "3", "4"]] * 3
     assert len(runs) == len(set(runs)) == 6 + 7
+
+
+def test_cases_of_the_same_id_are_different_stops(runs: list[tuple[str, int]]) -> None:
+    bench = StopRunner()
+    cases = [bench.cases("slide-80", f"rig.compensation={setting}")[0] for setting in ("none", "full")]
+    assert cases[0].id == cases[1].id
+    bench.repeated(cases, [0])
+    assert len(runs) == 2
+
+
+def test_the_id_seeds_the_noise_so_that_another_id_is_another_stop(runs: list[tuple[str, int]]) -> None:
+    bench = StopRunner()
+    case = bench.cases("slide-80")[0]
+    bench.repeated([case, replace(case, id="other")], [0])
+    assert [name for name, _ in runs] == [case.id, "other"]
 
 
 def test_work_is_returned_in_order() -> None:

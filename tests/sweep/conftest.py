@@ -60,6 +60,7 @@ def formula(
         "end_speed",
         "energy_residual",
         "air_residual",
+        "air_energy_residual",
         "air_consumed",
         "reservoir_minimum_pressure",
     ):

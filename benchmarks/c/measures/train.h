@@ -20,7 +20,7 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     for (int second = 0; second <= WINDOW_SECONDS; second++)
         m->speed_after_sliding[second] = NAN;
     m->reservoir_minimum_pressure = reservoir_pressure;
-    m->air_consumed = m->energy_residual = m->air_residual = NAN;
+    m->air_consumed = m->energy_residual = m->air_residual = m->air_energy_residual = NAN;
     m->samples = 1.0;
 }
 

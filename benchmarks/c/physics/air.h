@@ -4,21 +4,48 @@
 
 #include "arithmetic.h"
 
-OURS real mass_flow(real pressure_1, real pressure_2, real conductance, real density, real critical_ratio,
-                    real subsonic_scale, real laminar_slope)
+#define REFERENCE_DENSITY 1.185
+#define REFERENCE_TEMPERATURE 293.15
+
+OURS real coldness(real temperature) { return REFERENCE_TEMPERATURE / temperature; }
+
+OURS real reduced_flow(real pressure_1, real pressure_2, real coldness_1, real coldness_2, real critical_ratio,
+                       real subsonic_scale, real laminar_slope)
 {
+    mask backwards = pressure_2 > pressure_1;
     real upstream = maximum(pressure_1, pressure_2);
     real downstream = minimum(pressure_1, pressure_2);
-    real direction = choose(pressure_2 > pressure_1, number(-1.0), number(1.0));
     real subsonic = maximum(fma(-critical_ratio, upstream, downstream), number(0.0)) * subsonic_scale;
-    real curve = sqrt_of(maximum(fma(-subsonic, subsonic, upstream * upstream), number(0.0)));
+    real curve_squared = maximum(fma(-subsonic, subsonic, upstream * upstream), number(0.0));
     real chord = (upstream - downstream) * laminar_slope;
-    return direction * (conductance * density) * minimum(curve, chord);
+    real size = sqrt_of(choose(backwards, coldness_2, coldness_1) * minimum(curve_squared, chord * chord));
+    return choose(backwards, -size, size);
 }
 
-OURS real pressure_change(real pressure, real stiffness, real mass_change, real volume_change, real air)
+OURS real mass_flow(real pressure_1, real pressure_2, real coldness_1, real coldness_2, real conductance,
+                    real critical_ratio, real subsonic_scale, real laminar_slope)
 {
-    return stiffness * fma(air, mass_change, -pressure * volume_change);
+    return conductance * REFERENCE_DENSITY *
+           reduced_flow(pressure_1, pressure_2, coldness_1, coldness_2, critical_ratio, subsonic_scale, laminar_slope);
+}
+
+OURS real enthalpy(real flow, real temperature_1, real temperature_2, real heat_capacity)
+{
+    return flow * heat_capacity * choose(flow < 0.0, temperature_2, temperature_1);
+}
+
+/* Changes of temperature (returned) and of pressure within a step. */
+OURS real changes(real pressure, real temperature, real mass, real gained, real energy, real volume, real growth,
+                  real wall_temperature, real exchange, real gas_constant, real heat_capacity, real *rise)
+{
+    real work = pressure * growth;
+    real carried = temperature * gained;
+    real capacity = fma(mass, heat_capacity, exchange);
+    real inverse = 1.0 / (capacity * volume);
+    real heated = fma(exchange, wall_temperature - temperature, fma(-heat_capacity, carried, energy - work));
+    real warming = heated * (volume * inverse);
+    *rise = fma(gas_constant, fma(mass, warming, carried), -work) * (capacity * inverse);
+    return warming;
 }
 
 OURS real demanded_pressure(real time, real commanded_pressure, real dead_time, real filling_rate)

@@ -5,10 +5,13 @@
 #include "arithmetic.h"
 
 OURS real stroke_after(real stroke, real pressure, real piston_area, real preload, real coulomb_friction,
-                       real clearance, real damping, real squeezing_stiffness, real releasing_stiffness,
-                       real free_compliance, real squeezing_compliance, real releasing_compliance)
+                       real clearance, real damping, real contact_damping, real squeezing_stiffness,
+                       real releasing_stiffness, real free_compliance, real squeezing_compliance,
+                       real releasing_compliance)
 {
-    real load = fma(pressure, piston_area, fma(damping, stroke, -preload));
+    real compressed = maximum(stroke - clearance, number(0.0));
+    real held_back = fma(damping, stroke, fma(contact_damping, compressed, -preload));
+    real load = fma(pressure, piston_area, held_back);
     real squeezing_load = load - coulomb_friction;
     real releasing_load = load + coulomb_friction;
     real squeezing = minimum(squeezing_load * free_compliance,

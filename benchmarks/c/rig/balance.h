@@ -71,4 +71,20 @@ static inline double air_residual(const Car *car, const Wheelset *wheelsets)
     return balance / car->consumed_air;
 }
 
+static inline double stored_air_energy(const Car *car, const Wheelset *wheelsets, const Parameters *p)
+{
+    double energy = car->line_mass * car->line_temperature;
+    for (int i = 0; i < 4; i++)
+        energy += wheelsets[i].air_mass * wheelsets[i].air_temperature;
+    return energy * p->heat_capacity_volume;
+}
+
+static inline double air_energy_residual(const Car *car, const Wheelset *wheelsets, const Parameters *p)
+{
+    double gained = car->supplied_enthalpy - car->exhausted_enthalpy + car->line_heat;
+    for (int i = 0; i < 4; i++)
+        gained += wheelsets[i].wall_heat - wheelsets[i].vented_enthalpy - wheelsets[i].piston_work;
+    return (stored_air_energy(car, wheelsets, p) - car->initial_air_energy - gained) / car->supplied_enthalpy;
+}
+
 #endif

@@ -7,8 +7,9 @@
 OURS void step_caliper(Wheelset *wheelset, real gauge, const Parameters *p)
 {
     real stroke = stroke_after(wheelset->stroke, gauge, p->piston_area, p->preload, p->coulomb_friction, p->clearance,
-                               p->piston_damping, p->squeezing_stiffness, p->releasing_stiffness, p->free_compliance,
-                               p->squeezing_compliance, p->releasing_compliance);
+                               p->piston_damping, p->contact_damping, p->squeezing_stiffness,
+                               p->releasing_stiffness, p->free_compliance, p->squeezing_compliance,
+                               p->releasing_compliance);
     wheelset->stroke_change = stroke - wheelset->stroke;
     wheelset->stroke = stroke;
     wheelset->caliper_force = clamping_force(stroke, p->clearance, p->contact_stiffness, p->lever_ratio);
@@ -47,6 +48,7 @@ OURS void step_clamping(Wheelset *wheelset, const Parameters *p)
     step_caliper(wheelset, gauge, p);
     real reading = analogue_reading(gauge, p->pressure_gain_error, p->pressure_offset, wheelset->pressure_error,
                                     p->pressure_range, p->pressure_resolution, p->pressure_steps);
+    wheelset->pressure_reading = reading;
     step_cylinder(wheelset, reading, p);
     step_hysteresis(wheelset, p);
     real loadcells = analogue_reading(wheelset->caliper_force, p->loadcell_gain_error, p->loadcell_offset,

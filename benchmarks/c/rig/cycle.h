@@ -6,7 +6,7 @@
 #include "../physics/once_per_cycle.h"
 #include "records.h"
 
-enum { SPEED = 0, PRESSURE = 1, LOADCELL = 2, CHANNELS = 16 };
+enum { SPEED = 0, PRESSURE = 1, LOADCELL = 2, CHANNELS = 16, LINE = 4 * CHANNELS };
 
 /* Friction laws: places, friction coefficients there, times, factors then; `width` numbers each. */
 typedef struct {
@@ -47,10 +47,11 @@ static inline void command_valve(Wheelset *wheelset, const Parameters *p)
     wheelset->wsp_acting = wheelset->filling_cycles < p->wsp_acting_cycles;
 }
 
-static inline void read_sensors(const Car *car, Wheelset *wheelsets, const Parameters *p)
+static inline void read_sensors(Car *car, Wheelset *wheelsets, const Parameters *p)
 {
     for (int i = 0; i < 4; i++)
         read_module_sensors(&wheelsets[i], p, car->cycle, i);
+    car->line_pressure_error = p->pressure_noise * noise(p, car->cycle, LINE);
 }
 
 static inline void start_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail)

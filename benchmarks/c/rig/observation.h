@@ -36,6 +36,7 @@ static inline void close_stop_measures(const Car *car, const Bogie *bogies, cons
     measures->air_consumed = car->consumed_air;
     measures->energy_residual = energy_residual(car, bogies, wheelsets, p);
     measures->air_residual = air_residual(car, wheelsets);
+    measures->air_energy_residual = air_energy_residual(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
         wheelset_measures[i].air_vented = wheelsets[i].vented_air;
 }

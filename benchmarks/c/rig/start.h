@@ -9,6 +9,8 @@ static inline void start_supply(Car *car, const Parameters *p)
 {
     car->reservoir_pressure = p->reservoir_pressure;
     car->line_pressure = p->atmospheric_pressure;
+    car->line_temperature = p->air_temperature;
+    car->line_coldness = p->air_coldness;
     car->reservoir_mass = p->reservoir_pressure * p->reservoir_volume / (p->gas_constant * p->air_temperature);
     car->line_mass = p->atmospheric_pressure * p->line_volume / (p->gas_constant * p->air_temperature);
 }
@@ -18,9 +20,24 @@ static inline void start_wheelset(Wheelset *wheelset, const Parameters *p)
     wheelset->speed = p->initial_speed;
     wheelset->rotation = p->initial_speed / p->wheel_radius;
     wheelset->wheel_load = p->static_wheel_load;
+}
+
+static inline void start_module(Wheelset *wheelset, double has_caliper, const Parameters *p)
+{
+    double volume = has_caliper > 0.0 ? p->caliper_tank_volume : p->tank_volume;
+    wheelset->has_caliper = has_caliper;
     wheelset->filling_cycles = 1000000;
     wheelset->fill_opening = 1.0;
     wheelset->pressure = p->atmospheric_pressure;
+    wheelset->air_temperature = p->air_temperature;
+    wheelset->air_coldness = p->air_coldness;
+    wheelset->air_mass = p->atmospheric_pressure * volume / (p->gas_constant * p->air_temperature);
+    wheelset->modelled_tank_pressure = p->atmospheric_pressure;
+    wheelset->modelled_tank_air = p->atmospheric_pressure;
+    wheelset->modelled_pressure = p->atmospheric_pressure;
+    wheelset->modelled_volume = 1.0 - p->modelled_swept_share;
+    wheelset->modelled_air = p->atmospheric_pressure * wheelset->modelled_volume;
+    wheelset->pressure_ratio = 1.0;
 }
 
 static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
@@ -33,16 +50,15 @@ static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Par
     }
     for (int i = 0; i < 4; i++) {
         double side = 1.0 - 2.0 * (i % 2);
-        double volume = i < p->calipers ? p->caliper_tank_volume : p->tank_volume;
         start_wheelset(&wheelsets[i], p);
-        wheelsets[i].has_caliper = i < p->calipers ? 1.0 : 0.0;
+        start_module(&wheelsets[i], i < p->calipers ? 1.0 : 0.0, p);
         wheelsets[i].ahead = side * p->half_wheelbase;
         wheelsets[i].behind = p->half_pivot_distance - bogies[i / 2].ahead + p->half_wheelbase * (1.0 - side);
-        wheelsets[i].air_mass = p->atmospheric_pressure * volume / (p->gas_constant * p->air_temperature);
     }
     begin_threshold(car, wheelsets, p->initial_speed);
     car->initial_energy = stored_energy(car, bogies, wheelsets, p);
     car->initial_air = stored_air(car, wheelsets);
+    car->initial_air_energy = stored_air_energy(car, wheelsets, p);
 }
 
 #endif

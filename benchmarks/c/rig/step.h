@@ -40,10 +40,7 @@ OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Param
 
 OURS void step(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
 {
-    real drawn = step_tank(&wheelsets[0], car, p);
-    for (int i = 1; i < 4; i++)
-        drawn += step_tank(&wheelsets[i], car, p);
-    step_supply(car, drawn, p);
+    step_air(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
         step_clamping(&wheelsets[i], p);
     step_vehicle(car, bogies, wheelsets, p);

@@ -42,6 +42,8 @@ _FINITE_IN_WHEELSETS: Final = tuple(
 )
 """Fields of the records that hold a number after every simulated stop; the others may be NaN."""
 
+_RELATIVE_TO_THE_AIR_TAKEN: Final = frozenset({"air_residual", "air_energy_residual"})
+
 _DEFAULTS: Final = {
     name: value for column in STOP_COLUMNS.values() for name, value in column.defaults.items()
 }
@@ -155,10 +157,10 @@ def _not_finite(measures: StopMeasures, wheelsets: Wheelsets) -> Iterator[str]:
 
 
 def _why_not_finite(measures: StopMeasures, names: list[str]) -> str:
-    if names == ["air_residual"] and measures.air_consumed == 0.0:
+    if measures.air_consumed == 0.0 and _RELATIVE_TO_THE_AIR_TAKEN.issuperset(names):
         return (
-            f"the stop ended after {measures.end_time:.3g} s, before the brake took any air, so that the air"
-            " balance has no value; brake from a higher speed or with a shorter dead time"
+            f"the stop ended after {measures.end_time:.3g} s, before the brake took any air, so that the"
+            " balances of the air have no value; brake from a higher speed or with a shorter dead time"
         )
     listed = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
     return f"the simulation gives no finite {listed}: the numbers of the scenario do not fit together"

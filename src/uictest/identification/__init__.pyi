@@ -1,3 +1,4 @@
+from .air import AirResult as AirResult
 from .channels import (
     RecordedChannels as RecordedChannels,
     read_record as read_record,
@@ -6,6 +7,7 @@ from .channels import (
 from .compensation_file import (
     Provenance as Provenance,
     load_compensation as load_compensation,
+    with_air as with_air,
     with_cylinder as with_cylinder,
     with_hysteresis as with_hysteresis,
 )
@@ -20,5 +22,13 @@ from .phases import (
     wsp_acting_from_commands as wsp_acting_from_commands,
     wsp_acting_in_intervals as wsp_acting_in_intervals,
 )
-from .result_text import cylinder_text as cylinder_text, hysteresis_text as hysteresis_text
-from .suitability import UnsuitableRecordError as UnsuitableRecordError
+from .result_text import (
+    air_text as air_text,
+    cylinder_text as cylinder_text,
+    hysteresis_text as hysteresis_text,
+)
+from .suitability import (
+    UnsuitableRecordError as UnsuitableRecordError,
+    held_out as held_out,
+    required_sampling_time as required_sampling_time,
+)

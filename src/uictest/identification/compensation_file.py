@@ -9,37 +9,19 @@ from typing import Any
 
 import yaml
 
+from uictest.identification.air import AirResult
 from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
 from uictest.scenario import Compensation, Files, Parts, Roots
 from uictest.scenario.yaml import Quantity, Scalar, whole_file
-from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
 
-# Keys of the facts in the order of `_provenance`.
-_HYSTERESIS_KEYS = (
-    "hysteresis record",
-    "hysteresis record sha256",
-    "hysteresis samples sha256",
-    "hysteresis record origin",
-    "hysteresis command",
-    "hysteresis version",
-    "hysteresis fit",
-    "hysteresis date",
-)
-_CYLINDER_KEYS = (
-    "cylinder record",
-    "cylinder record sha256",
-    "cylinder samples sha256",
-    "cylinder record origin",
-    "cylinder command",
-    "cylinder version",
-    "cylinder fit",
-    "cylinder date",
-)
+_FACTS = ("record", "record sha256", "samples sha256", "record origin", "command", "version", "fit", "date")
+"""Facts of one identification, in the order of `_provenance`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,12 +72,12 @@ def with_hysteresis(
     acting_time: float,
     transition: float,
 ) -> str:
-    """Return the text of ``base`` with the lines of ``result``; WSP phases without a line get the BC line."""
+    """Return the text of ``base`` with the level lines of ``result``; WSP phases without get the BC line."""
     source, option = "identified-hysteresis", "hysteresis-option"
     numbers = _numbers(base)
     numbers["linear"] = _line(result.linear, source)
     numbers["hysteresis"] = {
-        **{phase: _line(line, source) for phase, line in all_four(result.lines).items()},
+        **{phase: _line(line, source) for phase, line in all_four(result.level_lines).items()},
         "transition_time": (f"{transition * 1e3:.6g} ms", option),
         "wsp_acting_time": (f"{acting_time:.6g} s", option),
     }
@@ -110,7 +92,7 @@ def with_hysteresis(
             "text": "Options --transition-time and --acting-time of the identification",
         },
     }
-    return _text(base, name, numbers, sources, _provenance(_HYSTERESIS_KEYS, base, provenance, fit))
+    return _text(base, name, numbers, sources, _provenance("hysteresis", base, provenance, fit))
 
 
 def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
@@ -133,7 +115,27 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
         f" fit {result.fit:.2f} %"
     )
     sources = {source: _identified("Cylinder dynamics", provenance, fit)}
-    return _text(base, name, numbers, sources, _provenance(_CYLINDER_KEYS, base, provenance, fit))
+    return _text(base, name, numbers, sources, _provenance("cylinder", base, provenance, fit))
+
+
+def with_air(base: Compensation, name: str, result: AirResult, provenance: Provenance) -> str:
+    """Return the text of ``base`` with the air of ``result``."""
+    source = "identified-air"
+    numbers = _numbers(base)
+    numbers["air"] = {
+        "tank_heat_conductance": (f"{result.tank_heat_conductance:.6g} W/K", source),
+        "caliper_heat_conductance": (f"{result.caliper_heat_conductance:.6g} W/K", source),
+        "swept_volume": (f"{in_unit(result.swept_volume, 'L'):.6g} L", source),
+        "closing_pressure": (f"{result.closing_pressure / BAR:.6g} bar", source),
+        "opening_pressure": (f"{result.opening_pressure / BAR:.6g} bar", source),
+    }
+    fit = (
+        f"pressure error on held-out parts: largest {100.0 * result.largest_after:.2f} %"
+        f" ({100.0 * result.largest_before:.2f} % without), rms {100.0 * result.rms_after:.2f} %"
+        f" of {result.largest_pressure / BAR:.3f} bar"
+    )
+    sources = {source: _identified("Air of the caliper's module", provenance, fit)}
+    return _text(base, name, numbers, sources, _provenance("air", base, provenance, fit))
 
 
 def _line(line: FittedLine, source: str) -> Numbers:
@@ -152,6 +154,7 @@ def _numbers(base: Compensation) -> Numbers:
             for name, value in base.hysteresis
         },
         "cylinder": {name: [_pair(value) for value in values] for name, values in base.cylinder},
+        "air": _pairs(base.air),
     }
 
 
@@ -172,8 +175,9 @@ def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str
     return {"mark": "identified", "text": text}
 
 
-def _provenance(keys: Sequence[str], base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
-    """Return the provenance of ``base`` with the facts of one identification, by `keys`, replaced."""
+def _provenance(subject: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
+    """Return the provenance of ``base`` with the facts of the identification of one subject replaced."""
+    keys = [f"{subject} {fact}" for fact in _FACTS]
     facts = (
         provenance.record,
         provenance.digest,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -11,21 +10,15 @@ from uictest.identification.applications import applications
 from uictest.identification.arrays import Mask, Samples
 from uictest.identification.output_error import (
     FitSegment,
-    least_largest_weights,
-    least_squares_weights,
     refined,
 )
 from uictest.identification.suitability import (
     UnsuitableRecordError,
     held_out,
-    require_duration,
-    require_excitation,
-    require_finite,
-    sampling_time,
+    required_sampling_time,
 )
 from uictest.identification.transfer_function import TransferFunction, assembled
 
-FitCriterion = Literal["least-squares", "largest-error"]
 _SHORTEST = 5.0
 """s: shortest record; chosen."""
 _LONGEST_STEP = 0.01
@@ -57,27 +50,26 @@ def identify_cylinder(
     time: Samples,
     tank_pressure: Samples,
     cylinder_pressure: Samples,
-    criterion: FitCriterion = "least-squares",
     held_out_share: float = 0.25,
 ) -> CylinderResult:
     """Find the third-order transfer function at the record's sampling time.
 
     A linear start (ARX, Steiglitz-McBride) and fixed ones are refined for the least output error of the whole
     simulated record, in each of its brake applications. Unity gain at rest and stability hold by
-    parametrisation.
+    parametrisation. The response to a step never turns back, since the hysteresis would keep the force of the
+    turn.
 
     Args:
         time: s, evenly sampled, every 10 ms or more often.
         tank_pressure: gauge pressure of a tank without cylinder, Pa.
         cylinder_pressure: gauge pressure of the cylinder under the same valve commands, Pa.
-        criterion: what is minimised: the squares of the error, or the largest error. The latter
-            suits pressures of little noise whose difference is not linear: it bounds the error of the force.
         held_out_share: share of the record that is excluded from the fit and gives the errors.
 
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
     """
-    step = _required_sampling_time(time, tank_pressure, cylinder_pressure)
+    pressures = {"tank": tank_pressure, "cylinder": cylinder_pressure}
+    step = required_sampling_time(time, pressures, _SHORTEST, _LONGEST_STEP)
     is_held_out = held_out(len(time), held_out_share)
     brakings = applications(tank_pressure, cylinder_pressure, step)
     if not any(is_held_out[braking].any() and not is_held_out[braking].all() for braking in brakings):
@@ -86,34 +78,13 @@ def identify_cylinder(
         _segment(tank_pressure[braking], cylinder_pressure[braking], ~is_held_out[braking])
         for braking in brakings
     ]
-    poles, weights = refined(segments, step, least_squares_weights)
-    if criterion == "largest-error":
-        poles, weights = refined(segments, step, least_largest_weights, poles)
+    poles, weights = refined(segments, step)
     model = assembled(poles, weights, step)
     computed = [model.output(tank_pressure[braking]) for braking in brakings]
     held = np.concatenate([is_held_out[braking] for braking in brakings])
     tank = np.concatenate([tank_pressure[braking] for braking in brakings])
     cylinder = np.concatenate([cylinder_pressure[braking] for braking in brakings])
     return _assessed(model, tank[held], cylinder[held], np.concatenate(computed)[held])
-
-
-def _required_sampling_time(time: Samples, tank: Samples, cylinder: Samples) -> float:
-    """Return the sampling time of a record in s. Raises UnsuitableRecordError where it cannot be fitted."""
-    require_finite({"time": time, "tank_pressure": tank, "cylinder_pressure": cylinder})
-    require_duration(time, _SHORTEST)
-    step = sampling_time(time, _LONGEST_STEP)
-    require_excitation("tank_pressure", tank, step)
-    require_excitation("cylinder_pressure", cylinder, step)
-    _require_dynamics(tank, cylinder)
-    return step
-
-
-def _require_dynamics(tank: Samples, cylinder: Samples) -> None:
-    for name, pressure in (("tank", tank), ("cylinder", cylinder)):
-        if pressure.max() <= 0.0:
-            raise UnsuitableRecordError(f"the {name} pressure is never above zero: is its sign wrong?")
-    if np.array_equal(tank, cylinder):
-        raise UnsuitableRecordError("tank and cylinder pressure are the same, sample by sample: no dynamics")
 
 
 def require_fit(result: CylinderResult) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest.identification.arrays import Mask, Samples
 from uictest.identification.lines import FittedLine, robust_line
@@ -49,7 +51,8 @@ class HysteresisResult:
     """The lines of the phases in a record, and how well they compute its force.
 
     Attributes:
-        lines: by phase; a phase that the record does not support is missing.
+        lines: by phase, through the recorded points; a phase that the record does not support is missing.
+        level_lines: the same, shifted until the force that the model computes is right on average on each.
         linear: one line for force without hysteresis, midway between the BC lines.
         loop_widths: BC and WSP: width of the loop in Pa at ``high_force``.
         high_force: force in N at which the widths are reported.
@@ -59,6 +62,7 @@ class HysteresisResult:
     """
 
     lines: dict[str, FittedLine]
+    level_lines: dict[str, FittedLine]
     linear: FittedLine
     loop_widths: dict[str, float]
     high_force: float
@@ -96,11 +100,18 @@ def identify_hysteresis(
     _require_force(force)
     largest = float(force.max())
     is_held_out = held_out(len(time), held_out_share)
-    lines = _lines(pressure, force, wsp_acting, ~is_held_out, step)
-    computed = computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
+    points = _points(pressure, force, wsp_acting, ~is_held_out, step)
+    lines = _lines(pressure, force, points)
+
+    def computed_by(lines: Mapping[str, FittedLine]) -> Samples:
+        return computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
+
+    level_lines = _level(lines, points, computed_by(lines) - force)
+    computed = computed_by(level_lines)
     error = ((computed - force) / largest)[is_held_out]
     return HysteresisResult(
         lines,
+        level_lines,
         _midway(lines["bc_squeezing"], lines["bc_releasing"]),
         _widths(lines, HIGH_FORCE * largest),
         HIGH_FORCE * largest,
@@ -119,26 +130,48 @@ def _require_force(force: Samples) -> None:
         raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
 
 
-def _lines(
+def _points(
     pressure: Samples, force: Samples, acting: Mask, fitted: Mask, step: float
-) -> dict[str, FittedLine]:
+) -> dict[str, NDArray[np.int_]]:
+    """Return the samples to be fitted of each phase that spans enough pressure."""
     squeezing, releasing = on_lines(pressure, force, step)
     every = max(round(_INDEPENDENT / step), 1)
-    lines: dict[str, FittedLine] = {}
+    points = {}
     for phase, (wsp_acts, rises) in PHASES.items():
         mask = fitted & (acting if wsp_acts else ~acting) & (squeezing if rises else releasing)
-        points = np.flatnonzero(mask)[::every]
-        if len(points) and np.ptp(pressure[points]) >= _LEAST_SPAN * np.ptp(pressure):
-            try:
-                lines[phase] = robust_line(pressure[points], force[points])
-            except ValueError:
-                continue
+        of_phase = np.flatnonzero(mask)[::every]
+        if len(of_phase) and np.ptp(pressure[of_phase]) >= _LEAST_SPAN * np.ptp(pressure):
+            points[phase] = of_phase
+    return points
+
+
+def _lines(
+    pressure: Samples, force: Samples, points: Mapping[str, NDArray[np.int_]]
+) -> dict[str, FittedLine]:
+    lines: dict[str, FittedLine] = {}
+    for phase, of_phase in points.items():
+        with suppress(ValueError):  # too few points
+            lines[phase] = robust_line(pressure[of_phase], force[of_phase])
     for phase in ("bc_squeezing", "bc_releasing"):
         if phase not in lines:
             raise UnsuitableRecordError(
                 f"phase {phase!r} not found: the pressure must rise and fall far enough"
             )
     return lines
+
+
+def _level(
+    lines: Mapping[str, FittedLine], points: Mapping[str, NDArray[np.int_]], error: Samples
+) -> dict[str, FittedLine]:
+    """Return the lines without the mean error that the model makes on them.
+
+    The play between the lines keeps the peaks of a noisy pressure, so that a line through the middle of the
+    points would give too much force where it squeezes and too little where it releases.
+    """
+    return {
+        phase: replace(line, intercept=line.intercept - float(np.mean(error[points[phase]])))
+        for phase, line in lines.items()
+    }
 
 
 def all_four(lines: Mapping[str, FittedLine]) -> dict[str, FittedLine]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,17 +11,26 @@ from numpy.typing import NDArray
 from uictest.identification.arrays import Mask, Samples
 from uictest.identification.transfer_function import Poles, basis
 
-Weigh = Callable[[Samples, Samples], tuple[float, Samples]]
+Weigh = Callable[[Samples, Samples, Samples], tuple[float, Samples]]
 ErrorFunction = Callable[[Poles], tuple[float, Samples]]
 _SLOWEST, _FASTEST = 20.0, 2.0
 """Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell; chosen."""
 _LARGEST_PRODUCT = 10.0
 """Largest product of the three time constants in s^3; chosen."""
 _STIEGLITZ_ROUNDS = 5
-_LAWSON_ROUNDS = 40
-"""Rounds of the two iterations; chosen."""
-_DEFAULT_STARTS = ((0.1, 0.3, 3.0), (0.02, 0.3, 5.0), (0.15, 1.0, 2.5), (0.25, 1.4, 12.0))
-"""Time constants in s of the fixed starts; chosen."""
+"""Rounds of the linear start; chosen."""
+LARGEST_TURN = 1e-4
+"""By how much the response to a unit step may overshoot, or fall from one of the following times to the next.
+The hysteresis keeps the largest pressure as force; chosen."""
+_RESPONSE_TIMES = 100
+_LONGEST_RESPONSE = 60.0
+"""Number of times at which the step response is bounded, and the last of them in s; chosen."""
+_SMALLEST_SIZE = 1e-10
+"""Singular value of the columns below which they are dependent, share of the largest; chosen."""
+_TIME_CONSTANTS = (0.02, 0.05, 0.13, 0.33, 0.85, 2.2, 5.5)
+_DAMPINGS = (0.4, 0.8, 1.2, 3.0)
+_GRID_STARTS = 3
+"""Time constants in s and dampings of the grid of starts, and how many of its points are followed; chosen."""
 _COARSE_POINTS, _POINTS = 4000, 40_000
 """Points at which errors are computed, in the first search and in the refinement; chosen."""
 _COARSE_EVALUATIONS, _EVALUATIONS = 150, 120
@@ -32,32 +41,48 @@ _LINEAR_STEP = 0.02
 """Sampling time in s of the linear start; chosen."""
 
 
-def least_squares_weights(columns: Samples, target: Samples) -> tuple[float, Samples]:
-    """Return the least root-mean-square error and its weights."""
-    weights = np.asarray(np.linalg.lstsq(columns, target, rcond=1e-10)[0], dtype=np.float64)
+def free_weights(columns: Samples, target: Samples, response: Samples) -> tuple[float, Samples]:
+    """Return the least root-mean-square error and its weights, whatever the step response."""
+    weights = np.asarray(np.linalg.lstsq(columns, target, rcond=_SMALLEST_SIZE)[0], dtype=np.float64)
     return float(np.sqrt(np.mean((target - columns @ weights) ** 2))), weights
 
 
-def least_largest_weights(columns: Samples, target: Samples) -> tuple[float, Samples]:
-    """Return the least largest error and its weights, by Lawson's reweighted least squares.
+def bounded_weights(columns: Samples, target: Samples, response: Samples) -> tuple[float, Samples]:
+    """Return the least root-mean-square error and its weights among those whose step response never falls.
 
-    C. L. Lawson, Contributions to the theory of linear least maximum approximations, thesis, UCLA, 1961.
+    Args:
+        columns: what the weights multiply, shape (n, 3).
+        target: shape (n,).
+        response: what they multiply in the response to a unit step, less one, shape (m, 3).
     """
-    emphasis = np.full(len(target), 1.0 / len(target))
-    best = np.inf, np.zeros(columns.shape[1])
-    for _ in range(_LAWSON_ROUNDS):
-        heavy = columns * emphasis[:, None]
-        weights = np.linalg.lstsq(heavy.T @ columns, heavy.T @ target, rcond=1e-13)[0]
-        error = np.abs(target - columns @ weights)
-        largest = float(error.max())
-        if largest < best[0]:
-            best = largest, weights
-        if largest == 0.0:
-            break
-        # A trace of every point is kept: one that is fitted well now may be the worst in the next round.
-        emphasis = emphasis * (error + 1e-6 * largest)
-        emphasis /= emphasis.sum()
-    return best
+    left, sizes, right = np.linalg.svd(columns, full_matrices=False)
+    kept = sizes > _SMALLEST_SIZE * sizes[0]
+    scale = max(float(np.linalg.norm(target)), np.finfo(float).tiny)
+    weights_of = right[kept].T / sizes[kept] * scale
+    # In these coordinates the error grows with the distance from the free optimum.
+    free = left[:, kept].T @ target / scale
+    slopes = np.concatenate([-response[:1], response, -np.diff(response, axis=0)]) @ weights_of
+    limits = np.concatenate([[1.0], np.full(len(slopes) - 1, LARGEST_TURN)])
+    weights = np.asarray(weights_of @ _nearest(free, slopes, limits), dtype=np.float64)
+    return float(np.sqrt(np.mean((target - columns @ weights) ** 2))), weights
+
+
+def _nearest(point: Samples, slopes: Samples, limits: Samples) -> Samples:
+    """Return the point nearest to ``point`` where ``slopes @ x <= limits``, which zero satisfies."""
+    from scipy.optimize import minimize
+
+    if np.all(slopes @ point <= limits):
+        return point
+    within = {"type": "ineq", "fun": lambda x: limits - slopes @ x, "jac": lambda x: -slopes}
+    return np.asarray(
+        minimize(
+            lambda x: float((x - point) @ (x - point)),
+            np.zeros_like(point),
+            jac=lambda x: 2.0 * (x - point),
+            method="SLSQP",
+            constraints=within,
+        ).x
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,27 +98,23 @@ class FitSegment:
         return FitSegment(self.input[::every], self.output[::every], self.fitted[::every])
 
 
-def refined(
-    segments: Sequence[FitSegment], step: float, weigh: Weigh, first: Poles | None = None
-) -> tuple[Poles, Samples]:
+def refined(segments: Sequence[FitSegment], step: float) -> tuple[Poles, Samples]:
     """Poles and weights with the least error of the simulated output where it is fitted.
 
-    The weights follow from the poles (variable projection), so that three unknowns remain. Every
-    start (fixed ones, a linear fit and ``first``) is followed on a coarse grid of time, and the best end is
-    refined on the record's own.
+    The weights follow from the poles (variable projection), so that three unknowns remain. The best poles of
+    a grid and those of a linear fit are followed at a coarse sampling time, first without and then with
+    bounds on the step response; the best end is refined at the record's own sampling time.
     """
     coarse = max(round(_COARSE_STEP / step), 1)
-    coarse_error = _error_function(
-        [each.thinned(coarse) for each in segments], coarse * step, weigh, _COARSE_POINTS
-    )
+    thinned = [each.thinned(coarse) for each in segments]
     span = max(float(np.ptp(each.input)) for each in segments)
-    starts = [
-        *_starts(max(segments, key=lambda each: len(each.input)), step),
-        *([] if first is None else [first]),
-    ]
-    ends = [_local_minimum(coarse_error, start, _COARSE_EVALUATIONS, span) for start in starts]
-    best = min(ends, key=lambda poles: coarse_error(poles)[0])
-    error = _error_function(segments, step, weigh, _POINTS)
+    free = _error_function(thinned, coarse * step, free_weights, _COARSE_POINTS)
+    starts = _starts(max(segments, key=lambda each: len(each.input)), step, free)
+    ends = [_local_minimum(free, start, _COARSE_EVALUATIONS, span) for start in starts]
+    bounded_error = _error_function(thinned, coarse * step, bounded_weights, _COARSE_POINTS)
+    ends = [_local_minimum(bounded_error, end, _COARSE_EVALUATIONS, span) for end in ends]
+    best = min(ends, key=lambda poles: bounded_error(poles)[0])
+    error = _error_function(segments, step, bounded_weights, _POINTS)
     poles = bounded(_local_minimum(error, best, _EVALUATIONS, span), step)
     return poles, error(poles)[1]
 
@@ -106,17 +127,19 @@ def _error_function(segments: Sequence[FitSegment], step: float, weigh: Weigh, p
     target = np.concatenate(
         [(each.output - each.input)[at] for each, at in zip(segments, chosen, strict=True)]
     )
+    times = np.unique(np.geomspace(1.0, _LONGEST_RESPONSE / step, _RESPONSE_TIMES).astype(int)) - 1
+    unit_step = np.ones(times[-1] + 1)
 
     def error(poles: Poles) -> tuple[float, Samples]:
         within = bounded(poles, step)
         columns = [basis(each.input, within, step)[at] for each, at in zip(segments, chosen, strict=True)]
-        return weigh(np.concatenate(columns), target)
+        return weigh(np.concatenate(columns), target, basis(unit_step, within, step)[times])
 
     return error
 
 
 def _local_minimum(error: ErrorFunction, start: Poles, evaluations: int, span: float) -> Poles:
-    """Return the poles at which the simplex of Nelder and Mead ends; the largest error has no derivative."""
+    """Return the poles at which the simplex of Nelder and Mead ends."""
     from scipy.optimize import minimize
 
     return np.asarray(
@@ -141,16 +164,17 @@ def bounded(poles: Poles, step: float) -> Poles:
     return within
 
 
-def _starts(longest: FitSegment, step: float) -> Iterator[Poles]:
-    yield from (_from_time_constants(constants) for constants in _DEFAULT_STARTS)
+def _starts(longest: FitSegment, step: float, error: ErrorFunction) -> list[Poles]:
+    """Return the best points of a grid, and a linear start where there is one."""
+    grid = [
+        np.log([lag, 2.0 * damping * section, section * section])
+        for lag in _TIME_CONSTANTS
+        for section in _TIME_CONSTANTS
+        for damping in _DAMPINGS
+    ]
+    best = sorted(grid, key=lambda poles: error(poles)[0])[:_GRID_STARTS]
     linear = _linear_start(longest.input, longest.output, step)
-    if linear is not None:
-        yield linear
-
-
-def _from_time_constants(constants: tuple[float, ...]) -> Poles:
-    fast, middle, slow = sorted(constants)
-    return np.log([fast, middle + slow, middle * slow])
+    return best if linear is None else [*best, linear]
 
 
 def _linear_start(tank: Samples, cylinder: Samples, step: float) -> Poles | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from uictest.identification.arrays import Mask, Samples
@@ -11,7 +13,7 @@ from uictest.identification.lines import FittedLine
 def computed_force(
     pressure: Samples,
     wsp_acting: Mask,
-    lines: dict[str, FittedLine],
+    lines: Mapping[str, FittedLine],
     transition_time: float,
     step: float,
     start: float,

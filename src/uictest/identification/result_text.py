@@ -1,7 +1,8 @@
-"""Identified hysteresis and cylinder dynamics as text for the terminal."""
+"""Identified hysteresis, cylinder dynamics and air as text for the terminal."""
 
 from __future__ import annotations
 
+from uictest.identification.air import AirResult
 from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, PERCENT, in_unit
@@ -13,6 +14,7 @@ def hysteresis_text(result: HysteresisResult) -> str:
         f"{phase:<16}{line.slope / KILONEWTON_PER_BAR:9.4f} kN/bar"
         f" +-{line.slope_confidence / KILONEWTON_PER_BAR:8.4f}"
         f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
+        f", shifted by {result.level_lines[phase].intercept - line.intercept:+.1f} N"
         for phase, line in result.lines.items()
     ]
     lines += [
@@ -40,5 +42,22 @@ def cylinder_text(result: CylinderResult) -> str:
             f"gain within 3 dB up to {model.band:.4g} Hz",
             f"fit, held out: {result.fit:.2f} %",
             f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+        ]
+    )
+
+
+def air_text(result: AirResult) -> str:
+    """Return the numbers of the modelled air and the errors on held-out samples."""
+    before, after = result.largest_before / PERCENT, result.largest_after / PERCENT
+    rms, pressure = result.rms_after / PERCENT, result.largest_pressure / BAR
+    return "\n".join(
+        [
+            f"heat conductance of a tank {result.tank_heat_conductance:.4g} W/K",
+            f"heat conductance of the caliper's module {result.caliper_heat_conductance:.4g} W/K",
+            f"swept volume {in_unit(result.swept_volume, 'L'):.4g} L",
+            f"piston moves out at {result.closing_pressure / BAR:.4f} bar",
+            f"piston moves back at {result.opening_pressure / BAR:.4f} bar",
+            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+            f"rms error, held out: {rms:.2f} %",
         ]
     )

@@ -24,6 +24,33 @@ class UnsuitableRecordError(ValueError):
     """A record that does not support an identification; the message says why."""
 
 
+def required_sampling_time(
+    time: Samples, pressures: dict[str, Samples], shortest: float, longest: float
+) -> float:
+    """Return the even sampling time in s of a record whose pressures vary; tank and cylinder must differ.
+
+    Args:
+        time: s.
+        pressures: `tank` and `cylinder` pressure, and any others that are finite, Pa.
+        shortest: duration that the record must have, s.
+        longest: sampling time that it may have, s.
+
+    Raises:
+        UnsuitableRecordError: the record cannot support an identification; the message says why.
+    """
+    require_finite({"time": time, **pressures})
+    require_duration(time, shortest)
+    step = sampling_time(time, longest)
+    for name in ("tank", "cylinder"):
+        pressure = pressures[name]
+        require_excitation(f"{name}_pressure", pressure, step)
+        if pressure.max() <= 0.0:
+            raise UnsuitableRecordError(f"the {name} pressure is never above zero: is its sign wrong?")
+    if np.array_equal(pressures["tank"], pressures["cylinder"]):
+        raise UnsuitableRecordError("tank and cylinder pressure are the same, sample by sample: no dynamics")
+    return step
+
+
 def require_finite(channels: dict[str, Samples]) -> None:
     """Raise UnsuitableRecordError if samples of a channel are missing or infinite."""
     for name, samples in channels.items():

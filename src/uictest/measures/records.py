@@ -35,7 +35,8 @@ class StopMeasures(Record):
     reservoir_minimum_pressure: float  # Pa
     air_consumed: float  # taken from the reservoir, kg
     energy_residual: float  # share of the initial kinetic energy
-    air_residual: float  # share of the air that the rig held at the start
+    air_residual: float  # share of the air taken from the reservoir
+    air_energy_residual: float  # share of the enthalpy of that air
     samples: float
 
 

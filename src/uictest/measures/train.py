@@ -28,6 +28,7 @@ def begin_train(
     measures.air_consumed = NAN
     measures.energy_residual = NAN
     measures.air_residual = NAN
+    measures.air_energy_residual = NAN
     measures.samples = 1.0
 
 

@@ -16,10 +16,17 @@ from .cylinder import memory as memory, output as output
 from .disc_brake import torque as torque
 from .flow import (
     REFERENCE_DENSITY as REFERENCE_DENSITY,
+    coldness as coldness,
     mass_flow as mass_flow,
     orifice_law as orifice_law,
+    reduced_flow as reduced_flow,
 )
 from .hysteresis import force_after as force_after, line as line, phase_share as phase_share
+from .module_air import (
+    amount_gained as amount_gained,
+    pressure_volume_after as pressure_volume_after,
+    travel_after as travel_after,
+)
 from .noise import bell as bell, threefry as threefry
 from .polach import (
     contact_stiffness as contact_stiffness,
@@ -32,7 +39,7 @@ from .rail import interpolated as interpolated
 from .reservoir import compressor_running as compressor_running, isothermal_pressure as isothermal_pressure
 from .resistance import gradient_force as gradient_force, running_resistance as running_resistance
 from .sensors import analogue_reading as analogue_reading, speed_reading as speed_reading
-from .tank import pressure_change as pressure_change
+from .tank import changes as changes, enthalpy as enthalpy
 from .vehicle import (
     kinetic_energy as kinetic_energy,
     longitudinal as longitudinal,

@@ -3,37 +3,54 @@
 The piston has no inertia: at its loads it settles within a few milliseconds. Its equilibrium while it
 moves is
 
-    p A - F0 - k y - N - sgn(y') (Fc + alpha N) - c y' = 0,     N = kc max(0, y - y0)
+    p A - F0 - k y - N - sgn(y') (Fc + alpha N) - c y' - cN z' = 0,     N = kc z,  z = max(0, y - y0)
 
 with gauge pressure p, piston area A, spring preload F0 and rate k, contact force N at the piston once
 the stroke y has closed the clearance y0, Coulomb friction Fc, friction alpha proportional to the load
-(seals, pins, lever) and a viscous part c. While friction can carry the difference it does not move.
+(seals, pins, lever), a viscous part c of the piston and a viscous part cN of lever, pins and pads, which
+move under load while the pads touch: the quicker the pressure changes, the wider is the loop. While
+friction can carry the difference nothing moves.
 """
 
 from uictest.physics.arithmetic import clamp, fma, maximum, minimum
 
 
 def stiffnesses(
-    spring_rate: float, load_friction: float, viscous_friction: float, contact_stiffness: float, step: float
-) -> tuple[float, float, float, float, float, float]:
+    spring_rate: float,
+    load_friction: float,
+    viscous_friction: float,
+    contact_friction: float,
+    contact_stiffness: float,
+    step: float,
+) -> tuple[float, float, float, float, float, float, float]:
     """Numbers of :func:`stroke_after` that do not change while the rig runs: divided only once.
 
     Args:
         spring_rate: k, N/m.
         load_friction: alpha.
         viscous_friction: c, N s/m.
+        contact_friction: cN, N s/m.
         contact_stiffness: kc, N/m.
         step: time step, s.
 
     Returns:
-        c / step; the contact stiffness of squeezing and of releasing, kc (1 +- alpha), N/m; the compliance
-        of the free piston and those of squeezing and releasing contact, m/N.
+        c / step and cN / step; the stiffness of squeezing and of releasing contact, kc (1 +- alpha) +
+        cN / step, N/m; the compliance of the free piston and those of squeezing and releasing contact, m/N.
     """
     damping = viscous_friction / step
+    contact_damping = contact_friction / step
     free = spring_rate + damping
-    squeezing = contact_stiffness * (1.0 + load_friction)
-    releasing = contact_stiffness * (1.0 - load_friction)
-    return damping, squeezing, releasing, 1.0 / free, 1.0 / (free + squeezing), 1.0 / (free + releasing)
+    squeezing = fma(contact_stiffness, 1.0 + load_friction, contact_damping)
+    releasing = fma(contact_stiffness, 1.0 - load_friction, contact_damping)
+    return (
+        damping,
+        contact_damping,
+        squeezing,
+        releasing,
+        1.0 / free,
+        1.0 / (free + squeezing),
+        1.0 / (free + releasing),
+    )
 
 
 def stroke_after(
@@ -44,6 +61,7 @@ def stroke_after(
     coulomb_friction: float,
     clearance: float,
     damping: float,
+    contact_damping: float,
     squeezing_stiffness: float,
     releasing_stiffness: float,
     free_compliance: float,
@@ -62,10 +80,12 @@ def stroke_after(
         preload: F0, N.
         coulomb_friction: Fc, N.
         clearance: y0, m.
-        damping, squeezing_stiffness, releasing_stiffness, free_compliance, squeezing_compliance,
-            releasing_compliance: :func:`stiffnesses`.
+        damping, contact_damping, squeezing_stiffness, releasing_stiffness, free_compliance,
+            squeezing_compliance, releasing_compliance: :func:`stiffnesses`.
     """
-    load = fma(pressure, piston_area, fma(damping, stroke, -preload))
+    compressed = maximum(stroke - clearance, 0.0)
+    held_back = fma(damping, stroke, fma(contact_damping, compressed, -preload))
+    load = fma(pressure, piston_area, held_back)
     squeezing_load = load - coulomb_friction
     releasing_load = load + coulomb_friction
     squeezing = minimum(

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from uictest.physics import orifice_law, stiffnesses
+from uictest.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
-from uictest.scenario import Scenario
+from uictest.scenario import COMPENSATION_SETTINGS, Scenario
 from uictest.units import STANDARD_GRAVITY
 
 _ALWAYS = 1.0
@@ -54,8 +54,10 @@ def _cycles(p: Parameters, scenario: Scenario) -> None:
 def _topology(p: Parameters, scenario: Scenario) -> None:
     rig = scenario.rig
     p.calipers = 4 if rig.topology == "four-caliper" else 1
-    p.uses_cylinder_dynamics = float(rig.compensation in ("cylinder", "full"))
-    p.uses_hysteresis = float(rig.compensation in ("hysteresis", "full"))
+    setting = COMPENSATION_SETTINGS[rig.compensation]
+    p.uses_cylinder_dynamics = float(setting.pressure == "filter")
+    p.uses_module_air = float(setting.pressure == "air")
+    p.uses_hysteresis = float(setting.hysteresis)
     p.wsp_active = int(rig.wsp == "active")
 
 
@@ -71,26 +73,26 @@ def _command(p: Parameters, scenario: Scenario) -> None:
 def _supply(p: Parameters, scenario: Scenario) -> None:
     system = scenario.brake.system
     atmosphere = system.air.atmospheric_pressure
-    p.air = float(system.air.gas_constant) * float(system.air.temperature)
-    p.line_stiffness = system.tank.polytropic_exponent / system.brake_line.volume
-    p.reservoir_stiffness = p.air / system.reservoir.volume
+    p.reservoir_stiffness = system.air.gas_constant * system.air.temperature / system.reservoir.volume
     p.reservoir_pressure = system.reservoir.initial_pressure + atmosphere
     p.compressor_cut_in = system.compressor.cut_in_pressure + atmosphere
     p.compressor_cut_out = system.compressor.cut_out_pressure + atmosphere
 
 
-@_reads(
-    "brake.system.critical_pressure_ratio",
-    "brake.system.laminar_pressure_ratio",
-    "brake.system.air.temperature",
-)
+@_reads("brake.system.critical_pressure_ratio", "brake.system.laminar_pressure_ratio")
 def _orifices(p: Parameters, scenario: Scenario) -> None:
     system = scenario.brake.system
-    p.flow_density, p.critical_ratio, p.subsonic_scale, p.laminar_slope = orifice_law(
-        float(system.critical_pressure_ratio),
-        float(system.laminar_pressure_ratio),
-        float(system.air.temperature),
+    p.critical_ratio, p.subsonic_scale, p.laminar_slope = orifice_law(
+        float(system.critical_pressure_ratio), float(system.laminar_pressure_ratio)
     )
+
+
+@_reads("brake.system.air")
+def _air(p: Parameters, scenario: Scenario) -> None:
+    air = scenario.brake.system.air
+    p.heat_capacity_volume = air.gas_constant / (air.heat_capacity_ratio - 1.0)
+    p.heat_capacity_pressure = air.heat_capacity_ratio * p.heat_capacity_volume
+    p.air_coldness = coldness(float(air.temperature))
 
 
 @_reads("brake.system.wsp_valve", "simulation.time_step", "controller.cycle_time")
@@ -112,11 +114,23 @@ def _caliper_tank(p: Parameters, scenario: Scenario) -> None:
     p.caliper_tank_volume = system.tank.volume + dead
 
 
+@_reads("brake.system.caliper_tank", "brake.system.tank", "brake.system.brake_line", "simulation.time_step")
+def _walls(p: Parameters, scenario: Scenario) -> None:
+    """Heat conductances of the walls, h A, times the step."""
+    system = scenario.brake.system
+    step = float(scenario.simulation.time_step)
+    line, tank, balls = system.brake_line, system.tank, system.caliper_tank
+    p.line_exchange = step * line.film_coefficient * line.surface
+    p.tank_exchange = step * tank.film_coefficient * tank.surface
+    p.caliper_tank_exchange = p.tank_exchange + step * balls.film_coefficient * balls.ball_surface
+
+
 @_reads("rig.caliper", "simulation.time_step")
 def _caliper(p: Parameters, scenario: Scenario) -> None:
     caliper = scenario.rig.caliper
     (
         p.piston_damping,
+        p.contact_damping,
         p.squeezing_stiffness,
         p.releasing_stiffness,
         p.free_compliance,
@@ -126,6 +140,7 @@ def _caliper(p: Parameters, scenario: Scenario) -> None:
         float(caliper.spring_rate),
         float(caliper.load_friction),
         float(caliper.viscous_friction),
+        float(caliper.contact_friction),
         float(caliper.contact_stiffness),
         float(scenario.simulation.time_step),
     )
@@ -142,6 +157,26 @@ def _cylinder(p: Parameters, scenario: Scenario) -> None:
     )
     p.b0, p.b1, p.b2, p.b3 = numerator
     p.a1, p.a2, p.a3 = denominator
+
+
+@_reads(
+    "rig.compensation_model.air",
+    *("brake.system.air", "brake.system.tank", "brake.system.wsp_valve"),
+    "simulation.time_step",
+)
+def _module_air(p: Parameters, scenario: Scenario) -> None:
+    """Numbers of :mod:`uictest.physics.module_air`."""
+    model, system = scenario.rig.compensation_model.air, scenario.brake.system
+    step, atmosphere = float(scenario.simulation.time_step), system.air.atmospheric_pressure
+    heating = step * (system.air.heat_capacity_ratio - 1.0) * system.air.temperature / system.tank.volume
+    filling = step * system.air.gas_constant * system.air.temperature * REFERENCE_DENSITY / system.tank.volume
+    p.modelled_tank_exchange = heating * model.tank_heat_conductance
+    p.modelled_exchange = heating * model.caliper_heat_conductance
+    p.modelled_fill_conductance = filling * system.wsp_valve.fill_conductance
+    p.modelled_vent_conductance = filling * system.wsp_valve.vent_conductance
+    p.modelled_swept_share = model.swept_volume / system.tank.volume
+    p.modelled_closing_pressure = model.closing_pressure + atmosphere
+    p.modelled_opening_pressure = model.opening_pressure + atmosphere
 
 
 @_reads("rig.compensation_model.hysteresis", "simulation.time_step", "controller.cycle_time")

@@ -23,7 +23,7 @@ from .part_keys import (
 )
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem
-from .parts.compensation import Compensation as Compensation
+from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, Compensation as Compensation
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.friction import FrictionProfile as FrictionProfile

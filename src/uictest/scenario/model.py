@@ -16,6 +16,7 @@ from uictest.scenario.feasibility import (
     longest_step,
     stopping_time_at_least,
 )
+from uictest.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.scenario.parts.controller import Controller
 from uictest.scenario.parts.criteria import Criteria
 from uictest.scenario.parts.measures import MeasureDefinitions
@@ -108,7 +109,10 @@ class Scenario(Model):
                 f" {self.controller.cycle_time.text}",
                 "take a whole part of the cycle, such as 0.5 ms of 10 ms",
             )
-        yield from self._unresolved_cylinder()
+        if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "filter":
+            yield from self._unresolved_cylinder()
+        if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "air":
+            yield from self._unresolved_air()
         yield from self._criteria_of_the_same_name()
         if not self.tank_volume_with_caliper > 0.0:
             yield Inconsistency(
@@ -197,12 +201,39 @@ class Scenario(Model):
         model = self.rig.compensation_model
         shrink = (self.simulation.time_step / model.sampling_time) ** 3
         sum_at_rest = shrink * (1.0 + math.fsum(model.cylinder.denominator))
-        if self.rig.compensation in ("cylinder", "full") and sum_at_rest < SMALLEST_SUM_AT_REST:
+        if sum_at_rest < SMALLEST_SUM_AT_REST:
             yield Inconsistency(
                 ("simulation", "time_step"),
                 f"{self.simulation.time_step.text} is too short for the cylinder dynamics identified at"
                 f" {model.sampling_time.text}: double precision cannot hold their gain at rest",
                 "take a longer step or rig.compensation: none",
+            )
+
+    def _unresolved_air(self) -> Iterator[Inconsistency]:
+        """Yield modelled air that a step would overheat, and a piston that sweeps a whole tank.
+
+        What flows from the wall within a step must stay below what air of atmospheric pressure can hold.
+        """
+        model, system = self.rig.compensation_model.air, self.brake.system
+        warmed = self.simulation.time_step * system.air.temperature * (system.air.heat_capacity_ratio - 1.0)
+        largest = system.air.atmospheric_pressure * system.tank.volume / warmed
+        for key, conductance in (
+            ("tank_heat_conductance", model.tank_heat_conductance),
+            ("caliper_heat_conductance", model.caliper_heat_conductance),
+        ):
+            if conductance > largest:
+                yield Inconsistency(
+                    ("rig", "compensation_model", "air", key),
+                    f"{conductance.text} is too much for {system.tank.volume.text} of air and steps of"
+                    f" {self.simulation.time_step.text}",
+                    f"at most {largest:.3g} W/K are accepted",
+                )
+        if model.swept_volume >= system.tank.volume:
+            yield Inconsistency(
+                ("rig", "compensation_model", "air", "swept_volume"),
+                f"a piston that sweeps {model.swept_volume.text} leaves no air in a tank of"
+                f" {system.tank.volume.text}",
+                "it must be below brake.system.tank.volume",
             )
 
     @property

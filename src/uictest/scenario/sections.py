@@ -95,9 +95,10 @@ class Rig(Model):
     topology: Literal["one-caliper", "four-caliper"] = Field(
         default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
     )
-    compensation: Literal["none", "hysteresis", "cylinder", "full"] = Field(
+    compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = Field(
         default="full",
-        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both.",
+        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both (full),"
+        " or hysteresis with the air of the caliper's module (thermal).",
     )
     wsp: Literal["active", "bypassed"] = Field(
         default="active", description="Whether the WSP valves obey the controller or always fill."

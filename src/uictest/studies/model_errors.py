@@ -2,77 +2,89 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from uictest import scenario
 from uictest.recording import Recording
-from uictest.studies.neighbourhood import SETTINGS, WITHOUT_CALIPER, Point
+from uictest.scenario import COMPENSATION_SETTINGS, Case
+from uictest.studies.neighbourhood import SETTINGS
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
-from uictest.studies.stop_runner import StopRunner, seeded
+from uictest.studies.stop_runner import StopRunner
 from uictest.units import PERCENT
 
-REPLAYED_SEEDS = range(2)
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}
-_FILTERED = frozenset({"cylinder", "full"})
+_PRESSURES = {
+    "tank": "measured_pressure_2",
+    "filter": "cylinder_pressure_2",
+    "air": "cylinder_pressure_thermal_2",
+}
+"""Channel of the bench for each origin of the cylinder pressure."""
+
+
+def pressure_channel(setting: str) -> str:
+    """Return the channel of the bench that holds the cylinder pressure of a setting."""
+    return _PRESSURES[COMPENSATION_SETTINGS[setting].pressure]
+
+
+def force_channel(setting: str) -> str:
+    """Return the channel of the bench that holds the force of module 2 under a setting."""
+    return f"computed_force_{setting}_2"
+
+
+def pressure_error(recording: Recording, setting: str, top: float) -> float:
+    """Return the largest difference of a setting's pressure from that of cylinder 1, % of `top` Pa.
+
+    Both are readings of sensors, as in the paper: what the sensors share is no error of the compensation.
+    """
+    difference = recording[pressure_channel(setting)] - recording["cylinder_pressure_1"]
+    return float(np.abs(difference).max()) / top / PERCENT
+
+
+def force_error(recording: Recording, channel: str) -> float:
+    """Return the largest difference of a force from that of the loadcells, % of their largest."""
+    measured = recording["clamping_force_1"]
+    return float(np.abs(recording[channel] - measured).max() / measured.max()) / PERCENT
 
 
 @dataclass(frozen=True, slots=True)
-class ModelError:
-    """Largest errors of one setting at one point, along the commands of one wheelset, one for each seed."""
+class SettingErrors:
+    """Largest errors of one setting along one replay.
 
-    key: str
-    setting: str
-    friction: str
-    command: str
+    Attributes:
+        pressure_error: % of the maximum pressure of the brake position.
+        force_error: % of the largest measured force.
+    """
+
+    pressure_error: float
+    force_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayErrors:
+    """The errors of every setting, by its name, along the commands of one wheelset in the stop of a case."""
+
+    case: Case
     wheelset: int
-    values: Sequence[float]
+    errors: Mapping[str, SettingErrors]
 
 
-def model_errors(stop_runner: StopRunner, points: Sequence[Point]) -> list[ModelError]:
-    """Return pressure and force errors of every setting along the commands of the rig with four calipers."""
-    cases = [seeded(point.case, seed) for point in points for seed in REPLAYED_SEEDS]
+def replay_errors(
+    stop_runner: StopRunner, cases: Sequence[Case], wheelsets: Sequence[int]
+) -> list[ReplayErrors]:
+    """Replay the commands of wheelsets (1..4) in the stop of every case; return the errors, case by case."""
     stops = stop_runner.recordings(cases, CYCLE)
-    work = [
-        (case, stop, wheelset)
-        for case, stop in zip(cases, stops, strict=True)
-        for wheelset in WITHOUT_CALIPER
-    ]
-    errors = iter(stop_runner.map(lambda arguments: _errors(*arguments), work))
-    at = {
-        (point.title, seed, wheelset): next(errors)
-        for point in points
-        for seed in REPLAYED_SEEDS
-        for wheelset in WITHOUT_CALIPER
-    }
-    return [
-        ModelError(
-            key,
-            setting,
-            point.friction,
-            point.command,
-            wheelset,
-            [at[point.title, seed, wheelset][key, setting] for seed in REPLAYED_SEEDS],
+    work = [(case, stop, n) for case, stop in zip(cases, stops, strict=True) for n in wheelsets]
+    return stop_runner.map(lambda arguments: _replay_errors(*arguments), work)
+
+
+def _replay_errors(case: Case, stop: Recording, wheelset: int) -> ReplayErrors:
+    recording, top = replayed(case, stop, wheelset), maximum_pressure(case)
+    errors = {
+        setting: SettingErrors(
+            pressure_error(recording, setting, top), force_error(recording, force_channel(setting))
         )
-        for key in UNITS_OF_ERRORS
         for setting in SETTINGS
-        for point in points
-        for wheelset in WITHOUT_CALIPER
-    ]
-
-
-def _errors(case: scenario.Case, stop: Recording, wheelset: int) -> dict[tuple[str, str], float]:
-    """Return the largest errors in %, by key and setting."""
-    recording = replayed(case, stop, wheelset)
-    top, cylinder = maximum_pressure(case), recording["tank_pressure_1"]
-    measured = recording["clamping_force_1"]
-    errors = {}
-    for setting in SETTINGS:
-        channel = "cylinder_pressure_2" if setting in _FILTERED else "tank_pressure_2"
-        pressure = np.abs(recording[channel] - cylinder).max() / top
-        force = np.abs(recording[f"computed_force_{setting}_2"] - measured).max() / measured.max()
-        errors["pressure_error", setting] = float(pressure) / PERCENT
-        errors["force_error", setting] = float(force) / PERCENT
-    return errors
+    }
+    return ReplayErrors(case, wheelset, errors)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from uictest import recording, scenario
 from uictest.rig import bench
 
@@ -24,11 +26,23 @@ def replayed(
         wheelset: whose commands are given.
         release: whether the brake is released at the end; without it there is no BC releasing.
     """
+    return replayed_in_turn(case, stop, [wheelset], release=release)
+
+
+def replayed_in_turn(
+    case: scenario.Case, stop: recording.Recording, wheelsets: Sequence[int], *, release: bool
+) -> recording.Recording:
+    """Return one bench recording under the commands of several wheelsets, one after the other.
+
+    Arguments are those of :func:`replayed`.
+    """
     clock = bench.clock_of(case)
-    commands = stop[f"valve_command_{wheelset}"]
-    parts = [bench.recorded_input(stop["time"], stop["demanded_pressure"], commands, clock)]
-    if release:
-        parts.append(_releasing(case, float(stop["demanded_pressure"][-1]), clock))
+    parts = []
+    for wheelset in wheelsets:
+        commands = stop[f"valve_command_{wheelset}"]
+        parts.append(bench.recorded_input(stop["time"], stop["demanded_pressure"], commands, clock))
+        if release:
+            parts.append(_releasing(case, float(stop["demanded_pressure"][-1]), clock))
     return bench.run_bench(case, bench.joined_inputs(parts))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import TypeVar
 
@@ -34,7 +35,7 @@ class StopRunner:
 
     def __init__(self, jobs: int = 1) -> None:
         self._jobs = jobs
-        self._stops: dict[tuple[str, int], rig.SimulatedStop] = {}
+        self._stops: dict[tuple[str, str], rig.SimulatedStop] = {}
 
     def cases(self, scenario: str, *changes: str) -> list[Case]:
         """Return the cases of a scenario of the studies, changed by `key=value` texts as of `--set`."""
@@ -61,8 +62,16 @@ def seeded(case: Case, seed: int) -> Case:
     return replace(case, scenario=case.scenario.model_copy(update={"seed": seed}))
 
 
-def _key(case: Case) -> tuple[str, int]:
-    return case.id, case.scenario.seed
+def constant_friction(case: Case) -> float:
+    """Return the initial friction coefficient of a case whose rail has the same one everywhere."""
+    friction = case.scenario.rail.friction
+    assert isinstance(friction, float)
+    return friction
+
+
+def _key(case: Case) -> tuple[str, str]:
+    """Return what identifies a stop: its id, which seeds the noise, and all of its scenario."""
+    return case.id, sha256(case.scenario.model_dump_json().encode()).hexdigest()
 
 
 def _stop(case: Case) -> rig.SimulatedStop:

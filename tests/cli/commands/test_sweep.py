@@ -27,7 +27,7 @@ schema: uictest/sweep/1
 name: study
 scenario: scenarios/stop.yaml
 grid:
-  rail.friction: [0.06, 0.09, 0.12]
+  rail.friction: [0.08, 0.09, 0.12]
 sample: {size: 32, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
 """
 FILE = "study.sweep.yaml"
@@ -286,7 +286,7 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     answer = call("sweep", study, "-x", "-n", "1")
     assert answer.code == 1
     stopped, kept = answer.err.splitlines()[-2:]
-    first = "study[friction=0.06,sample=0]: pass, another outcome was expected"
+    first = "study[friction=0.08,sample=0]: pass, another outcome was expected"
     assert stopped == f"uictest: stopped at --maxfail: 16 cases not met, the first: {first}"
     assert (
         kept
@@ -313,7 +313,7 @@ def test_quiet_shows_what_is_missed_and_nothing_else(call: Call, study: Path) ->
     answer = call("sweep", study, "-q", "--restart")
     first, *_, last = answer.out.splitlines()
     assert (answer.code, answer.err) == (1, "")
-    assert first == "pass  study[friction=0.06,sample=0]  another outcome was expected"
+    assert first == "pass  study[friction=0.08,sample=0]  another outcome was expected"
     assert last == "and 86 more, see summary.csv"
 
 
@@ -352,8 +352,8 @@ def test_list_and_dry_run_show_ids_and_run_nothing(call: Call, study: Path) -> N
     ids = call("sweep", study, "--dry-run", "-k", "friction=0.09").out.splitlines()
     assert ids == [f"study[friction=0.09,sample={k}]" for k in range(32)]
     assert call("list", study).out.splitlines()[:2] == [
-        "study[friction=0.06,sample=0]",
-        "study[friction=0.06,sample=1]",
+        "study[friction=0.08,sample=0]",
+        "study[friction=0.08,sample=1]",
     ]
     assert not Path("reports").exists()
     assert call("sweep", study, "-k", "nothing").code == 5
@@ -365,7 +365,7 @@ def test_a_list_ends_when_its_reader_leaves(program: Path, study: Path, command:
     study.write_text(TEXT.replace("size: 32", "size: 16777216"))
     process = subprocess.Popen([program, *command, study], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert process.stdout is not None
-    assert process.stdout.readline() == b"study[friction=0.06,sample=0]\n"
+    assert process.stdout.readline() == b"study[friction=0.08,sample=0]\n"
     process.stdout.close()
     assert process.wait(timeout=HANGING) == 0
     assert process.stderr is not None
@@ -442,7 +442,7 @@ def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None
     good = Path("scenarios", FILE)
     good.write_text(TEXT.replace("scenarios/", ""))
     assert "1 scenario with 1 case and 1 sweep, no error" in call("check").err
-    good.write_text(TEXT.replace("scenarios/", "").replace("0.06", "6"))
+    good.write_text(TEXT.replace("scenarios/", "").replace("0.08", "6"))
     answer = call("check")
     assert answer.code == 4
     assert f"scenarios/{FILE}:5:19: rail.friction: 6 is out of range" in answer.err

@@ -36,6 +36,7 @@ def _stop(**changes: Any) -> Any:
         "air_consumed": 0.1185,
         "energy_residual": 2e-6,
         "air_residual": -3e-14,
+        "air_energy_residual": 2e-13,
     }
     return _record(STOP_MEASURES, {**sound, **changes})
 

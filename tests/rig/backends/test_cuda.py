@@ -28,7 +28,7 @@ from uictest.rig.backends.plain import plain_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
 from uictest.scenario import load
 
-case = load([Path(sys.argv[1])])[0]
+case = load([Path(sys.argv[1])], sys.argv[2:])[0]
 inputs = assemble(case)
 parameters, rail, controller = inputs
 parameters["cycles"] = 2
@@ -88,8 +88,9 @@ def printed(program: str, *arguments: str) -> list[Any]:
     return values
 
 
-def test_the_kernel_gives_the_bits_of_plain_python() -> None:
-    same, same_wheelsets, distance = printed(SIMULATED, str(SLIDE))
+@pytest.mark.parametrize("compensation", ["full", "thermal"])
+def test_the_kernel_gives_the_bits_of_plain_python(compensation: str) -> None:
+    same, same_wheelsets, distance = printed(SIMULATED, str(SLIDE), f"rig.compensation={compensation}")
     assert same
     assert same_wheelsets
     assert distance > 0.3

@@ -28,6 +28,7 @@ VARIANTS: tuple[tuple[str, ...], ...] = (
     ("rig.compensation=none", *WET),
     ("rig.compensation=cylinder", *WET),
     ("rig.compensation=hysteresis", *WET),
+    ("rig.compensation=thermal", *WET),
     ("rig.topology=four-caliper", *WET),
     ("rig.wsp=bypassed", *WET),
     ("controller=slip-band", *WET),

@@ -83,6 +83,22 @@ def test_settings_of_the_compensation(
     assert (down - up > 500.0) == plays
 
 
+@pytest.mark.parametrize("module", [0, 1], ids=["caliper", "tank"])
+@pytest.mark.parametrize("setting", ["hysteresis", "full", "thermal"])
+def test_only_the_setting_thermal_takes_the_ratio_to_the_modelled_pressure(
+    rig: Any, bench: Benches, setting: str, module: int
+) -> None:
+    """Of absolute pressures, and only where there is no caliper."""
+    without, braked = (bench(rig.parameters(f"rig.compensation={setting}", **EXACT)[0]) for _ in range(2))
+    braked.wheelsets[module].pressure_ratio = 0.97
+    gauge, atmosphere = braking(), braked.p.atmospheric_pressure
+    seen = clamped(braked.wheelsets[module], braked.p, gauge)["compensated_pressure"]
+    expected = clamped(without.wheelsets[module], without.p, gauge)["compensated_pressure"]
+    if setting == "thermal" and module == 1:
+        expected = 0.97 * (expected + atmosphere) - atmosphere
+    np.testing.assert_allclose(seen, expected, atol=1e-6)
+
+
 def test_a_caliper_needs_no_model_of_its_cylinder(rig: Any, bench: Benches) -> None:
     """Its pressure is that of the cylinder already."""
     braked = bench(rig.parameters(**EXACT)[0])

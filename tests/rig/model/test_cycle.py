@@ -108,8 +108,10 @@ def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
         read_sensors(rolling.car, rolling.wheelsets, rolling.p)
         undecided(rolling.car, rolling.wheelsets, rolling.p, rail)
         command_valves(rolling.car, rolling.wheelsets, rolling.p)
-        noise.append([(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets])
-    channels = np.array(noise).reshape(400, 12)
-    np.testing.assert_allclose(np.corrcoef(channels.T), np.eye(12), atol=5.0 / np.sqrt(400))
-    np.testing.assert_allclose(channels[:, 1::3].std(axis=0), parameters.pressure_noise, rtol=0.15)
-    np.testing.assert_allclose(channels[:, 2::3].std(axis=0), parameters.loadcell_noise, rtol=0.15)
+        modules = [(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets]
+        noise.append([*np.ravel(modules), rolling.car.line_pressure_error])
+    channels = np.array(noise)
+    np.testing.assert_allclose(np.corrcoef(channels.T), np.eye(13), atol=5.0 / np.sqrt(400))
+    pressures, loadcells = channels[:, [1, 4, 7, 10, 12]], channels[:, [2, 5, 8, 11]]
+    np.testing.assert_allclose(pressures.std(axis=0), parameters.pressure_noise, rtol=0.15)
+    np.testing.assert_allclose(loadcells.std(axis=0), parameters.loadcell_noise, rtol=0.15)

@@ -14,7 +14,7 @@ from uictest.physics.polach import force_and_slope
 from uictest.rig.backends.compiled import translate
 from uictest.rig.model.balance import stored_energy
 from uictest.rig.model.clamping import step_clamping
-from uictest.rig.model.pneumatics import step_supply, step_tank
+from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import HIGHEST_LOAD, bracket_slip
 from uictest.rig.model.step import step
 
@@ -32,14 +32,14 @@ def linear_creep(
     return CREEP_DAMPING * slip_speed, CREEP_DAMPING
 
 
-def still_air(*_: object) -> float:
-    return 0.0
+def still(*_: object) -> None:
+    pass
 
 
 LINEAR_STEP = translate(
     step,
     lambda function: function,
-    {force_and_slope: linear_creep, step_tank: still_air, step_supply: still_air, step_clamping: still_air},
+    {force_and_slope: linear_creep, step_air: still, step_clamping: still},
 )
 """The rig's own step on a rail with linear creep, while the test prescribes the clamping forces."""
 
@@ -330,9 +330,7 @@ def test_a_wheel_that_locks_stays_locked_without_chatter(rig: Any) -> None:
 def test_a_locked_wheel_turns_again_once_the_brake_cannot_hold_it(rig: Any, bench: Benches) -> None:
     """The rail's torque is 2 Q mu r; a brake of four fifths of it lets go, one of six fifths holds."""
     p = rig.parameters(*LOCKING, **LEVEL)[0]
-    pressed = translate(
-        step, lambda f: f, {step_tank: still_air, step_supply: still_air, step_clamping: still_air}
-    )
+    pressed = translate(step, lambda f: f, {step_air: still, step_clamping: still})
     per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.pad_friction * p.disc_radius
     speed = 15.0
     mu = 0.09 * ((1.0 - p.friction_ratio) * np.exp(-p.friction_decay * speed) + p.friction_ratio)

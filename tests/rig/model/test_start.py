@@ -51,9 +51,11 @@ def test_topology_says_which_modules_have_a_caliper(
     assert [wheelset.has_caliper for wheelset in started.wheelsets] == calipers
 
 
-def test_tanks_hold_air_at_atmospheric_pressure(rig: Any, bench: Benches) -> None:
-    started = bench(rig.parameters()[0])
+def test_tanks_hold_air_of_the_pressure_and_temperature_around_them(rig: Any, bench: Benches) -> None:
+    started = bench(rig.parameters("brake.system.air.temperature=-10 degC")[0])
     p = started.p
+    assert [started.car.line_temperature, *(w.air_temperature for w in started.wheelsets)] == [263.15] * 5
+    assert {started.car.line_coldness, *(w.air_coldness for w in started.wheelsets)} == {293.15 / 263.15}
     masses = [wheelset.air_mass for wheelset in started.wheelsets]
     volumes = [p.caliper_tank_volume, *3 * [p.tank_volume]]
     density = p.atmospheric_pressure / (p.gas_constant * p.air_temperature)

@@ -124,6 +124,7 @@ def test_energy_and_air_are_conserved(rig: Any, friction: float) -> None:
     measures = rig.stop(*overrides).measures
     assert abs(measures.energy_residual) < 1e-5
     assert abs(measures.air_residual) < 1e-9
+    assert abs(measures.air_energy_residual) < 1e-9
 
 
 def test_energy_ends_as_heat(rig: Any) -> None:

@@ -1,10 +1,39 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
+import numpy as np
 import pytest
 
-from uictest.studies.experiments.robustness import _in_order, _ratio
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig import SimulatedStop
+from uictest.studies.experiments.robustness import (
+    SweptFriction,
+    _in_order,
+    _ratio,
+    _values_of_sweep,
+    swept_friction,
+)
+from uictest.studies.figures.robustness import draw_sweep
+from uictest.studies.neighbourhood import Point
+
+
+def stop(*vents: int) -> SimulatedStop:
+    """A stop of which only the actuations of the four valves are known."""
+    wheelsets = np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
+    wheelsets.valve_actuations = vents
+    return SimulatedStop(np.zeros(1, STOP_MEASURES)[0], wheelsets)
+
+
+@pytest.fixture
+def sweep() -> list[SweptFriction]:
+    """One friction, two seeds: the paper's counts, then a stop in which both models act like none."""
+    four, none = [stop(11, 11, 11, 11)] * 2, [stop(11, 21, 21, 21)] * 2
+    modelled = [stop(11, 11, 11, 11), stop(11, 21, 21, 21)]
+    nothing: Any = None
+    stops = {"none": none, "full": modelled, "thermal": modelled, "four-caliper": four}
+    return [swept_friction(Point("0.161", "100 %", nothing, stops))]
 
 
 @pytest.mark.parametrize(
@@ -23,3 +52,20 @@ def test_the_order_of_caliper_full_and_none(caliper: float, full: float, none: f
 
 def test_a_caliper_that_never_cycles_gives_no_ratio() -> None:
     assert math.isnan(_ratio(0.0, 0.0))
+
+
+def test_a_swept_friction_is_judged_stop_by_stop(sweep: list[SweptFriction]) -> None:
+    (swept,) = sweep
+    assert swept.in_order["full"].tolist() == [True, False]
+    assert swept.in_bands.tolist() == [True, False]
+    values = _values_of_sweep(sweep)
+    assert values["sweep_in_order"].value == pytest.approx(50.0)
+    assert values["sweep_in_bands"].value == 1.0
+
+
+def test_the_sweep_is_drawn_with_the_counts_of_the_paper(sweep: list[SweptFriction]) -> None:
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    draw_sweep(sweep, figure)
+    texts = {text.get_text() for text in figure.axes[0].texts}
+    assert texts == {"paper: 11", "paper: 21"}
+    assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == ["0.161\n1/2"]

@@ -11,4 +11,4 @@ def test_an_opening_is_marked_where_the_vent_begins() -> None:
     recording = Recording(
         {"time": np.arange(7.0), "valve_command_2": commands}, {"time": "s", "valve_command_2": "1"}
     )
-    assert openings(ActuationPanel("module 2", recording, 2)).tolist() == [1, 4]
+    assert openings(ActuationPanel("module 2", recording, 2, "none")).tolist() == [1, 4]

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import identification, recording
+from uictest import identification, recording, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
@@ -143,10 +143,11 @@ def _summary(samples: recording.Recording) -> str:
         ("force computed from module 1, hysteresis", error("computed_force_1", force)),
         *(
             (f"force computed from module 2, {name}", error(f"computed_force_{name}_2", force))
-            for name in ("none", "hysteresis", "cylinder", "full")
+            for name in scenario.COMPENSATION_SETTINGS
         ),
         ("pressure of module 2 as it is", error("measured_pressure_2", pressure)),
         ("pressure of module 2, cylinder dynamics", error("cylinder_pressure_2", pressure)),
+        ("pressure of module 2, modelled air", error("cylinder_pressure_thermal_2", pressure)),
     ]
     lines = [f"{name:<42}{value:8.2f} %" for name, value in rows]
     return "\n".join(["largest error against module 1, of the largest measured value", *lines])

@@ -8,15 +8,34 @@ import shlex
 from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING
 
 import typer
 
 from uictest import field_data, identification, library, recording, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.identify_options import (
+    ActingTime,
+    Base,
+    CommandChannel,
+    CylinderChannel,
+    Date,
+    ForceChannel,
+    HeldOut,
+    Intervals,
+    LineChannel,
+    Name,
+    Output,
+    PressureChannel,
+    Recording,
+    RigOverrides,
+    TankChannel,
+    TransitionTime,
+)
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
+from uictest.rig import bench
 from uictest.scenario import yaml
 
 if TYPE_CHECKING:
@@ -25,7 +44,7 @@ if TYPE_CHECKING:
 
 identify = typer.Typer(
     rich_markup_mode=None,
-    help="Identify hysteresis or cylinder dynamics from a recording.",
+    help="Identify hysteresis, cylinder dynamics or the air of the module from a recording.",
 )
 
 _OPTIONS = {
@@ -34,73 +53,9 @@ _OPTIONS = {
     "pressure": "--pressure",
     "force": "--force",
     "command": "--command",
+    "line": "--line",
 }
 """Role of a channel -> the option that names it."""
-Recording = Annotated[
-    Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
-]
-Output = Annotated[
-    Path | None,
-    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write [default: none]."),
-]
-Base = Annotated[
-    str,
-    typer.Option("--base", metavar="NAME|FILE", help="Compensation whose other numbers are kept."),
-]
-Name = Annotated[
-    str,
-    typer.Option(
-        "--name",
-        metavar="NAME",
-        help="Name of the compensation in FILE [default: from the file name of RECORDING].",
-        show_default=False,
-    ),
-]
-Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
-HeldOut = Annotated[
-    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record held out from the fit.")
-]
-PressureChannel = Annotated[
-    str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder pressure.")
-]
-ForceChannel = Annotated[
-    str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
-]
-CommandChannel = Annotated[
-    str,
-    typer.Option(
-        "--command", metavar="CHANNEL", help="Channel of the valve command (0 fill, 1 hold, 2 vent)."
-    ),
-]
-Intervals = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--wsp",
-        metavar="FROM..TO",
-        help="Time in s in which the WSP acts, instead of --command. May be repeated.",
-    ),
-]
-ActingTime = Annotated[
-    float,
-    typer.Option(
-        "--acting-time", min=0.0, max=60.0, help="Filling time in s after which the WSP no longer acts."
-    ),
-]
-TransitionTime = Annotated[
-    float,
-    typer.Option(
-        "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
-    ),
-]
-TankChannel = Annotated[str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank pressure.")]
-CylinderChannel = Annotated[
-    str,
-    typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder pressure."),
-]
-FitCriterion = Annotated[
-    Literal["least-squares", "largest-error"],
-    typer.Option("--criterion", help="What to minimize; largest-error suits records with little noise."),
-]
 
 
 @command(identify, "hysteresis")
@@ -149,7 +104,6 @@ def cylinder(
     trusted: Trusted = None,
     tank: TankChannel = "measured_pressure_2",
     cylinder: CylinderChannel = "cylinder_pressure_1",
-    criterion: FitCriterion = "least-squares",
     held_out: HeldOut = 0.25,
     date: Date = "",
     verbosity: Verbosity = 0,
@@ -158,12 +112,67 @@ def cylinder(
     base_part = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
-    result = _cylinder(record, recorded, criterion, held_out)
+    result = _cylinder(record, recorded, held_out)
     data(identification.cylinder_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         _write(output, identification.with_cylinder(base_part, part_name, result, provenance))
     return ExitCode.MET
+
+
+@command(identify, "air")
+def air(
+    context: typer.Context,
+    record: Recording,
+    output: Output = None,
+    base: Base = "six-inch",
+    name: Name = "",
+    trusted: Trusted = None,
+    tank: TankChannel = "measured_pressure_2",
+    cylinder: CylinderChannel = "cylinder_pressure_1",
+    line: LineChannel = "brake_line_pressure",
+    command: CommandChannel = "valve_command_1",
+    overrides: RigOverrides = None,
+    held_out: HeldOut = 0.25,
+    date: Date = "",
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Identify the air of the caliper's module, which the setting `thermal` follows beside a tank."""
+    base_part = _base(base, trusted or ())
+    part_name = "" if output is None else _name(name, record)
+    roles = {"input": tank, "output": cylinder, "line": line, "command": command}
+    recorded = _record(record, roles)
+    result = _air(record, recorded, _rig_of(record, overrides or (), trusted or ()), held_out)
+    data(identification.air_text(result))
+    if output is not None:
+        provenance = _provenance(context, record, recorded, date)
+        _write(output, identification.with_air(base_part, part_name, result, provenance))
+    return ExitCode.MET
+
+
+def _rig_of(record: Path, overrides: Sequence[str], trusted: Sequence[Path]) -> scenario.Case:
+    """Return the rig of a record: that of the library with overrides."""
+    try:
+        return bench.trace_recipe(record, "", None, overrides, None, trusted).case
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def _air(
+    record: Path, recorded: identification.RecordedChannels, case: scenario.Case, held_out: float
+) -> identification.AirResult:
+    channels = recorded.channels
+    by_name = {
+        "time": channels["time"],
+        "tank": channels["input"],
+        "cylinder": channels["output"],
+        "line": channels["line"],
+        "command": channels["command"],
+    }
+    try:
+        return bench.identify_air(by_name, case, held_out)
+    except identification.UnsuitableRecordError as error:
+        raise InvalidInputError(f"uictest: {record}: {error}") from error
 
 
 def _wsp_acting(
@@ -195,13 +204,12 @@ def _hysteresis(
 def _cylinder(
     record: Path,
     recorded: identification.RecordedChannels,
-    criterion: Literal["least-squares", "largest-error"],
     held_out: float,
 ) -> identification.CylinderResult:
     channels = recorded.channels
     try:
         result = identification.identify_cylinder(
-            channels["time"], channels["input"], channels["output"], criterion, held_out
+            channels["time"], channels["input"], channels["output"], held_out
         )
         identification.require_fit(result)
     except identification.UnsuitableRecordError as error:

@@ -38,4 +38,20 @@ MEASURES = (
         ),
         finite_field="air_residual",
     ),
+    Measure(
+        name="air_energy_residual",
+        kind="number",
+        unit="1",
+        course="settles",
+        meaning="magnitude of the error of the air's energy balance over the enthalpy taken",
+        read=lambda stop, wheelsets, definition: one_value(abs(stop.air_energy_residual)),
+        of_simulation=True,
+        column=StopColumn(
+            "air_energy_residual",
+            "1",
+            meaning="error of the air's energy balance over the enthalpy taken, with its sign",
+            read=lambda stop, definition: stop.air_energy_residual,
+        ),
+        finite_field="air_energy_residual",
+    ),
 )

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
 from uictest.rig.model.stop import (
@@ -109,6 +110,7 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
     car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
     settings = vectors(lanes.settings)
     steps = 0
+    follows_air = False
     read_sensors(car, wheelsets, settings)
     for k in range(running.size):
         case = running[k]
@@ -116,8 +118,11 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
             p = cases.parameters[case]
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             steps = p.steps_per_cycle
+            follows_air = follows_air or p.uses_module_air > 0.0
     command_valves(car, wheelsets, settings)
     for _ in range(steps):
+        if follows_air:
+            follow_module_air(car, wheelsets, settings)
         step(car, bogies, wheelsets, settings)
     observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
 

@@ -25,6 +25,7 @@ from uictest.rig.backends.compiled import (
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
@@ -171,7 +172,7 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
         sqrt: vector_functions.sqrt,
         floor: vector_functions.floor,
     }
-    without_branches = (read_sensors, command_valves, step, observe_cycle)
+    without_branches = (read_sensors, command_valves, follow_module_air, step, observe_cycle)
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}
     scalar = with_controller(controller, njit, compiled_operations())
     return Lanes, RigRecords, Cases, translate(run_queue, njit, {**scalar, **wide})

@@ -1,4 +1,5 @@
 from .applied import bench_input as bench_input
+from .identified_air import identify_air as identify_air
 from .inputs import (
     BenchInput as BenchInput,
     Clock as Clock,

@@ -73,7 +73,10 @@ def _wsp_cycling(segment: WspCycling, clock: Clock) -> BenchInput:
 
 def _simulated_stop(segment: StopReplay, case: Case, clock: Clock) -> BenchInput:
     rail = case.scenario.rail.model_copy(update={"friction": segment.friction})
-    scenario = case.scenario.model_copy(update={"rail": rail, "seed": segment.seed})
+    brake = case.scenario.brake
+    if segment.position is not None:
+        brake = brake.model_copy(update={"position": segment.position})
+    scenario = case.scenario.model_copy(update={"rail": rail, "brake": brake, "seed": segment.seed})
     recording = simulate(replace(case, scenario=scenario), clock.cycle_time).recording
     assert recording is not None
     commands = recording[f"valve_command_{segment.wheelset}"]

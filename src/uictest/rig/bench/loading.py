@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from uictest import library
-from uictest.rig.bench.recipe import BenchRecipe, FileReplay
+from uictest.rig.bench.recipe import BenchRecipe, FileReplay, StopReplay
 from uictest.scenario import (
     EXPANSION_KEYS,
     PART_KEYS,
@@ -14,6 +14,7 @@ from uictest.scenario import (
     Files,
     Parts,
     Roots,
+    Scenario,
     resolve,
     with_default_parts,
 )
@@ -28,6 +29,7 @@ from uictest.scenario.yaml import (
     plain,
     read_file,
     single_error,
+    suggestion,
     validated,
     whole_file,
 )
@@ -69,6 +71,7 @@ def load_bench(
     files = Files(Roots.of([path], trusted))
     _reject_traces_outside(tree, recipe, files)
     scenario, documents = resolve(stop, Parts(files))
+    _reject_unknown_positions(tree, recipe, scenario)
     shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.place.document.display
     inputs = {shown: tree.place.document.sha256}
     inputs |= {document.display: document.sha256 for document in documents if document.sha256}
@@ -82,6 +85,20 @@ def _reject_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None
             node = entry_at(tree, ("inputs", number, "file"))[0].node
             assert isinstance(node, Scalar)
             files.path_of(node, f"inputs.{number}.file")
+
+
+def _reject_unknown_positions(tree: Map, recipe: BenchRecipe, scenario: Scenario) -> None:
+    """Raise ScenarioErrors for a brake position that the brake system does not have."""
+    positions = tuple(scenario.brake.system.positions)
+    for number, segment in enumerate(recipe.inputs):
+        if isinstance(segment, StopReplay) and segment.position not in (None, *positions):
+            key = ("inputs", number, "position")
+            raise single_error(
+                entry_at(tree, key)[0].node.place,
+                f"unknown brake position {segment.position!r}",
+                dotted(key),
+                suggestion(str(segment.position), positions),
+            )
 
 
 def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], seed: int | None) -> Map:

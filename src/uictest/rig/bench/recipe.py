@@ -67,6 +67,7 @@ class StopReplay(Section):
     friction: Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")] = Field(
         description="Initial friction coefficient of the rail."
     )
+    position: str | None = Field(default=None, description="Brake position; none: that of the recipe's stop.")
     wheelset: int = Field(ge=1, le=4, strict=True, description="Wheelset whose commands are taken.")
     seed: Seed = Field(description="Seed of the sensors' noise in that stop.")
 

@@ -9,11 +9,11 @@ from uictest.rig.assembly import assemble
 from uictest.rig.bench.inputs import Clock
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
-from uictest.scenario import Case
+from uictest.scenario import COMPENSATION_SETTINGS, Case
 
-SETTINGS = ("none", "hysteresis", "cylinder", "full")
+SETTINGS = tuple(COMPENSATION_SETTINGS)
 """Settings of the compensation, in the order of the records that compute them."""
-NONE, HYSTERESIS, CYLINDER, FULL = range(4)
+NONE, HYSTERESIS, CYLINDER, FULL, THERMAL = range(len(SETTINGS))
 MODULES = 2
 LOADCELLS = 3
 
@@ -24,8 +24,8 @@ class BenchRig(NamedTuple):
     Attributes:
         car: record whose air supply feeds the modules.
         modules: with caliper, and without.
-        computed: four modules, which compute the force of the second module under the four settings.
-        settings: four parameter records that differ in the setting of the compensation alone.
+        computed: a module for each setting, which computes the force of the second module under it.
+        settings: as many parameter records that differ in the setting of the compensation alone.
         loadcell_errors: momentary errors of the three loadcells, N.
     """
 
@@ -56,6 +56,8 @@ def _settings(case: Case) -> Any:
     settings: Any = np.zeros(len(SETTINGS), PARAMETERS)
     settings[:] = assemble(case).parameters
     settings["wsp_active"] = 1
-    settings["uses_hysteresis"] = [name in ("hysteresis", "full") for name in SETTINGS]
-    settings["uses_cylinder_dynamics"] = [name in ("cylinder", "full") for name in SETTINGS]
+    uses = COMPENSATION_SETTINGS.values()
+    settings["uses_hysteresis"] = [setting.hysteresis for setting in uses]
+    settings["uses_cylinder_dynamics"] = [setting.pressure == "filter" for setting in uses]
+    settings["uses_module_air"] = [setting.pressure == "air" for setting in uses]
     return settings

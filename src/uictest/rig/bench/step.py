@@ -1,19 +1,25 @@
 """The caliper on the bench: air, caliper and compensation stepped without vehicle and controller.
 
 Module 1 has the caliper, module 2 is a tank. Both obey the same valve commands and draw from one brake
-line, which follows a demanded pressure. Four further records compute what module 2 would give under each
+line, which follows a demanded pressure. Further records compute what module 2 would give under each
 setting of the compensation.
 """
 
 from typing import Any
 
 from uictest.physics import sqrt
-from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, BenchRig
+from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, THERMAL, BenchRig
 from uictest.rig.bench.trace import sample
 from uictest.rig.model.clamping import step_clamping
-from uictest.rig.model.cycle import command_valve, read_module_sensors, sensor_noise
+from uictest.rig.model.cycle import (
+    command_valve,
+    read_line_sensor,
+    read_module_sensors,
+    sensor_noise,
+)
+from uictest.rig.model.module_air import follow_tank, read_line_pressure
 from uictest.rig.model.pneumatics import follow_demanded_pressure, step_tank
-from uictest.rig.model.start import LONG_AGO, start_supply
+from uictest.rig.model.start import start_module, start_supply
 
 _LOADCELL = 8
 """Noise channel of the first loadcell, behind those that a stop uses."""
@@ -45,13 +51,9 @@ def start_bench(rig: BenchRig) -> None:
     p = rig.settings[0]
     start_supply(rig.car, p)
     for i in range(MODULES):
-        module = rig.modules[i]
-        module.has_caliper = 1.0 - i
-        module.filling_cycles = LONG_AGO
-        module.fill_opening = 1.0
-        module.pressure = p.atmospheric_pressure
+        start_module(rig.modules[i], 1.0 - i, p)
     for i in range(len(SETTINGS)):
-        rig.computed[i].pressure = p.atmospheric_pressure
+        start_module(rig.computed[i], 0.0, rig.settings[i])
 
 
 def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
@@ -62,6 +64,7 @@ def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
         read_module_sensors(module, p, cycle, i)
         module.valve_command = valve_command
         command_valve(module, p)
+    read_line_sensor(rig.car, p, cycle)
     share = p.loadcell_noise / sqrt(LOADCELLS)
     caliper = rig.modules[0]
     caliper.loadcell_error = 0.0
@@ -72,12 +75,16 @@ def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
 
 
 def step_bench(rig: BenchRig) -> None:
-    """Advance air, caliper and the four computed forces by one base step."""
+    """Advance air, caliper and the computed forces by one base step."""
     p = rig.settings[0]
     caliper, tank = rig.modules[0], rig.modules[1]
-    drawn = step_tank(caliper, rig.car, p)
-    drawn += step_tank(tank, rig.car, p)
-    follow_demanded_pressure(rig.car, drawn, p)
+    modelled = rig.computed[THERMAL]
+    modelled.fill_opening = tank.fill_opening
+    modelled.vent_opening = tank.vent_opening
+    follow_tank(modelled, read_line_pressure(rig.car, p), rig.settings[THERMAL])
+    drawn_1, enthalpy_1 = step_tank(caliper, rig.car, p)
+    drawn_2, enthalpy_2 = step_tank(tank, rig.car, p)
+    follow_demanded_pressure(rig.car, drawn_1 + drawn_2, enthalpy_1 + enthalpy_2, p)
     step_clamping(caliper, p)
     step_clamping(tank, p)
     for i in range(len(SETTINGS)):

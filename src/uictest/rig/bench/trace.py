@@ -2,7 +2,7 @@
 
 from uictest.physics import analogue_reading
 from uictest.record import Record, channel, layout_of, units_of
-from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, LOADCELLS, NONE, BenchRig
+from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, LOADCELLS, NONE, THERMAL, BenchRig
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Wheelset
 
@@ -21,6 +21,7 @@ class BenchSample(Record):
     measured_pressure_2: float = channel("Pa")
     cylinder_pressure_1: float = channel("Pa")  # measured
     cylinder_pressure_2: float = channel("Pa")  # computed by the cylinder dynamics
+    cylinder_pressure_thermal_2: float = channel("Pa")  # computed by the modelled air
     stroke_1: float = channel("m")
     caliper_force_1: float = channel("N")
     loadcell_1: float = channel("N")
@@ -32,6 +33,7 @@ class BenchSample(Record):
     computed_force_hysteresis_2: float = channel("N")
     computed_force_cylinder_2: float = channel("N")
     computed_force_full_2: float = channel("N")
+    computed_force_thermal_2: float = channel("N")
 
 
 BENCH_CHANNELS = units_of(BenchSample)
@@ -62,6 +64,7 @@ def _sample_pressures(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
     row.measured_pressure_2 = _measured_pressure(tank, p)
     row.cylinder_pressure_1 = row.measured_pressure_1
     row.cylinder_pressure_2 = rig.computed[FULL].compensated_pressure
+    row.cylinder_pressure_thermal_2 = rig.computed[THERMAL].compensated_pressure
 
 
 def _sample_forces(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
@@ -77,6 +80,7 @@ def _sample_forces(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
     row.computed_force_hysteresis_2 = rig.computed[HYSTERESIS].computed_force
     row.computed_force_cylinder_2 = rig.computed[CYLINDER].computed_force
     row.computed_force_full_2 = rig.computed[FULL].computed_force
+    row.computed_force_thermal_2 = rig.computed[THERMAL].computed_force
 
 
 def _measured_pressure(module: Wheelset, p: Parameters) -> float:

@@ -78,3 +78,27 @@ def air_residual(car: Car, wheelsets: Sequence[Wheelset]) -> float:
         released += wheelsets[i].vented_air
     balance: float = stored_air(car, wheelsets) + released - car.compressor_air - car.initial_air
     return balance / float(car.consumed_air)
+
+
+def stored_air_energy(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> float:
+    """Internal energy of the air in the brake line and the tanks, m cv T, J.
+
+    The reservoir keeps its temperature, so that its air takes from the wall whatever leaves it as enthalpy.
+    """
+    energy: float = car.line_mass * car.line_temperature
+    for i in range(4):
+        energy += wheelsets[i].air_mass * wheelsets[i].air_temperature
+    return energy * float(p.heat_capacity_volume)
+
+
+def air_energy_residual(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> float:
+    """Energy of the air that is not accounted for, as a share of the enthalpy taken from the reservoir.
+
+    internal energy = initial + supplied - let out + heat from the walls - work on the pistons
+    """
+    gained: float = car.supplied_enthalpy - car.exhausted_enthalpy + car.line_heat
+    for i in range(4):
+        wheelset = wheelsets[i]
+        gained += wheelset.wall_heat - wheelset.vented_enthalpy - wheelset.piston_work
+    balance: float = stored_air_energy(car, wheelsets, p) - car.initial_air_energy - gained
+    return balance / float(car.supplied_enthalpy)

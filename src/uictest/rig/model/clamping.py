@@ -34,6 +34,7 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         p.pressure_resolution,
         p.pressure_steps,
     )
+    wheelset.pressure_reading = reading
     _step_cylinder(wheelset, reading, p)
     _step_hysteresis(wheelset, p)
     loadcells = analogue_reading(
@@ -57,6 +58,7 @@ def _step_caliper(wheelset: Wheelset, gauge: float, p: Parameters) -> None:
         p.coulomb_friction,
         p.clearance,
         p.piston_damping,
+        p.contact_damping,
         p.squeezing_stiffness,
         p.releasing_stiffness,
         p.free_compliance,
@@ -74,8 +76,12 @@ def _step_cylinder(wheelset: Wheelset, reading: float, p: Parameters) -> None:
     wheelset.memory_1 = memory(reading, filtered, p.b1, p.a1, wheelset.memory_2)
     wheelset.memory_2 = memory(reading, filtered, p.b2, p.a2, wheelset.memory_3)
     wheelset.memory_3 = memory(reading, filtered, p.b3, p.a3, 0.0)
-    modelled = (1.0 - wheelset.has_caliper) * p.uses_cylinder_dynamics
-    wheelset.compensated_pressure = select(modelled > 0.0, filtered, reading)
+    filters = (1.0 - wheelset.has_caliper) * p.uses_cylinder_dynamics
+    follows_air = (1.0 - wheelset.has_caliper) * p.uses_module_air
+    modelled = fma(reading + p.atmospheric_pressure, wheelset.pressure_ratio, -p.atmospheric_pressure)
+    wheelset.compensated_pressure = select(
+        filters > 0.0, filtered, select(follows_air > 0.0, modelled, reading)
+    )
 
 
 def _step_hysteresis(wheelset: Wheelset, p: Parameters) -> None:

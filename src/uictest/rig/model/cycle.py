@@ -27,6 +27,8 @@ from uictest.rig.model.state import Car, Wheelset
 _CHANNELS = 16
 """Noise channels set aside for each wheelset."""
 _SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
+_LINE = 4 * _CHANNELS
+"""Noise channel of the brake line's pressure sensor, behind those of the wheelsets."""
 
 
 def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
@@ -35,6 +37,7 @@ def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None
     read_module_sensors(wheelsets[1], p, car.cycle, 1)
     read_module_sensors(wheelsets[2], p, car.cycle, 2)
     read_module_sensors(wheelsets[3], p, car.cycle, 3)
+    read_line_sensor(car, p, car.cycle)
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
@@ -77,6 +80,11 @@ def read_module_sensors(wheelset: Wheelset, p: Parameters, cycle: int, number: i
         p.slowest_measured_speed,
         p.speed_noise * sensor_noise(p, cycle, channel + _SPEED),
     )
+
+
+def read_line_sensor(car: Car, p: Parameters, cycle: int) -> None:
+    """Draw the momentary error of the brake line's pressure sensor."""
+    car.line_pressure_error = p.pressure_noise * sensor_noise(p, cycle, _LINE)
 
 
 def sensor_noise(p: Parameters, cycle: int, channel: int) -> float:

@@ -34,6 +34,7 @@ class Parameters(ControllerCycle, MeasureDefinition):
     initial_speed: float = from_scenario("initial_speed")  # m/s
     calipers: int = derived()  # modules with a real caliper: 1 or 4
     uses_cylinder_dynamics: float = derived()  # 0 or 1, in modules without a caliper
+    uses_module_air: float = derived()  # 0 or 1, in modules without a caliper
     uses_hysteresis: float = derived()  # 0 or 1, in modules without a caliper
     wsp_active: int = derived()  # 0: the valves always fill
     # brake operating unit, reservoir, compressor, brake line
@@ -45,7 +46,7 @@ class Parameters(ControllerCycle, MeasureDefinition):
         "brake.system.relay_valve.proportional_band", inverse
     )  # opening per missing Pa
     line_volume: float = from_scenario("brake.system.brake_line.volume")  # m3
-    line_stiffness: float = derived()  # polytropic exponent over its volume, 1/m3
+    line_exchange: float = derived()  # heat conductance to its wall times the step, J/K
     reservoir_volume: float = from_scenario("brake.system.reservoir.volume")  # m3
     reservoir_stiffness: float = derived()  # pressure per mass of air, Pa/kg
     reservoir_pressure: float = derived()  # at the start, Pa
@@ -56,10 +57,11 @@ class Parameters(ControllerCycle, MeasureDefinition):
     atmospheric_pressure: float = from_scenario("brake.system.air.atmospheric_pressure")  # Pa
     gas_constant: float = from_scenario("brake.system.air.gas_constant")  # J/(kg K)
     air_temperature: float = from_scenario("brake.system.air.temperature")  # K
-    air: float = derived()  # gas constant times temperature, J/kg
-    polytropic_exponent: float = from_scenario("brake.system.tank.polytropic_exponent")
-    flow_density: float = derived()  # this and the next three: physics.flow.orifice_law
-    critical_ratio: float = derived()
+    heat_capacity_ratio: float = from_scenario("brake.system.air.heat_capacity_ratio")
+    heat_capacity_pressure: float = derived()  # at constant pressure, J/(kg K)
+    heat_capacity_volume: float = derived()  # at constant volume, J/(kg K)
+    air_coldness: float = derived()  # physics.flow.coldness of the surroundings
+    critical_ratio: float = derived()  # this and the next two: physics.flow.orifice_law
     subsonic_scale: float = derived()
     laminar_slope: float = derived()
     # WSP valve and tanks
@@ -69,13 +71,16 @@ class Parameters(ControllerCycle, MeasureDefinition):
     valve_delay_cycles: int = derived()  # whole controller cycles of the switching delay
     valve_delay_steps: float = derived()  # and the steps that remain of it
     tank_volume: float = from_scenario("brake.system.tank.volume")  # module without a caliper, m3
+    tank_exchange: float = derived()  # heat conductance to its wall times the step, J/K
     caliper_tank_volume: float = derived()  # module with a caliper, piston at rest, m3
+    caliper_tank_exchange: float = derived()  # heat conductance to its wall and balls times the step, J/K
     # caliper
     piston_area: float = from_scenario("rig.caliper.piston_area")  # m2
     preload: float = from_scenario("rig.caliper.preload")  # N
     coulomb_friction: float = from_scenario("rig.caliper.coulomb_friction")  # N
     clearance: float = from_scenario("rig.caliper.clearance")  # m
-    piston_damping: float = derived()  # this and the next five: physics.caliper.stiffnesses
+    piston_damping: float = derived()  # this and the next six: physics.caliper.stiffnesses
+    contact_damping: float = derived()
     squeezing_stiffness: float = derived()
     releasing_stiffness: float = derived()
     free_compliance: float = derived()
@@ -91,6 +96,14 @@ class Parameters(ControllerCycle, MeasureDefinition):
     a1: float = derived()
     a2: float = derived()
     a3: float = derived()
+    # compensation: modelled air of the caliper's module, physics.module_air
+    modelled_tank_exchange: float = derived()  # Pa
+    modelled_exchange: float = derived()  # Pa
+    modelled_fill_conductance: float = derived()  # air in a step over the reduced flow
+    modelled_vent_conductance: float = derived()
+    modelled_swept_share: float = derived()  # of a tank's volume
+    modelled_closing_pressure: float = derived()  # Pa
+    modelled_opening_pressure: float = derived()  # Pa
     # compensation: lines of force over pressure, N/Pa and N
     linear_slope: float = from_scenario("rig.compensation_model.linear.slope")
     linear_intercept: float = from_scenario("rig.compensation_model.linear.intercept")

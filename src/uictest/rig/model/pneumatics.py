@@ -1,13 +1,17 @@
 """Air of the rig: reservoir, relay valve and brake line; WSP valve and tank of one module."""
 
+from collections.abc import Sequence
+
 from uictest.physics import (
+    changes,
+    coldness,
     compressor_running,
     demanded_pressure,
+    enthalpy,
     fma,
     isothermal_pressure,
     mass_flow,
     maximum,
-    pressure_change,
     relay_opening,
     select,
     travel,
@@ -16,75 +20,186 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 
 
-def step_supply(car: Car, drawn: float, p: Parameters) -> None:
-    """Advance compressor, reservoir, relay valve and the brake line, which lost ``drawn`` kg to the tanks."""
+def step_air(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Let air flow through all valves, then advance what it flows into and out of.
+
+    Each valve and each tank is a chain of dependent operations. A processor works on several chains at once
+    where they stand side by side, which is why no tank is filled before the flows of all are known.
+    """
     car.demanded_pressure = demanded_pressure(car.time, p.commanded_pressure, p.dead_time, p.filling_rate)
-    follow_demanded_pressure(car, drawn, p)
+    drawn_0, vented_0 = _step_valve(wheelsets[0], car, p)
+    drawn_1, vented_1 = _step_valve(wheelsets[1], car, p)
+    drawn_2, vented_2 = _step_valve(wheelsets[2], car, p)
+    drawn_3, vented_3 = _step_valve(wheelsets[3], car, p)
+    filled, exhausted = _through_relay_valve(car, p)
+    enthalpy_0 = _fill_tank(wheelsets[0], drawn_0, vented_0, car, p)
+    enthalpy_1 = _fill_tank(wheelsets[1], drawn_1, vented_1, car, p)
+    enthalpy_2 = _fill_tank(wheelsets[2], drawn_2, vented_2, car, p)
+    enthalpy_3 = _fill_tank(wheelsets[3], drawn_3, vented_3, car, p)
+    _step_reservoir(car, filled, p)
+    drawn = drawn_0 + drawn_1 + drawn_2 + drawn_3
+    _fill_line(car, filled, exhausted, drawn, enthalpy_0 + enthalpy_1 + enthalpy_2 + enthalpy_3, p)
 
 
-def follow_demanded_pressure(car: Car, drawn: float, p: Parameters) -> None:
+def follow_demanded_pressure(car: Car, drawn: float, drawn_enthalpy: float, p: Parameters) -> None:
     """Let the relay valve bring the brake line towards ``car.demanded_pressure``, whatever sets that."""
+    filled, exhausted = _through_relay_valve(car, p)
+    _step_reservoir(car, filled, p)
+    _fill_line(car, filled, exhausted, drawn, drawn_enthalpy, p)
+
+
+def step_tank(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, float]:
+    """Advance the WSP valve and the tank of one module.
+
+    Returns:
+        The air drawn from the brake line, kg, and its enthalpy, J.
+    """
+    drawn, vented = _step_valve(wheelset, car, p)
+    return drawn, _fill_tank(wheelset, drawn, vented, car, p)
+
+
+def _fill_tank(wheelset: Wheelset, drawn: float, vented: float, car: Car, p: Parameters) -> float:
+    """Let a tank gain ``drawn`` kg and lose ``vented`` kg; return the enthalpy of what it gained, J."""
+    drawn_enthalpy = enthalpy(drawn, car.line_temperature, wheelset.air_temperature, p.heat_capacity_pressure)
+    vented_enthalpy = enthalpy(vented, wheelset.air_temperature, p.air_temperature, p.heat_capacity_pressure)
+    has_caliper = wheelset.has_caliper > 0.0
+    swept = wheelset.has_caliper * p.piston_area
+    volume = fma(swept, wheelset.stroke, select(has_caliper, p.caliper_tank_volume, p.tank_volume))
+    exchange = select(has_caliper, p.caliper_tank_exchange, p.tank_exchange)
+    growth = swept * wheelset.stroke_change
+    wheelset.air_mass += drawn - vented
+    warming, rise = changes(
+        wheelset.pressure,
+        wheelset.air_temperature,
+        wheelset.air_mass,
+        drawn - vented,
+        drawn_enthalpy - vented_enthalpy,
+        volume,
+        growth,
+        p.air_temperature,
+        exchange,
+        p.gas_constant,
+        p.heat_capacity_volume,
+    )
+    wheelset.piston_work += wheelset.pressure * growth
+    wheelset.air_temperature += warming
+    wheelset.pressure += rise
+    wheelset.air_coldness = coldness(wheelset.air_temperature)
+    wheelset.vented_air += vented
+    wheelset.vented_enthalpy += vented_enthalpy
+    wheelset.wall_heat += exchange * (p.air_temperature - wheelset.air_temperature)
+    return drawn_enthalpy
+
+
+def _fill_line(
+    car: Car, filled: float, exhausted: float, drawn: float, drawn_enthalpy: float, p: Parameters
+) -> None:
+    """Let the brake line gain ``filled`` kg and lose what is let out and what the tanks draw."""
+    supplied = enthalpy(filled, p.air_temperature, car.line_temperature, p.heat_capacity_pressure)
+    released = enthalpy(exhausted, car.line_temperature, p.air_temperature, p.heat_capacity_pressure)
+    gained = filled - exhausted - drawn
+    car.line_mass += gained
+    warming, rise = changes(
+        car.line_pressure,
+        car.line_temperature,
+        car.line_mass,
+        gained,
+        supplied - released - drawn_enthalpy,
+        p.line_volume,
+        0.0,
+        p.air_temperature,
+        p.line_exchange,
+        p.gas_constant,
+        p.heat_capacity_volume,
+    )
+    car.line_temperature += warming
+    car.line_pressure += rise
+    car.line_coldness = coldness(car.line_temperature)
+    car.consumed_air += filled
+    car.exhausted_air += exhausted
+    car.supplied_enthalpy += supplied
+    car.exhausted_enthalpy += released
+    car.line_heat += p.line_exchange * (p.air_temperature - car.line_temperature)
+
+
+def move_valve(wheelset: Wheelset, car: Car, p: Parameters) -> None:
+    """Let the WSP valve of one module travel towards what it is commanded."""
+    switched = car.substep >= p.valve_delay_steps
+    fill_target = select(switched, wheelset.fill_after, wheelset.fill_before)
+    vent_target = select(switched, wheelset.vent_after, wheelset.vent_before)
+    wheelset.fill_opening = travel(wheelset.fill_opening, fill_target, p.valve_travel_per_step)
+    wheelset.vent_opening = travel(wheelset.vent_opening, vent_target, p.valve_travel_per_step)
+
+
+def _step_valve(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, float]:
+    """Move the WSP valve of one module; return the air that it lets into the tank and out of it, kg."""
+    move_valve(wheelset, car, p)
+    drawn = p.step * _orifice(
+        car.line_pressure,
+        wheelset.pressure,
+        car.line_coldness,
+        wheelset.air_coldness,
+        p.fill_conductance * wheelset.fill_opening,
+        p,
+    )
+    vented = p.step * _orifice(
+        wheelset.pressure,
+        p.atmospheric_pressure,
+        wheelset.air_coldness,
+        p.air_coldness,
+        p.vent_conductance * wheelset.vent_opening,
+        p,
+    )
+    return drawn, vented
+
+
+def _through_relay_valve(car: Car, p: Parameters) -> tuple[float, float]:
+    """Air that flows in a step from the reservoir into the brake line and from it to the atmosphere, kg."""
     gauge = car.line_pressure - p.atmospheric_pressure
     opening = relay_opening(car.demanded_pressure, gauge, p.relay_gain)
-    filled, exhausted = _through(
+    filled = p.step * _orifice(
         car.reservoir_pressure,
         car.line_pressure,
+        p.air_coldness,
+        car.line_coldness,
         p.relay_conductance * maximum(opening, 0.0),
+        p,
+    )
+    exhausted = p.step * _orifice(
+        car.line_pressure,
+        p.atmospheric_pressure,
+        car.line_coldness,
+        p.air_coldness,
         p.relay_conductance * maximum(-opening, 0.0),
         p,
     )
+    return filled, exhausted
+
+
+def _step_reservoir(car: Car, filled: float, p: Parameters) -> None:
     car.compressor_running = compressor_running(
         car.reservoir_pressure, car.compressor_running, p.compressor_cut_in, p.compressor_cut_out
     )
     delivered = p.step * p.compressor_delivery * car.compressor_running
     car.reservoir_mass += delivered - filled
     car.reservoir_pressure = isothermal_pressure(car.reservoir_mass, p.reservoir_stiffness)
-    gained = filled - exhausted - drawn
-    car.line_mass += gained
-    car.line_pressure += pressure_change(car.line_pressure, p.line_stiffness, gained, 0.0, p.air)
     car.compressor_air += delivered
-    car.consumed_air += filled
-    car.exhausted_air += exhausted
 
 
-def step_tank(wheelset: Wheelset, car: Car, p: Parameters) -> float:
-    """Advance the WSP valve and the tank of one module; return the air drawn from the brake line, kg."""
-    switched = car.substep >= p.valve_delay_steps
-    fill_target = select(switched, wheelset.fill_after, wheelset.fill_before)
-    vent_target = select(switched, wheelset.vent_after, wheelset.vent_before)
-    wheelset.fill_opening = travel(wheelset.fill_opening, fill_target, p.valve_travel_per_step)
-    wheelset.vent_opening = travel(wheelset.vent_opening, vent_target, p.valve_travel_per_step)
-    drawn, vented = _through(
-        car.line_pressure,
-        wheelset.pressure,
-        p.fill_conductance * wheelset.fill_opening,
-        p.vent_conductance * wheelset.vent_opening,
-        p,
-    )
-    swept = wheelset.has_caliper * p.piston_area
-    fixed = select(wheelset.has_caliper > 0.0, p.caliper_tank_volume, p.tank_volume)
-    stiffness = p.polytropic_exponent / fma(swept, wheelset.stroke, fixed)
-    growth = swept * wheelset.stroke_change
-    wheelset.air_mass += drawn - vented
-    wheelset.vented_air += vented
-    wheelset.pressure += pressure_change(wheelset.pressure, stiffness, drawn - vented, growth, p.air)
-    return drawn
-
-
-def _through(
-    source: float, vessel: float, conductance_in: float, conductance_out: float, p: Parameters
-) -> tuple[float, float]:
-    """Air that flows in a step from a source into a vessel and from there to the atmosphere, kg."""
-    gained = p.step * _orifice(source, vessel, conductance_in, p)
-    return gained, p.step * _orifice(vessel, p.atmospheric_pressure, conductance_out, p)
-
-
-def _orifice(pressure_1: float, pressure_2: float, conductance: float, p: Parameters) -> float:
+def _orifice(
+    pressure_1: float,
+    pressure_2: float,
+    coldness_1: float,
+    coldness_2: float,
+    conductance: float,
+    p: Parameters,
+) -> float:
     return mass_flow(
         pressure_1,
         pressure_2,
+        coldness_1,
+        coldness_2,
         conductance,
-        p.flow_density,
         p.critical_ratio,
         p.subsonic_scale,
         p.laminar_slope,

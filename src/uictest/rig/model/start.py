@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from uictest.rig.model.balance import stored_air, stored_energy
+from uictest.physics import select
+from uictest.rig.model.balance import stored_air, stored_air_energy, stored_energy
 from uictest.rig.model.controller import begin
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Wheelset
@@ -22,19 +23,21 @@ def start(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: P
         side = 1.0 - 2.0 * (i % 2)
         bogie = bogies[i // 2]
         _start_wheelset(wheelsets[i], p)
-        wheelsets[i].has_caliper = 1.0 if i < p.calipers else 0.0
+        start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
-    _start_air(wheelsets, p)
     begin(car, wheelsets, p.initial_speed)
     car.initial_energy = stored_energy(car, bogies, wheelsets, p)
     car.initial_air = stored_air(car, wheelsets)
+    car.initial_air_energy = stored_air_energy(car, wheelsets, p)
 
 
 def start_supply(car: Car, p: Parameters) -> None:
     """Fill the reservoir; the brake line is empty."""
     car.reservoir_pressure = p.reservoir_pressure
     car.line_pressure = p.atmospheric_pressure
+    car.line_temperature = p.air_temperature
+    car.line_coldness = p.air_coldness
     car.reservoir_mass = p.reservoir_pressure * p.reservoir_volume / (p.gas_constant * p.air_temperature)
     car.line_mass = p.atmospheric_pressure * p.line_volume / (p.gas_constant * p.air_temperature)
 
@@ -43,12 +46,21 @@ def _start_wheelset(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.speed = p.initial_speed
     wheelset.rotation = p.initial_speed / p.wheel_radius
     wheelset.wheel_load = p.static_wheel_load
+
+
+def start_module(wheelset: Wheelset, has_caliper: float, p: Parameters) -> None:
+    """Let the valve of a module fill from the empty brake line into its empty tank."""
+    volume = select(has_caliper > 0.0, p.caliper_tank_volume, p.tank_volume)
+    wheelset.has_caliper = has_caliper
     wheelset.filling_cycles = LONG_AGO
     wheelset.fill_opening = 1.0
     wheelset.pressure = p.atmospheric_pressure
-
-
-def _start_air(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    for i in range(4):
-        volume = p.caliper_tank_volume if i < p.calipers else p.tank_volume
-        wheelsets[i].air_mass = p.atmospheric_pressure * volume / (p.gas_constant * p.air_temperature)
+    wheelset.air_temperature = p.air_temperature
+    wheelset.air_coldness = p.air_coldness
+    wheelset.air_mass = p.atmospheric_pressure * volume / (p.gas_constant * p.air_temperature)
+    wheelset.modelled_tank_pressure = p.atmospheric_pressure
+    wheelset.modelled_tank_air = p.atmospheric_pressure
+    wheelset.modelled_pressure = p.atmospheric_pressure
+    wheelset.modelled_volume = 1.0 - p.modelled_swept_share
+    wheelset.modelled_air = p.atmospheric_pressure * wheelset.modelled_volume
+    wheelset.pressure_ratio = 1.0

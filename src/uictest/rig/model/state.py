@@ -34,15 +34,22 @@ class Car(Frame, TrainMemory):
     compressor_running: float
     line_pressure: float
     line_mass: float
+    line_temperature: float
+    line_coldness: float  # physics.flow.coldness of its air
+    line_pressure_error: float  # momentary noise of its sensor, Pa
     demanded_pressure: float  # at present, gauge, Pa
     # ledgers
     compressor_air: float  # delivered, kg
     consumed_air: float  # taken from the reservoir, kg
     exhausted_air: float  # let out by the relay valve, kg
+    supplied_enthalpy: float  # of the air taken from the reservoir, J
+    exhausted_enthalpy: float  # of the air let out by the relay valve, J
+    line_heat: float  # from the wall of the brake line to its air, J
     damper_loss: float  # J
     resistance_loss: float  # J
     initial_energy: float  # J
     initial_air: float  # kg
+    initial_air_energy: float  # of the air in the brake line and the tanks, J
     # standstill, interpolated within the step
     stopped: float
     stop_time: float
@@ -75,17 +82,32 @@ class Wheelset(ControlledWheelset):
     # air
     pressure: float
     air_mass: float
+    air_temperature: float
+    air_coldness: float  # physics.flow.coldness
     vented_air: float
+    vented_enthalpy: float  # J
+    wall_heat: float  # from the wall of the tank, and the balls in it, to its air, J
+    piston_work: float  # of the air on the piston, J
     # caliper
     stroke: float
     stroke_change: float
     caliper_force: float
     # compensation
+    pressure_reading: float  # of the module's sensor, gauge, Pa
     memory_1: float
     memory_2: float
     memory_3: float
     wsp_share: float
-    compensated_pressure: float  # gauge, after the cylinder dynamics
+    compensated_pressure: float  # gauge, after the cylinder dynamics or the modelled air
+    # compensation by modelled air: physics.module_air, pressures and amounts of air in Pa
+    modelled_tank_pressure: float
+    modelled_tank_air: float
+    modelled_pressure: float
+    modelled_air: float
+    modelled_travel: float  # of the piston, 0 to 1
+    modelled_volume: float  # over that of a tank
+    modelled_growth: float  # of that volume within the last step
+    pressure_ratio: float  # modelled pressure over that of the tank, absolute
     computed_force: float
     # sensors, held for a controller cycle
     pressure_error: float  # momentary noise, Pa

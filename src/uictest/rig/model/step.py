@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.pneumatics import step_supply, step_tank
+from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import (
     bracket_slip,
     clear_forces,
@@ -26,11 +26,7 @@ def step(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Pa
     Nothing branches and nothing is looked up: what happens once per controller cycle is in
     :mod:`uictest.rig.model.cycle`.
     """
-    drawn = step_tank(wheelsets[0], car, p)
-    drawn += step_tank(wheelsets[1], car, p)
-    drawn += step_tank(wheelsets[2], car, p)
-    drawn += step_tank(wheelsets[3], car, p)
-    step_supply(car, drawn, p)
+    step_air(car, wheelsets, p)
     step_clamping(wheelsets[0], p)
     step_clamping(wheelsets[1], p)
     step_clamping(wheelsets[2], p)

@@ -17,8 +17,9 @@ from uictest.measures import (
     observe_wheelset,
 )
 from uictest.physics import select
-from uictest.rig.model.balance import air_residual, energy_residual
+from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.start import start
 from uictest.rig.model.state import Bogie, Car, Wheelset
@@ -56,6 +57,8 @@ def run_stop(
             sample(trace, 0, car, wheelsets, p)
             rows = 1
         for _ in range(p.steps_per_cycle):
+            if p.uses_module_air > 0.0:
+                follow_module_air(car, wheelsets, p)
             step(car, bogies, wheelsets, p)
             steps += 1
             if steps_per_sample > 0 and steps % steps_per_sample == 0:
@@ -138,5 +141,6 @@ def close_stop_measures(
     measures.air_consumed = car.consumed_air
     measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
     measures.air_residual = air_residual(car, wheelsets)
+    measures.air_energy_residual = air_energy_residual(car, wheelsets, p)
     for i in range(4):
         wheelset_measures[i].air_vented = wheelsets[i].vented_air

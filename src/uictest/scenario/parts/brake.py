@@ -12,6 +12,10 @@ Volume = Annotated[Quantity, of_kind("volume", at_least="0.1 L", at_most="10 m3"
 Conductance = Annotated[
     Quantity, of_kind("conductance", at_least="1e-11 m3/(s Pa)", at_most="1e-5 m3/(s Pa)")
 ]
+FilmCoefficient = Annotated[
+    Quantity, of_kind("film coefficient", at_least="0 W/(m2 K)", at_most="1e5 W/(m2 K)")
+]
+Surface = Annotated[Quantity, of_kind("area", at_least="0 m2", at_most="100 m2")]
 Ratio = Annotated[Quantity, of_kind("number", at_least="0.01", below="1")]
 
 
@@ -57,6 +61,8 @@ class BrakeLine(Section):
     """The pipe from the brake operating unit to the WSP valves."""
 
     volume: Volume = Field(description="Volume of the brake line.")
+    surface: Surface = Field(description="Inner surface of its wall.")
+    film_coefficient: FilmCoefficient = Field(description="Heat flow from the wall to the air.")
 
 
 class WspValve(Section):
@@ -76,8 +82,9 @@ class Tank(Section):
     """The tank of one module: pipe and brake-cylinder volume."""
 
     volume: Volume = Field(description="Volume of an empty tank.")
-    polytropic_exponent: Annotated[Quantity, of_kind("number", at_least="1", at_most="1.4")] = Field(
-        description="Exponent of filling and venting: 1 isothermal, 1.4 adiabatic."
+    surface: Surface = Field(description="Inner surface of an empty tank.")
+    film_coefficient: FilmCoefficient = Field(
+        description="Heat flow from the wall to the air: 0 adiabatic, very large isothermal."
     )
 
 
@@ -90,6 +97,8 @@ class CaliperTank(Section):
     hose_and_dead_volume: Annotated[Quantity, of_kind("volume", at_least="0 L", at_most="1 m3")] = Field(
         description="Volume of the hose to the caliper and of the cylinder with its piston fully back."
     )
+    ball_surface: Surface = Field(description="Surface of the steel balls.")
+    film_coefficient: FilmCoefficient = Field(description="Heat flow from the balls to the air.")
 
 
 class Disc(Section):
@@ -121,6 +130,9 @@ class Air(Section):
     gas_constant: Annotated[
         Quantity, of_kind("gas constant", at_least="100 J/(kg K)", at_most="1000 J/(kg K)")
     ] = Field(description="Specific gas constant of air.")
+    heat_capacity_ratio: Annotated[Quantity, of_kind("number", at_least="1.01", at_most="1.7")] = Field(
+        description="Heat capacity at constant pressure over that at constant volume."
+    )
 
 
 class BrakeSystem(Part):

@@ -33,6 +33,9 @@ class Caliper(Part):
     viscous_friction: Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")] = (
         Field(description="Friction that grows with piston speed, at the piston.")
     )
+    contact_friction: Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")] = (
+        Field(description="Friction of lever, pins and pads that grows with their speed, at the piston.")
+    )
     clearance: Annotated[Quantity, of_kind("length", at_least="0 mm", at_most="50 mm")] = Field(
         description="Piston stroke until the pads touch the disc."
     )

@@ -1,6 +1,8 @@
 """The compensation: cylinder dynamics and four-phase hysteresis in place of a caliper that is not there."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field
@@ -10,10 +12,39 @@ from uictest.units import BAR
 
 Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
 
+HeatConductance = Annotated[Quantity, of_kind("heat conductance", at_least="0 W/K", at_most="1e4 W/K")]
+ClosingPressure = Annotated[Quantity, of_kind("pressure", at_least="0.001 bar", at_most="10 bar")]
+
 UNITY_GAIN_TOLERANCE: Final = 1e-6
 """How far the gain at rest may be from one."""
 HIGHEST_PRESSURE: Final = 10.0 * BAR
 """Gauge pressure in Pa up to which the lines of a pair must keep their order."""
+
+
+@dataclass(frozen=True, slots=True)
+class CompensationSetting:
+    """What computes the clamping force of a module without a caliper.
+
+    Attributes:
+        hysteresis: whether its force follows the four lines, or a single one.
+        pressure: where the cylinder pressure comes from: the tank's reading as it is, the transfer function
+            of equation (8), or the modelled air of the caliper's module.
+    """
+
+    hysteresis: bool
+    pressure: Literal["tank", "filter", "air"]
+
+
+COMPENSATION_SETTINGS: Final = MappingProxyType(
+    {
+        "none": CompensationSetting(hysteresis=False, pressure="tank"),
+        "hysteresis": CompensationSetting(hysteresis=True, pressure="tank"),
+        "cylinder": CompensationSetting(hysteresis=False, pressure="filter"),
+        "full": CompensationSetting(hysteresis=True, pressure="filter"),
+        "thermal": CompensationSetting(hysteresis=True, pressure="air"),
+    }
+)
+"""Settings of ``rig.compensation``; all but `thermal` are those of Lee and Kang (2015)."""
 
 
 class ForceLine(Section):
@@ -102,6 +133,30 @@ def _stable(a1: float, a2: float, a3: float) -> bool:
     )
 
 
+class ModuleAir(Section):
+    """The air of the caliper's module, followed beside a tank: ours, not an equation of the paper."""
+
+    tank_heat_conductance: HeatConductance = Field(description="From the wall of a tank to its air.")
+    caliper_heat_conductance: HeatConductance = Field(
+        description="From the wall, and the balls, of the caliper's module to its air."
+    )
+    swept_volume: Annotated[Quantity, of_kind("volume", at_least="0.001 L", at_most="10 L")] = Field(
+        description="Volume that the piston sweeps until the pads touch the disc."
+    )
+    closing_pressure: ClosingPressure = Field(description="At which the piston moves to the disc, gauge.")
+    opening_pressure: ClosingPressure = Field(description="At which the piston moves back, gauge.")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a piston that would move back before it moves out."""
+        if self.opening_pressure > self.closing_pressure:
+            yield Inconsistency(
+                ("opening_pressure",),
+                f"the piston would move back at {self.opening_pressure.text} and out at"
+                f" {self.closing_pressure.text}",
+                "opening_pressure must not exceed closing_pressure",
+            )
+
+
 class Compensation(Part):
     """The model that computes clamping force from the tank pressure of a module without caliper."""
 
@@ -120,6 +175,7 @@ class Compensation(Part):
     )
     hysteresis: FourPhaseHysteresis = Field(description="Four-phase hysteresis.")
     cylinder: CylinderDynamics = Field(description="Tank pressure to cylinder pressure.")
+    air: ModuleAir = Field(description="Air of the caliper's module, used by the setting 'thermal'.")
     provenance: dict[str, str] = Field(
         default_factory=dict, description="How the numbers were identified, as text by topic."
     )

@@ -1,30 +1,30 @@
-"""Pressure of tank 2 against that of cylinder 1 under the same valve commands, filtered and not."""
+"""Pressure of tank 2 against that of cylinder 1 under the same valve commands, compensated and not."""
 
 from __future__ import annotations
 
 from functools import partial
 
-import numpy as np
-
 from uictest.recording import Recording
 from uictest.studies.figures.cylinder_dynamics import draw
+from uictest.studies.model_errors import pressure_error
 from uictest.studies.quantity import StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR, PERCENT
+from uictest.units import BAR
 
 SEEDS = range(5)
 _EVERY = 20
 
 AFTER = 2.0
 """The paper's bound on the error after the cylinder dynamics, % of maximum pressure."""
+_UNIT = "% of maximum pressure"
 
 QUANTITIES = (
     StudyQuantity(
         "before",
         "largest difference of tank 2 from cylinder 1",
-        "% of maximum pressure",
+        _UNIT,
         "7 %",
         lower=4.0,
         upper=8.0,
@@ -32,18 +32,25 @@ QUANTITIES = (
         reason="ours, about the paper's figure",
     ),
     StudyQuantity(
-        "after",
-        "largest difference behind the cylinder dynamics",
-        "% of maximum pressure",
+        "after_full",
+        "largest difference behind the cylinder dynamics (full)",
+        _UNIT,
         "below 2 %",
+        digits=2,
+    ),
+    StudyQuantity(
+        "after_thermal",
+        "largest difference of the modelled air (thermal)",
+        _UNIT,
+        "below 2 % by the cylinder dynamics",
         upper=AFTER,
         below=True,
         digits=2,
-        reason="paper",
+        reason="ours, of the paper's claim",
     ),
     StudyQuantity(
         "ratio",
-        "after over before",
+        "the modelled air's over that of tank 2",
         "",
         "below 0.29 (2 % of 7 %)",
         upper=0.45,
@@ -51,6 +58,8 @@ QUANTITIES = (
         reason="ours",
     ),
 )
+_SETTINGS = {"before": "none", "after_full": "full", "after_thermal": "thermal"}
+"""Setting of the compensation whose pressure each quantity judges."""
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
@@ -60,34 +69,27 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     stops = stop_runner.recordings(cases, CYCLE)
     replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
     top = maximum_pressure(case)
-    errors = [largest_errors(recording, top) for recording in replays]
+    errors = {
+        key: [pressure_error(recording, setting, top) for recording in replays]
+        for key, setting in _SETTINGS.items()
+    }
+    ratios = [after / before for before, after in zip(errors["before"], errors["after_thermal"], strict=True)]
     return StudyFindings(
-        {
-            "before": spread([before / PERCENT for before, _ in errors]),
-            "after": spread([after / PERCENT for _, after in errors]),
-            "ratio": spread([after / before for before, after in errors]),
-        },
+        {key: spread(values) for key, values in errors.items()} | {"ratio": spread(ratios)},
         tables={"pressures": _table(replays[0])},
         drawings={"cylinder-dynamics": partial(draw, replays[0], top, AFTER)},
         notes=(repeats_note(len(SEEDS)),),
     )
 
 
-def largest_errors(recording: Recording, top: float) -> tuple[float, float]:
-    """Return the largest differences of tank 2 from cylinder 1, unfiltered and filtered, over `top` Pa."""
-    cylinder = recording["tank_pressure_1"]
-    before = np.abs(recording["tank_pressure_2"] - cylinder).max() / top
-    after = np.abs(recording["cylinder_pressure_2"] - cylinder).max() / top
-    return float(before), float(after)
-
-
 def _table(recording: Recording) -> Table:
     shown_samples = slice(None, None, _EVERY)
     return {
         "time_s": column(recording["time"][shown_samples], 1.0, 3),
-        "cylinder_pressure_1_bar": column(recording["tank_pressure_1"][shown_samples], BAR, 4),
+        "cylinder_pressure_1_bar": column(recording["cylinder_pressure_1"][shown_samples], BAR, 4),
         "tank_pressure_2_bar": column(recording["tank_pressure_2"][shown_samples], BAR, 4),
-        "compensated_pressure_2_bar": column(recording["cylinder_pressure_2"][shown_samples], BAR, 4),
+        "filtered_pressure_2_bar": column(recording["cylinder_pressure_2"][shown_samples], BAR, 4),
+        "modelled_pressure_2_bar": column(recording["cylinder_pressure_thermal_2"][shown_samples], BAR, 4),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -9,9 +10,12 @@ import numpy as np
 from uictest import identification
 from uictest.recording import Recording
 from uictest.studies.figures.four_phase_lines import draw
+from uictest.studies.judged_conditions import judged_conditions
+from uictest.studies.line_errors import LineErrors, held_out_errors
+from uictest.studies.model_errors import UNITS_OF_ERRORS
 from uictest.studies.phases import TITLES, identified_lines, on_phases
-from uictest.studies.quantity import StudyQuantity, StudyValue
-from uictest.studies.replay import CYCLE, replayed
+from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.replay import CYCLE, replayed_in_turn
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
@@ -19,27 +23,75 @@ from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 _NAN = float("nan")
 _EVERY = 20
 
-QUANTITIES = tuple(
-    quantity
-    for phase, title in TITLES.items()
-    for quantity in (
-        StudyQuantity(f"{phase}_slope", f"{title}, slope", "kN/bar", digits=3),
-        StudyQuantity(f"{phase}_intercept", f"{title}, intercept", "kN", digits=3),
-    )
-)
+WHEELSETS = (1, 2, 3, 4)
+_MOTIONS = ("squeezing", "releasing")
+_ERROR = UNITS_OF_ERRORS["force_error"]
+
+
+def _quantities() -> Iterator[StudyQuantity]:
+    for phase, title in TITLES.items():
+        yield StudyQuantity(f"{phase}_slope", f"{title}, slope", "kN/bar", digits=3)
+        yield StudyQuantity(f"{phase}_intercept", f"{title}, intercept", "kN", digits=3)
+    for motion in _MOTIONS:
+        yield StudyQuantity(
+            f"{motion}_apart",
+            f"BC and WSP {motion} lines, difference over its confidence",
+            "",
+            "a line of its own in each phase",
+            lower=1.0,
+            reason="ours",
+        )
+    for lines, words in (("four", "four lines"), ("two", "the BC lines in every phase")):
+        yield StudyQuantity(f"{lines}_largest", f"largest force error, {words}", _ERROR, NOT_ASKED, digits=2)
+        yield StudyQuantity(f"{lines}_rms", f"rms force error, {words}", _ERROR, NOT_ASKED, digits=2)
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Identify the four lines in module 1 of a slide test; the brake is released after standstill."""
+    """Identify the four lines in a slide test, released after standstill; judge those of the compensation."""
     case = stop_runner.cases("slide-80")[0]
     stop = stop_runner.recordings([case], CYCLE)[0]
-    recording = replayed(case, stop, 1, release=True)
+    recording = replayed_in_turn(case, stop, WHEELSETS, release=True)
     hysteresis = identified_lines(recording)
+    errors = held_out_errors(stop_runner, judged_conditions())
     return StudyFindings(
-        dict(_values(hysteresis)),
+        dict(_values(hysteresis))
+        | {f"{motion}_apart": StudyValue(apart(hysteresis, motion)) for motion in _MOTIONS}
+        | {
+            f"{lines}_{statistic}": spread([getattr(each, statistic) for each in of_lines])
+            for lines, of_lines in errors.items()
+            for statistic in ("largest", "rms")
+        },
         tables={"lines": _lines_table(hysteresis), "samples": _samples_table(recording)},
         drawings={"four-phase-lines": partial(draw, recording, hysteresis)},
-        notes=(_order(hysteresis),),
+        notes=(_order(hysteresis), _gain(errors)),
+    )
+
+
+def apart(hysteresis: identification.HysteresisResult, motion: str) -> float:
+    """Return how far the BC and the WSP line of a motion are apart: slope or intercept, over its confidence.
+
+    NaN where one of them is missing.
+    """
+    bc, wsp = (hysteresis.lines.get(f"{pair}_{motion}") for pair in ("bc", "wsp"))
+    if bc is None or wsp is None:
+        return _NAN
+    slope, intercept = wsp.slope - bc.slope, wsp.intercept - bc.intercept
+    slope /= float(np.hypot(bc.slope_confidence, wsp.slope_confidence))
+    intercept /= float(np.hypot(bc.intercept_confidence, wsp.intercept_confidence))
+    return max(abs(slope), abs(intercept))
+
+
+def _gain(errors: Mapping[str, Sequence[LineErrors]]) -> str:
+    """Return the note on what four lines gain over two."""
+    pairs = list(zip(errors["four"], errors["two"], strict=True))
+    nearer = {
+        statistic: sum(getattr(four, statistic) < getattr(two, statistic) for four, two in pairs)
+        for statistic in ("largest", "rms")
+    }
+    return (
+        f"Force from the pressure of module 1 along {len(pairs)} replays of the judged conditions: the "
+        f"compensation's four lines are nearer than its BC lines alone in {nearer['largest']} of them by the "
+        f"largest error, in {nearer['rms']} by the rms error."
     )
 
 
@@ -101,7 +153,7 @@ STUDY = Study(
     "four-phase-lines",
     "Slope and intercept of force against pressure in four phases",
     "clamping force is linear in pressure, with a slope and an intercept of its own in each of four phases",
-    QUANTITIES,
+    tuple(_quantities()),
     run,
     position=20,
 )

@@ -5,19 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from statistics import median
 
 from uictest import rig
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
-from uictest.studies.model_errors import REPLAYED_SEEDS, UNITS_OF_ERRORS, model_errors
-from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, Point, neighbourhood
+from uictest.studies.model_errors import UNITS_OF_ERRORS, replay_errors
+from uictest.studies.neighbourhood import (
+    FOUR_CALIPER,
+    SEEDS,
+    SETTINGS,
+    WITHOUT_CALIPER,
+    Point,
+    neighbourhood,
+)
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
-from uictest.studies.stop_runner import StopRunner
+from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT, in_unit, normal_volume
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four, whose spread is that of chance."""
+REPLAYED_SEEDS = range(2)
+"""Seeds of the stops whose commands are replayed on the bench."""
 TRAIN = 0
 """Number of the wheelset for a measure of the train."""
 
@@ -77,12 +87,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Compare the rigs at every point, then the models along the commands of the rig with four calipers."""
     points = neighbourhood(stop_runner)
     rig_differences = [difference for point in points for difference in differences_at(point)]
-    rig_differences += [
-        RigDifference(
-            error.setting, error.friction, error.command, error.key, error.wheelset, 0.0, error.values
-        )
-        for error in model_errors(stop_runner, points)
-    ]
+    rig_differences += [error for point in points for error in errors_at(stop_runner, point)]
     return StudyFindings(
         {
             f"{measure.key}_{rig_name}": overall(rig_differences, measure.key, rig_name)
@@ -131,6 +136,15 @@ def differences_at(point: Point) -> Iterator[RigDifference]:
                 yield RigDifference(
                     rig_name, point.friction, point.command, measure.key, wheelset, reference, values
                 )
+
+
+def errors_at(stop_runner: StopRunner, point: Point) -> Iterator[RigDifference]:
+    """Yield pressure and force errors at one point along the commands of the rig with four calipers."""
+    cases = [seeded(point.case, seed) for seed in REPLAYED_SEEDS]
+    replays = replay_errors(stop_runner, cases, WITHOUT_CALIPER)
+    for error, setting, wheelset in product(ERRORS, SETTINGS, WITHOUT_CALIPER):
+        values = [getattr(each.errors[setting], error.key) for each in replays if each.wheelset == wheelset]
+        yield RigDifference(setting, point.friction, point.command, error.key, wheelset, 0.0, values)
 
 
 def overall(rig_differences: Sequence[RigDifference], measure: str, rig_name: str) -> StudyValue:

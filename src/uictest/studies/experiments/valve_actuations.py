@@ -2,48 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 
-from uictest import rig
+from uictest.studies.actuations import BANDS, COUNTED, PAPER, counts
 from uictest.studies.figures.valve_actuations import ActuationPanel, draw
+from uictest.studies.neighbourhood import FOUR_CALIPER
 from uictest.studies.quantity import NOT_ASKED, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
 
 SEEDS = range(10)
-_OURS = "ours, about the paper's"
+TITLES = {
+    "caliper": "module 1, real caliper",
+    "none": "module 2 without hysteresis and cylinder models",
+    "full": "module 2 with both models",
+    "thermal": "module 2 with hysteresis and modelled air",
+    "reference": "module 2 with a caliper of its own (four-caliper rig)",
+}
+_DRAWN = {"caliper": FOUR_CALIPER, "none": "none", "full": "full", "thermal": "thermal"}
+"""Counts that have a panel, and whose colour each has."""
 
-QUANTITIES = (
-    StudyQuantity("caliper", "module 1, real caliper", "", "11", 10.0, 12.0, reason=_OURS),
-    StudyQuantity(
-        "none", "module 2 without hysteresis and cylinder models", "", "21", 19.0, 23.0, reason=_OURS
-    ),
-    StudyQuantity("full", "module 2 with both models", "", "11", 10.0, 12.0, reason=_OURS),
-    StudyQuantity("reference", "module 2 with a caliper of its own (four-caliper rig)", "", NOT_ASKED),
-)
+
+def _quantities() -> Iterator[StudyQuantity]:
+    for key, title in TITLES.items():
+        if key not in BANDS:
+            yield StudyQuantity(key, title, "", NOT_ASKED)
+            continue
+        lower, upper = BANDS[key]
+        yield StudyQuantity(key, title, "", str(PAPER[key]), lower, upper, reason="ours, about the paper's")
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Count the openings of the vent in repeats of the slide test, with one caliper and with four."""
-    none, full = stop_runner.cases("slide-80", "rig.compensation=none,full")
-    (four,) = stop_runner.cases("slide-80-four-caliper")
-    of_none, of_full, of_four = (repeats.stops for repeats in stop_runner.repeated([none, full, four], SEEDS))
-    counts = {
-        "caliper": [_actuations(stop, 1) for stop in of_full],
-        "none": [_actuations(stop, 2) for stop in of_none],
-        "full": [_actuations(stop, 2) for stop in of_full],
-        "reference": [_actuations(stop, 2) for stop in of_four],
-    }
-    recorded_none, recorded_full = stop_runner.recordings([none, full], CYCLE)
+    settings = ("none", "full", "thermal")
+    cases = {name: stop_runner.cases("slide-80", f"rig.compensation={name}")[0] for name in settings}
+    cases[FOUR_CALIPER] = stop_runner.cases("slide-80-four-caliper")[0]
+    repeats = stop_runner.repeated(list(cases.values()), SEEDS)
+    counted = counts({name: each.stops for name, each in zip(cases, repeats, strict=True)})
+    recordings = dict(zip(cases, stop_runner.recordings(list(cases.values()), CYCLE), strict=True))
     panels = [
-        ActuationPanel("module 1, real caliper", recorded_full, 1),
-        ActuationPanel("module 2, no model", recorded_none, 2),
-        ActuationPanel("module 2, hysteresis and cylinder dynamics", recorded_full, 2),
+        ActuationPanel(TITLES[key], recordings[COUNTED[key][0]], COUNTED[key][1], colour)
+        for key, colour in _DRAWN.items()
     ]
+    columns = {key: values.tolist() for key, values in counted.items()}
     return StudyFindings(
-        {name: spread(values) for name, values in counts.items()},
-        tables={"actuations": {"seed": list(SEEDS), **counts}},
+        {key: spread(values) for key, values in columns.items()},
+        tables={"actuations": {"seed": list(SEEDS), **columns}},
         drawings={"valve-actuations": partial(draw, panels)},
         notes=(
             f"{repeats_note(len(SEEDS))} The figure shows the first.",
@@ -52,15 +58,11 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     )
 
 
-def _actuations(stop: rig.SimulatedStop, wheelset: int) -> float:
-    return float(stop.wheelset_measures[wheelset - 1].valve_actuations)
-
-
 STUDY = Study(
     "valve-actuations",
     "WSP valve actuations in one slide test from 80 km/h",
     "11 (module 1, real caliper), 21 (module 2 without both models), 11 (module 2 with both)",
-    QUANTITIES,
+    tuple(_quantities()),
     run,
     position=80,
 )

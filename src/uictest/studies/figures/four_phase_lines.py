@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _EVERY = 10
+_HEADROOM = 1.15
+"""Height of the axes over the largest force: room for the legend."""
 
 
 def draw(recording: Recording, hysteresis: identification.HysteresisResult, figure: Figure) -> None:
@@ -28,6 +30,7 @@ def draw(recording: Recording, hysteresis: identification.HysteresisResult, figu
     left.set(title="Ordinary braking (BC)", xlabel="cylinder pressure, bar", ylabel="clamping force, kN")
     right.set(title="While the WSP acts", xlabel="cylinder pressure, bar")
     from_zero(left)
+    left.set_ylim(top=_HEADROOM * hysteresis.largest_force / KILONEWTON)
 
 
 def _draw_pair(

@@ -27,7 +27,7 @@ Line: least to greatest
 
 Pressure and force:
 largest error of a stop"""
-_ROW = 0.16
+_ROW = 0.14
 _MOST = (0.1, 0.9)
 """Quantiles between which the bar is thick; it is thin from the minimum to the maximum."""
 _NOTE: Any = {"ha": "center", "color": MUTED, "fontsize": 7.0}
@@ -55,7 +55,7 @@ class _Difference(Protocol):
 
 def draw_train(differences: Sequence[_Difference], measures: Sequence[_Measure], figure: Figure) -> None:
     """Draw a panel for each measure; repeats and wheelsets of all points together."""
-    figure.set_size_inches(WIDTH, 3.9)
+    figure.set_size_inches(WIDTH, 4.3)
     rows = -(-len(measures) // _COLUMNS)
     panels = figure.subplots(rows, _COLUMNS, sharey=True, squeeze=False)
     for axes, measure in zip(panels.flat, measures, strict=False):
@@ -93,7 +93,8 @@ def draw_wheelsets(differences: Sequence[_Difference], measures: Sequence[_Measu
         of = [each for each in differences if each.measure == measure.key]
         axes.axhline(0.0, color=MUTED, linewidth=0.8)
         for k, (rig, colour) in enumerate(SETTINGS.items()):
-            _draw_rig(axes, [each for each in of if each.rig == rig], (k - 2) * _ROW, colour)
+            shift = (k - (len(SETTINGS) - 1) / 2.0) * _ROW
+            _draw_rig(axes, [each for each in of if each.rig == rig], shift, colour)
         axes.set_xticks(range(1, 5), [f"wheelset {n}" for n in range(1, 5)])
         axes.set_xlim(0.5, 4.5)
         axes.grid(visible=False, axis="x")
@@ -115,4 +116,4 @@ def _draw_rig(axes: Axes, differences: Sequence[_Difference], shift: float, colo
         axes.plot([across, across], [min(values), max(values)], color=colour, alpha=0.4, linewidth=1.0)
         axes.plot([across, across], np.quantile(values, _MOST), color=colour, alpha=0.35, linewidth=3.5)
         middle = median(values)
-        axes.plot([across - 0.06, across + 0.06], [middle, middle], color=colour, linewidth=2.0)
+        axes.plot([across - 0.05, across + 0.05], [middle, middle], color=colour, linewidth=2.0)

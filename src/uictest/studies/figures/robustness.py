@@ -1,12 +1,16 @@
-"""Actuations at every point of the neighbourhood: each stop a dot, the median a bar."""
+"""Actuations at every point of the neighbourhood, and over friction with the counts of the paper."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from statistics import median
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from uictest.studies.figures.style import SETTINGS, WIDTH, from_zero, title_and_legend
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.studies.actuations import BANDS, PAPER, Counts
+from uictest.studies.figures.style import BAND, INK, MUTED, SETTINGS, WIDTH, from_zero, title_and_legend
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,8 +19,27 @@ _TITLES = {"four-caliper": "caliper in every module", "full": "full compensation
 _APART = 0.24
 
 
-def draw(counts: Mapping[str, Mapping[str, Sequence[float]]], figure: Figure) -> None:
-    """Draw a group of three columns of dots for each point; `counts` holds them by point and rig."""
+_SWEPT = {
+    "caliper": ("module 1, caliper", INK, "o"),
+    "none": ("module 2, no model", SETTINGS["none"], "s"),
+    "full": ("module 2, both models", SETTINGS["full"], "^"),
+}
+"""Label, colour and mark of the counts that the paper gives."""
+_ABREAST = 0.2
+"""Distance between the marks of one friction, in steps of friction."""
+
+
+class _Swept(Protocol):
+    @property
+    def friction(self) -> str: ...
+    @property
+    def counts(self) -> Mapping[str, Counts]: ...
+    @property
+    def in_bands(self) -> NDArray[np.bool_]: ...
+
+
+def draw_points(counts: Mapping[str, Mapping[str, Sequence[float]]], figure: Figure) -> None:
+    """Draw three columns of dots for each point, a stop a dot, the median a bar; counts by point and rig."""
     figure.set_size_inches(WIDTH, 3.3)
     axes = figure.subplots()
     for place, of in enumerate(counts.values()):
@@ -34,4 +57,27 @@ def draw(counts: Mapping[str, Mapping[str, Sequence[float]]], figure: Figure) ->
         ylabel="actuations, mean of modules 2-4",
     )
     title_and_legend(axes, "Valve actuations per wheelset", 3)
+    from_zero(axes, across=False)
+
+
+def draw_sweep(sweep: Sequence[_Swept], figure: Figure) -> None:
+    """Draw the median and the range of the paper's three counts over friction, and the paper's counts."""
+    figure.set_size_inches(WIDTH, 3.3)
+    axes = figure.subplots()
+    for low, high in set(BANDS.values()):
+        axes.axhspan(low, high, color=BAND, zorder=0)
+    for count in set(PAPER.values()):
+        axes.axhline(count, color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
+        axes.text(len(sweep) + 0.4, count + 0.2, f"paper: {count}", ha="right", color=MUTED, fontsize=7.0)
+    for k, (key, (label, colour, mark)) in enumerate(_SWEPT.items()):
+        values = np.array([each.counts[key] for each in sweep])
+        middle, across = np.median(values, axis=1), np.arange(len(sweep)) + (k - 1) * _ABREAST
+        axes.vlines(across, values.min(axis=1), values.max(axis=1), color=colour, alpha=0.5, linewidth=1.4)
+        axes.plot(across, middle, mark, color=colour, markersize=3.5, label=label)
+    titles = [f"{each.friction}\n{np.sum(each.in_bands)}/{len(each.in_bands)}" for each in sweep]
+    axes.set_xticks(range(len(sweep)), titles)
+    axes.set_xlim(-0.6, len(sweep) + 0.4)
+    axes.grid(visible=False, axis="x")
+    axes.set(xlabel="friction coefficient, and stops with all three counts in the bands", ylabel="actuations")
+    title_and_legend(axes, "Valve actuations in one stop: median and range over seeds", 3)
     from_zero(axes, across=False)

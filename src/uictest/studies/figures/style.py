@@ -17,7 +17,15 @@ BLUE, ORANGE, GREEN, PINK, SKY = "#0b6fb3", "#d4580a", "#0a8f6c", "#b8518f", "#6
 """After Okabe and Ito, darkened for print: distinguishable with colour vision deficiency."""
 
 WHEELSETS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
-SETTINGS = {"none": ORANGE, "hysteresis": PINK, "cylinder": GREEN, "full": BLUE, "four-caliper": INK}
+SETTINGS = {
+    "none": ORANGE,
+    "hysteresis": PINK,
+    "cylinder": GREEN,
+    "full": BLUE,
+    "thermal": SKY,
+    "four-caliper": INK,
+}
+"""Settings of the compensation, and the rig that needs none."""
 PHASES = {
     "bc_squeezing": BLUE,
     "bc_releasing": SKY,

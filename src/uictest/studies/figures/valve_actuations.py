@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from uictest.recording import Recording
-from uictest.studies.figures.style import BLUE, INK, ORANGE, WIDTH, from_zero
+from uictest.studies.figures.style import SETTINGS, WIDTH, from_zero
 from uictest.units import BAR
 
 if TYPE_CHECKING:
@@ -20,19 +20,20 @@ _VENT = 2
 
 @dataclass(frozen=True, slots=True)
 class ActuationPanel:
-    """One module of one stop."""
+    """One module of one stop, in the colour of a setting of the compensation."""
 
     title: str
     recording: Recording
     module: int
+    setting: str
 
 
 def draw(panels: Sequence[ActuationPanel], figure: Figure) -> None:
     """Draw the panels one below the other; a tick below the pressure marks each opening of the vent."""
     figure.set_size_inches(WIDTH, 1.55 * len(panels) + 0.3)
     all_axes = figure.subplots(len(panels), 1, sharex=True, sharey=True)
-    for axes, panel, colour in zip(all_axes, panels, (INK, ORANGE, BLUE), strict=False):
-        time = panel.recording["time"]
+    for axes, panel in zip(all_axes, panels, strict=True):
+        time, colour = panel.recording["time"], SETTINGS[panel.setting]
         axes.plot(time, panel.recording[f"tank_pressure_{panel.module}"] / BAR, color=colour)
         opened = openings(panel)
         axes.plot(

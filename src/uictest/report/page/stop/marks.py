@@ -26,6 +26,7 @@ DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, PlotTrace], Iterator[Mar
         "air_consumed": train_marks.air_consumed,
         "energy_residual": train_marks.energy_residual,
         "air_residual": train_marks.air_residual,
+        "air_energy_residual": train_marks.air_energy_residual,
         "maximum_slide_above_cutoff": wheelset_marks.maximum_slide,
         "locked_time": wheelset_marks.locked,
         "longest_lock": wheelset_marks.locked,

@@ -78,6 +78,11 @@ def air_residual(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark
     yield from _sum_at_the_end(verdict, trace, "pressure")
 
 
+def air_energy_residual(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
+    """Yield, unless it passed, the end of the stop, at which the balance of the air's energy is drawn up."""
+    yield from _sum_at_the_end(verdict, trace, "pressure")
+
+
 def energy_residual(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield, unless it passed, the end of the stop, at which the balance of energy is drawn up."""
     yield from _sum_at_the_end(verdict, trace, "speed")

@@ -1,0 +1,96 @@
+"""The air of the caliper's module, identified from records of the simulated one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from uictest.identification import UnsuitableRecordError
+from uictest.recording import Recording
+from uictest.rig.bench import BenchTest, identify_air, load_bench, run_test
+
+RECIPE = """schema: uictest/bench/1
+name: cycling
+stop:
+  rig:
+    sensors:
+      extends: standard
+      pressure: {noise: 1e-6 bar, offset: 0 bar, gain_error: 0 %, resolution: 1e-5 bar}
+inputs:
+  - {kind: rest, duration: 0.5 s}
+  - {kind: wsp, pressure: 4 bar, lead: 3 s, cycles: 12, vent: [0.2 s, 2 s], hold: [0.05 s, 0.4 s],
+     fill: [0.1 s, 1 s], seed: 4}
+  - {kind: rest, duration: 3 s}
+"""
+
+
+@pytest.fixture(name="test", scope="module")
+def _test(tmp_path_factory: pytest.TempPathFactory) -> BenchTest:
+    recipe = tmp_path_factory.mktemp("bench") / "cycling.yaml"
+    recipe.write_text(RECIPE, "utf-8")
+    return load_bench(recipe)
+
+
+@pytest.fixture(name="record", scope="module")
+def _record(test: BenchTest) -> Recording:
+    return run_test(test)
+
+
+def channels(record: Recording) -> dict[str, np.ndarray]:
+    names = {
+        "time": "time",
+        "tank": "measured_pressure_2",
+        "cylinder": "cylinder_pressure_1",
+        "line": "brake_line_pressure",
+        "command": "valve_command_1",
+    }
+    return {role: np.array(record[name]) for role, name in names.items()}
+
+
+def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, record: Recording) -> None:
+    """Surfaces times film coefficients, the volume of the stroke, the pressures of spring and friction."""
+    result = identify_air(channels(record), test.case)
+    system, caliper = test.case.scenario.brake.system, test.case.scenario.rig.caliper
+    tank = system.tank.surface * system.tank.film_coefficient
+    balls = system.caliper_tank.ball_surface * system.caliper_tank.film_coefficient
+    assert result.tank_heat_conductance == pytest.approx(tank, rel=0.15)
+    assert result.caliper_heat_conductance == pytest.approx(tank + balls, rel=0.15)
+    assert result.swept_volume == pytest.approx(caliper.piston_area * caliper.clearance, rel=0.1)
+    closing = (caliper.preload + caliper.coulomb_friction) / caliper.piston_area
+    opening = (caliper.preload - caliper.coulomb_friction) / caliper.piston_area
+    assert result.closing_pressure == pytest.approx(closing, rel=0.3)
+    assert result.opening_pressure == pytest.approx(opening, rel=0.3)
+    assert result.largest_before > 0.03
+    assert result.largest_after < 0.01
+
+
+def test_the_numbers_do_not_depend_on_those_that_the_search_starts_from(
+    test: BenchTest, record: Recording
+) -> None:
+    model = test.case.scenario.rig.compensation_model
+    elsewhere = model.air.model_copy(update={"tank_heat_conductance": 6.0, "caliper_heat_conductance": 6.0})
+    rig = test.case.scenario.rig.model_copy(
+        update={"compensation_model": model.model_copy(update={"air": elsewhere})}
+    )
+    moved = replace(test.case, scenario=test.case.scenario.model_copy(update={"rig": rig}))
+    here, there = (identify_air(channels(record), case) for case in (test.case, moved))
+    assert there.caliper_heat_conductance == pytest.approx(here.caliper_heat_conductance, rel=0.03)
+    assert there.tank_heat_conductance == pytest.approx(here.tank_heat_conductance, rel=0.03)
+    assert there.swept_volume == pytest.approx(here.swept_volume, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        ({"cylinder": lambda record: record["tank"]}, "the same, sample by sample"),
+        ({"tank": lambda record: np.full_like(record["tank"], 2e5)}, "no excitation"),
+        ({"line": lambda record: np.full_like(record["line"], np.nan)}, "not numbers"),
+    ],
+)
+def test_a_record_that_cannot_support_it_is_refused(
+    test: BenchTest, record: Recording, spoil: dict, reason: str
+) -> None:
+    spoiled = channels(record)
+    spoiled |= {name: change(spoiled) for name, change in spoil.items()}
+    with pytest.raises(UnsuitableRecordError, match=reason):
+        identify_air(spoiled, test.case)

@@ -1,0 +1,73 @@
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.scenario import COMPENSATION_SETTINGS
+from uictest.studies import STUDIES, StopRunner, run_study
+from uictest.studies.experiments import compensation_domain
+from uictest.studies.figures.compensation_domain import worst_by_cell
+from uictest.studies.judged_conditions import JudgedConditions, judged_cases
+from uictest.studies.model_errors import ReplayErrors, SettingErrors, replay_errors
+from uictest.studies.quantity import StudyQuantity
+
+FEW = JudgedConditions(frictions=(0.11,), positions=("R", "emergency"), wheelsets=(2,), seeds=(31,))
+QUANTITIES = {quantity.key: quantity for quantity in STUDIES["compensation-domain"].quantities}
+
+
+@pytest.fixture(scope="module")
+def replays(stop_runner: StopRunner) -> list[ReplayErrors]:
+    return replay_errors(stop_runner, judged_cases(stop_runner, FEW), FEW.wheelsets)
+
+
+def bounded() -> list[StudyQuantity]:
+    return [quantity for quantity in QUANTITIES.values() if quantity.upper is not None]
+
+
+def test_only_our_compensation_has_a_band() -> None:
+    assert {quantity.key: quantity.upper for quantity in bounded()} == {
+        "pressure_error_median_thermal": 1.0,
+        "pressure_error_worst_thermal": 2.0,
+        "force_error_worst_thermal": 8.0,
+    }
+
+
+def test_where_it_was_not_trained_our_compensation_keeps_the_bounds(replays: list[ReplayErrors]) -> None:
+    errors = [each.errors["thermal"] for each in replays]
+    assert max(each.pressure_error for each in errors) < 2.0
+    assert max(each.force_error for each in errors) < 8.0
+
+
+def test_hysteresis_does_not_change_the_pressure_but_the_force(replays: list[ReplayErrors]) -> None:
+    for each in replays:
+        assert each.errors["hysteresis"].pressure_error == each.errors["none"].pressure_error
+        assert each.errors["hysteresis"].force_error < each.errors["none"].force_error
+
+
+def test_every_replay_has_a_row_for_every_setting(
+    stop_runner: StopRunner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compensation_domain, "judged_conditions", lambda: FEW)
+    findings = run_study(STUDIES["compensation-domain"], stop_runner).findings
+    table = findings.tables["errors"]
+    assert table["position"] == ["R"] * 5 + ["emergency"] * 5
+    assert table["setting"] == [*COMPENSATION_SETTINGS] * 2
+    worst = max(
+        error
+        for error, setting in zip(table["pressure_error_percent"], table["setting"], strict=True)
+        if setting == "full"
+    )
+    assert findings.values["pressure_error_worst_full"].value == worst
+
+
+def test_a_cell_of_the_map_holds_the_worst_of_its_wheelsets() -> None:
+    def replay(friction: float, position: str, error: float) -> ReplayErrors:
+        rail, brake = SimpleNamespace(friction=friction), SimpleNamespace(position=position)
+        case: Any = SimpleNamespace(scenario=SimpleNamespace(rail=rail, brake=brake))
+        return ReplayErrors(case, 1, {"full": SettingErrors(error, 0.0)})
+
+    made_up = [replay(0.08, "P", 3.0), replay(0.08, "P", 2.0), replay(0.08, "R", 1.0), replay(0.1, "P", 4.0)]
+    np.testing.assert_array_equal(worst_by_cell(made_up, "pressure_error", "full"), [[3.0, 1.0], [4.0, 0.0]])

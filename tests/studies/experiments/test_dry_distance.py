@@ -1,0 +1,52 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from uictest.scenario import COMPENSATION_SETTINGS
+from uictest.studies import STUDIES, StopRunner
+from uictest.studies.experiments import dry_distance
+from uictest.studies.experiments.dry_distance import (
+    COMMANDS,
+    RIGS,
+    SPEEDS,
+    DryStop,
+    dry_stops,
+    largest_difference,
+)
+
+
+@pytest.fixture
+def stops(stop_runner: StopRunner, monkeypatch: pytest.MonkeyPatch) -> list[DryStop]:
+    monkeypatch.setattr(dry_distance, "SPEEDS", ("120 km/h",))
+    monkeypatch.setattr(dry_distance, "COMMANDS", ("100 %",))
+    monkeypatch.setattr(dry_distance, "SEEDS", range(1))
+    return dry_stops(stop_runner)
+
+
+def test_the_distance_depends_on_the_hysteresis_where_nothing_slides(stops: list[DryStop]) -> None:
+    assert [stop.rig for stop in stops] == list(RIGS)
+    assert stops[0].difference == 0.0
+    differences = {stop.rig: stop.difference for stop in stops}
+    for name, setting in COMPENSATION_SETTINGS.items():
+        assert (abs(differences[name]) < 1.0) is setting.hysteresis
+
+
+def test_no_wheelset_slides_in_any_stop(stop_runner: StopRunner) -> None:
+    changes = (f"initial_speed={','.join(SPEEDS)}", f"brake.command={','.join(COMMANDS)}")
+    for repeats in stop_runner.repeated(stop_runner.cases("dry-120", *changes), [0]):
+        assert not repeats.stops[0].wheelset_measures.valve_actuations.any()
+
+
+def test_the_worst_stop_keeps_its_sign() -> None:
+    nothing: Any = None
+    made_up = [DryStop(nothing, "full", distance, 100.0) for distance in (100.1, 99.0)]
+    assert largest_difference([*made_up, DryStop(nothing, "none", 90.0, 100.0)], "full") == pytest.approx(
+        -1.0
+    )
+
+
+def test_every_setting_with_hysteresis_has_a_band() -> None:
+    banded = {each.key for each in STUDIES["dry-distance"].quantities if each.upper is not None}
+    assert banded == {name for name, setting in COMPENSATION_SETTINGS.items() if setting.hysteresis}

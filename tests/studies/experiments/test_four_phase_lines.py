@@ -1,0 +1,39 @@
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from uictest.identification.lines import FittedLine
+from uictest.studies.experiments.four_phase_lines import _gain, apart
+from uictest.studies.line_errors import LineErrors
+
+
+def hysteresis(**lines: FittedLine) -> Any:
+    """A result of which only some lines are known."""
+    return SimpleNamespace(lines=lines)
+
+
+BC = FittedLine(0.042, -1900.0, slope_confidence=3e-5, intercept_confidence=30.0)
+
+
+@pytest.mark.parametrize(
+    ("slope", "intercept", "ratio"), [(0.0421, -1900.0, 2.0), (0.042, -1750.0, 3.0), (0.0419, -2050.0, 3.0)]
+)
+def test_lines_are_apart_by_slope_or_intercept(slope: float, intercept: float, ratio: float) -> None:
+    wsp = FittedLine(slope, intercept, slope_confidence=4e-5, intercept_confidence=40.0)
+    assert apart(hysteresis(bc_squeezing=BC, wsp_squeezing=wsp), "squeezing") == pytest.approx(ratio)
+
+
+def test_a_missing_line_is_not_apart_from_another() -> None:
+    assert math.isnan(apart(hysteresis(bc_squeezing=BC), "squeezing"))
+
+
+def test_the_note_counts_where_four_lines_are_nearer() -> None:
+    two = [LineErrors(2.0, 0.5)] * 3
+    four = [LineErrors(1.0, 0.6), LineErrors(3.0, 0.4), LineErrors(1.5, 0.5)]
+    note = _gain({"four": four, "two": two})
+    assert "along 3 replays" in note
+    assert "in 2 of them by the largest error, in 1 by the rms error" in note
