@@ -19,7 +19,7 @@ from uictest.physics.disc_brake import torque
 from uictest.physics.flow import coldness, mass_flow
 from uictest.physics.hysteresis import line
 from uictest.physics.polach import creep_force
-from uictest.physics.tank import changes, enthalpy
+from uictest.physics.tank import air_changes, enthalpy
 from uictest.physics.wheelset import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
 
@@ -98,7 +98,7 @@ def _tank_rates(pressure: float, temperature: float, p: Any) -> tuple[float, flo
     )
     carried = enthalpy(inflow, p.air_temperature, temperature, p.heat_capacity_pressure)
     heat = p.tank_exchange / p.step * (p.air_temperature - temperature)
-    warming, rise = changes(
+    warming, rise = air_changes(
         pressure,
         temperature,
         pressure * p.tank_volume / (p.gas_constant * temperature),

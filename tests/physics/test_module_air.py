@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.physics.module_air import amount_gained, pressure_volume_after, travel_after
-from uictest.physics.tank import changes, enthalpy
+from uictest.physics.tank import air_changes, enthalpy
 
 K = 1.4
 R = 287.05
@@ -47,7 +47,7 @@ class Vessel:
         carried = enthalpy(mass, WALL, self.temperature, K * CV)
         self.mass += mass
         self.volume += growth
-        warming, rise = changes(
+        warming, rise = air_changes(
             self.pressure,
             self.temperature,
             self.mass,

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
 from uictest.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, mass_flow, orifice_law
-from uictest.physics.tank import changes, enthalpy
+from uictest.physics.tank import air_changes, enthalpy
 
 K = 1.4
 R = 287.05
@@ -57,7 +57,7 @@ class Vessel:
         self.mass += gained
         self.volume += growth
         self.work += self.pressure * growth
-        warming, rise = changes(
+        warming, rise = air_changes(
             self.pressure,
             self.temperature,
             self.mass,
@@ -226,14 +226,14 @@ def test_a_tank_that_is_filled_and_closed_warms_and_cools_as_its_balances_say() 
 def test_air_at_rest_does_not_change_by_a_bit(
     pressure: float, mass: float, volume: float, exchange: float
 ) -> None:
-    assert changes(pressure, WALL, mass, 0.0, 0.0, volume, 0.0, WALL, exchange, R, CV) == (0.0, 0.0)
+    assert air_changes(pressure, WALL, mass, 0.0, 0.0, volume, 0.0, WALL, exchange, R, CV) == (0.0, 0.0)
 
 
 @given(st.floats(1e4, 1e6), temperatures, masses, volumes)
 def test_closed_adiabatic_air_does_not_change_by_a_bit_at_any_temperature(
     pressure: float, temperature: float, mass: float, volume: float
 ) -> None:
-    assert changes(pressure, temperature, mass, 0.0, 0.0, volume, 0.0, WALL, 0.0, R, CV) == (0.0, 0.0)
+    assert air_changes(pressure, temperature, mass, 0.0, 0.0, volume, 0.0, WALL, 0.0, R, CV) == (0.0, 0.0)
 
 
 moves = st.tuples(st.floats(-0.2, 0.2), temperatures, st.floats(-0.05, 0.05), exchanges)

@@ -14,7 +14,7 @@ BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
     ("cylinder-dynamics", "after_full"): (None, None),
     ("cylinder-dynamics", "after_thermal"): (None, 2.0),
-    ("cylinder-dynamics", "ratio"): (None, 0.45),
+    ("cylinder-dynamics", "ratio"): (None, 0.29),
     ("force-accuracy", "module_1"): (None, 8.0),
     ("force-accuracy", "full"): (None, 8.0),
     ("force-accuracy", "thermal"): (None, 8.0),

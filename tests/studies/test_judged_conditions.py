@@ -11,7 +11,7 @@ import yaml
 
 from uictest.rig import bench
 from uictest.rig.bench.recipe import StopReplay
-from uictest.scenario import ScenarioErrors
+from uictest.scenario import ScenarioErrors, load
 from uictest.studies import StopRunner, judged_conditions as module
 from uictest.studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
 
@@ -32,6 +32,13 @@ def test_training_calibration_and_judgement_are_disjoint(key: str, trained_key: 
     conditions = (trained(trained_key), calibrated, judged)
     assert all(conditions)
     assert all(one.isdisjoint(other) for one, other in combinations(conditions, 2))
+
+
+def test_the_calibration_names_the_frictions_of_its_scenarios() -> None:
+    scenarios = CALIBRATION.parents[1] / "scenarios"
+    named = yaml.safe_load(CALIBRATION.read_text("utf-8"))["frictions"]
+    cases = load([scenarios / f"{name}.yaml" for name in ("slide-80", "slip-120", "low-adhesion-80")])
+    assert set(named) == {case.scenario.rail.friction for case in cases}
 
 
 def test_every_wheelset_is_judged_in_more_than_one_position() -> None:

@@ -35,7 +35,7 @@ OURS real enthalpy(real flow, real temperature_1, real temperature_2, real heat_
 }
 
 /* Changes of temperature (returned) and of pressure within a step. */
-OURS real changes(real pressure, real temperature, real mass, real gained, real energy, real volume, real growth,
+OURS real air_changes(real pressure, real temperature, real mass, real gained, real energy, real volume, real growth,
                   real wall_temperature, real exchange, real gas_constant, real heat_capacity, real *rise)
 {
     real work = pressure * growth;

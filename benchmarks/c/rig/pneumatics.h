@@ -64,7 +64,7 @@ OURS real fill_tank(Wheelset *wheelset, Flows flows, const Car *car, const Param
     wheelset->air_mass += gained;
     real rise;
     real warming =
-        changes(wheelset->pressure, wheelset->air_temperature, wheelset->air_mass, gained,
+        air_changes(wheelset->pressure, wheelset->air_temperature, wheelset->air_mass, gained,
                 drawn_enthalpy - vented_enthalpy, volume, growth, p->air_temperature, exchange, p->gas_constant,
                 p->heat_capacity_volume, &rise);
     wheelset->piston_work += wheelset->pressure * growth;
@@ -94,7 +94,7 @@ OURS void fill_line(Car *car, Flows flows, real drawn, real drawn_enthalpy, cons
     real gained = flows.gained - flows.lost - drawn;
     car->line_mass += gained;
     real rise;
-    real warming = changes(car->line_pressure, car->line_temperature, car->line_mass, gained,
+    real warming = air_changes(car->line_pressure, car->line_temperature, car->line_mass, gained,
                            supplied - released - drawn_enthalpy, p->line_volume, number(0.0), p->air_temperature,
                            p->line_exchange, p->gas_constant, p->heat_capacity_volume, &rise);
     car->line_temperature += warming;

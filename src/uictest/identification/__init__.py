@@ -1,4 +1,4 @@
-"""Identification of hysteresis and cylinder dynamics from records of any origin, without the rig."""
+"""Identification of hysteresis and cylinder dynamics from records, without the rig; results for the air."""
 
 import lazy_loader
 

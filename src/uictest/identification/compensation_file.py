@@ -211,7 +211,7 @@ def _text(
         "provenance": dict(facts),
     }
     heading = (
-        "# What stands in for a caliper: equations (4)-(7) and (8) of the source, with identified numbers.\n"
+        "# What stands in for a caliper: equations (4)-(8) of the source, our model of the air; identified.\n"
     )
     return heading + yaml.dump(
         document, Dumper=_Dumper, sort_keys=False, width=118, allow_unicode=True, default_flow_style=False

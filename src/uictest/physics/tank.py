@@ -23,7 +23,7 @@ def enthalpy(flow: float, temperature_1: float, temperature_2: float, heat_capac
     return flow * heat_capacity * select(flow < 0.0, temperature_2, temperature_1)
 
 
-def changes(
+def air_changes(
     pressure: float,
     temperature: float,
     mass: float,

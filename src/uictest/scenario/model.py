@@ -111,8 +111,7 @@ class Scenario(Model):
             )
         if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "filter":
             yield from self._unresolved_cylinder()
-        if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "air":
-            yield from self._unresolved_air()
+        yield from self._unresolved_air()
         yield from self._criteria_of_the_same_name()
         if not self.tank_volume_with_caliper > 0.0:
             yield Inconsistency(

@@ -1,6 +1,7 @@
 """The air of the caliper's module, identified from records of the simulated one."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ stop:
       extends: standard
       pressure: {noise: 1e-6 bar, offset: 0 bar, gain_error: 0 %, resolution: 1e-5 bar}
 inputs:
-  - {kind: rest, duration: 0.5 s}
+  - {kind: triangular, peaks: [1 bar, 1 bar], floor: 0 bar, ramp: 2 s}
   - {kind: wsp, pressure: 4 bar, lead: 3 s, cycles: 12, vent: [0.2 s, 2 s], hold: [0.05 s, 0.4 s],
      fill: [0.1 s, 1 s], seed: 4}
   - {kind: rest, duration: 3 s}
@@ -55,28 +56,37 @@ def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, record: Reco
     balls = system.caliper_tank.ball_surface * system.caliper_tank.film_coefficient
     assert result.tank_heat_conductance == pytest.approx(tank, rel=0.15)
     assert result.caliper_heat_conductance == pytest.approx(tank + balls, rel=0.15)
-    assert result.swept_volume == pytest.approx(caliper.piston_area * caliper.clearance, rel=0.1)
+    assert result.swept_volume == pytest.approx(caliper.piston_area * caliper.clearance, rel=0.15)
     closing = (caliper.preload + caliper.coulomb_friction) / caliper.piston_area
     opening = (caliper.preload - caliper.coulomb_friction) / caliper.piston_area
-    assert result.closing_pressure == pytest.approx(closing, rel=0.3)
-    assert result.opening_pressure == pytest.approx(opening, rel=0.3)
+    assert result.closing_pressure == pytest.approx(closing, rel=0.1)
+    assert result.opening_pressure == pytest.approx(opening, rel=0.1)
     assert result.largest_before > 0.03
-    assert result.largest_after < 0.01
+    assert result.largest_after < 0.02
 
 
-def test_the_numbers_do_not_depend_on_those_that_the_search_starts_from(
-    test: BenchTest, record: Recording
-) -> None:
-    model = test.case.scenario.rig.compensation_model
-    elsewhere = model.air.model_copy(update={"tank_heat_conductance": 6.0, "caliper_heat_conductance": 6.0})
-    rig = test.case.scenario.rig.model_copy(
-        update={"compensation_model": model.model_copy(update={"air": elsewhere})}
+def test_the_numbers_do_not_depend_on_those_of_the_compensation(test: BenchTest, record: Recording) -> None:
+    rig = test.case.scenario.rig
+    model = rig.compensation_model
+    other = model.model_copy(
+        update={"air": model.air.model_copy(update={"tank_heat_conductance": 0.0, "swept_volume": 1e-6})}
     )
-    moved = replace(test.case, scenario=test.case.scenario.model_copy(update={"rig": rig}))
-    here, there = (identify_air(channels(record), case) for case in (test.case, moved))
-    assert there.caliper_heat_conductance == pytest.approx(here.caliper_heat_conductance, rel=0.03)
-    assert there.tank_heat_conductance == pytest.approx(here.tank_heat_conductance, rel=0.03)
-    assert there.swept_volume == pytest.approx(here.swept_volume, rel=0.03)
+    scenario = test.case.scenario.model_copy(
+        update={"rig": rig.model_copy(update={"compensation_model": other})}
+    )
+    here, there = (
+        identify_air(channels(record), case) for case in (test.case, replace(test.case, scenario=scenario))
+    )
+    assert here == there
+
+
+def test_sensors_with_noise_change_little(tmp_path: Path) -> None:
+    recipe = tmp_path / "noisy.yaml"
+    recipe.write_text(RECIPE[: RECIPE.index("stop:")] + RECIPE[RECIPE.index("inputs:") :], "utf-8")
+    noisy = load_bench(recipe)
+    result = identify_air(channels(run_test(noisy)), noisy.case)
+    assert result.caliper_heat_conductance == pytest.approx(11.8, rel=0.2)
+    assert result.largest_after < 0.02
 
 
 @pytest.mark.parametrize(
@@ -85,6 +95,7 @@ def test_the_numbers_do_not_depend_on_those_that_the_search_starts_from(
         ({"cylinder": lambda record: record["tank"]}, "the same, sample by sample"),
         ({"tank": lambda record: np.full_like(record["tank"], 2e5)}, "no excitation"),
         ({"line": lambda record: np.full_like(record["line"], np.nan)}, "not numbers"),
+        ({"line": lambda record: record["line"] + 2e5}, "begin with released brakes, but the line pressure"),
     ],
 )
 def test_a_record_that_cannot_support_it_is_refused(

@@ -18,6 +18,7 @@ from uictest.rig.model.pneumatics import move_valve
 from uictest.rig.model.start import start_module
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
 from uictest.scenario import Case
+from uictest.units import BAR
 
 Samples = NDArray[np.float64]
 _SPACING = 0.01
@@ -28,6 +29,28 @@ _SHORTEST = 5.0
 """s: shortest record; chosen."""
 _LOG_STEP = 1e-4
 """Relative step of the unknowns in numerical derivatives; chosen."""
+_AT_REST = 0.02
+"""Share of its largest value that a pressure may have where the record begins; chosen."""
+_NAMES = (
+    "tank_heat_conductance",
+    "caliper_heat_conductance",
+    "swept_volume",
+    "opening_pressure",
+    "closing_gap",
+)
+"""The unknowns: W/K, W/K, share of a tank's volume, gauge Pa, and closing less opening pressure, Pa."""
+_LOWEST = np.array([0.01, 0.01, 1e-3, 0.01 * BAR, 0.001 * BAR])
+_HIGHEST = np.array([500.0, 500.0, 0.5, 4.0 * BAR, 3.0 * BAR])
+_STARTS = (
+    np.array([2.0, 10.0, 0.02, 0.3 * BAR, 0.1 * BAR]),
+    np.array([5.0, 20.0, 0.05, 0.6 * BAR, 0.2 * BAR]),
+    np.array([1.0, 4.0, 0.01, 0.2 * BAR, 0.05 * BAR]),
+)
+"""Bounds of the unknowns, and where the search starts; chosen."""
+_AT_A_BOUND = 1e-3
+"""Relative distance from a bound at which a record says nothing about an unknown; chosen."""
+_CONVERGED = 1e-10
+"""Relative change of error and unknowns at which the search ends; chosen."""
 
 
 def identify_air(
@@ -35,8 +58,9 @@ def identify_air(
 ) -> identification.AirResult:
     """Find heat conductances, swept volume and the pressures at which the piston moves.
 
-    The squares of the pressure error are minimised (Levenberg-Marquardt), from the numbers that the case's
-    compensation has. Tank volume, valve conductances and times are those of the case's brake system.
+    The squares of the pressure error are minimised (trust region, reflective) from several starts, whatever
+    the case's compensation holds. Tank volume, valve conductances and times are those of the case's brake
+    system.
 
     Args:
         channels: `time` in s, evenly sampled; gauge pressures `tank`, `cylinder` and `line` in Pa; `command`
@@ -47,27 +71,23 @@ def identify_air(
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
     """
-    from scipy.optimize import least_squares
-
     pressures = {name: channels[name] for name in ("tank", "cylinder", "line")}
     step = identification.required_sampling_time(channels["time"], pressures, _SHORTEST, _LONGEST_STEP)
+    _require_rest(pressures)
     model = _ModelledPressure(channels, case, step)
     held_out = identification.held_out(len(channels["time"]), held_out_share)
     fitted = np.flatnonzero(~held_out)[:: max(round(_SPACING / step), 1)]
     cylinder, scale = channels["cylinder"], float(channels["cylinder"].max())
-
-    def error(logarithms: Samples) -> Samples:
-        return (model(np.exp(logarithms)) - cylinder)[fitted] / scale
-
-    unknowns = np.exp(least_squares(error, np.log(model.start), diff_step=_LOG_STEP).x)
-    tank, caliper, swept, closing, opening = map(float, unknowns)
+    unknowns = _least_squares(lambda x: (model(x) - cylinder)[fitted] / scale)
     after = (model(unknowns) - cylinder)[held_out] / scale
     before = (channels["tank"] - cylinder)[held_out] / scale
+    _require_gain(before, after)
+    tank, caliper, swept, opening, gap = map(float, unknowns)
     return identification.AirResult(
         tank,
         caliper,
-        swept,
-        closing,
+        swept * float(case.scenario.brake.system.tank.volume),
+        opening + gap,
         opening,
         float(np.abs(before).max()),
         float(np.abs(after).max()),
@@ -76,14 +96,55 @@ def identify_air(
     )
 
 
+def _require_rest(pressures: Mapping[str, Samples]) -> None:
+    for name, pressure in pressures.items():
+        if pressure[0] > _AT_REST * pressure.max():
+            raise identification.UnsuitableRecordError(
+                f"the record must begin with released brakes, but the {name} pressure begins at"
+                f" {pressure[0] / BAR:.3g} bar"
+            )
+
+
+def _require_gain(before: Samples, after: Samples) -> None:
+    if not np.mean(after**2) < np.mean(before**2):
+        raise identification.UnsuitableRecordError(
+            "the modelled air is no nearer to the cylinder pressure than the tank pressure is"
+        )
+
+
+def _least_squares(error: Callable[[Samples], Samples]) -> Samples:
+    """Return the best unknowns of all starts. Raises UnsuitableRecordError where one is not determined."""
+    from scipy.optimize import least_squares
+
+    bounds = np.log(_LOWEST), np.log(_HIGHEST)
+    ends = [
+        least_squares(
+            lambda logarithms: error(np.exp(logarithms)),
+            np.log(start),
+            bounds=bounds,
+            diff_step=_LOG_STEP,
+            ftol=_CONVERGED,
+            xtol=_CONVERGED,
+        )
+        for start in _STARTS
+    ]
+    best = np.exp(min(ends, key=lambda end: end.cost).x)
+    for name, value, low, high in zip(_NAMES, best, _LOWEST, _HIGHEST, strict=True):
+        if value < low * (1.0 + _AT_A_BOUND) or value > high * (1.0 - _AT_A_BOUND):
+            raise identification.UnsuitableRecordError(
+                f"the record does not determine the {name.replace('_', ' ')}: do the valves vent and fill for"
+                " long enough, and does the piston move back?"
+            )
+    return np.asarray(best)
+
+
 class _ModelledPressure:
-    """The cylinder pressure along a record as a function of the five unknowns, in the order of the result."""
+    """The cylinder pressure along a record as a function of the five unknowns, in the order of `_NAMES`."""
 
     def __init__(self, channels: Mapping[str, Samples], case: Case, step: float) -> None:
         self._channels = channels
-        self._case = _at_step(case, step)
-        air = case.scenario.rig.compensation_model.air
-        self.start = np.array([float(value) for _, value in air])
+        simulation = case.scenario.simulation.model_copy(update={"time_step": step})
+        self._case = _with(case, simulation=simulation)
 
     def __call__(self, unknowns: Samples) -> Samples:
         channels = self._channels
@@ -102,21 +163,23 @@ class _ModelledPressure:
         return computed
 
 
-def _at_step(case: Case, step: float) -> Case:
-    return _changed(case, "simulation", {"time_step": step})
-
-
 def _with_unknowns(case: Case, unknowns: Samples) -> Case:
+    tank, caliper, swept, opening, gap = map(float, unknowns)
     rig = case.scenario.rig
-    air = rig.compensation_model.air
-    values = {name: float(value) for (name, _), value in zip(air, unknowns, strict=True)}
-    model = rig.compensation_model.model_copy(update={"air": air.model_copy(update=values)})
-    return _changed(case, "rig", {"compensation_model": model})
+    values = {
+        "tank_heat_conductance": tank,
+        "caliper_heat_conductance": caliper,
+        "swept_volume": swept * case.scenario.brake.system.tank.volume,
+        "opening_pressure": opening,
+        "closing_pressure": opening + gap,
+    }
+    air = rig.compensation_model.air.model_copy(update=values)
+    model = rig.compensation_model.model_copy(update={"air": air})
+    return _with(case, rig=rig.model_copy(update={"compensation_model": model}))
 
 
-def _changed(case: Case, section: str, values: Mapping[str, object]) -> Case:
-    changed = getattr(case.scenario, section).model_copy(update=values)
-    return replace(case, scenario=case.scenario.model_copy(update={section: changed}))
+def _with(case: Case, **sections: object) -> Case:
+    return replace(case, scenario=case.scenario.model_copy(update=sections))
 
 
 @cache

@@ -35,7 +35,7 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         p.pressure_steps,
     )
     wheelset.pressure_reading = reading
-    _step_cylinder(wheelset, reading, p)
+    _step_cylinder_pressure(wheelset, reading, p)
     _step_hysteresis(wheelset, p)
     loadcells = analogue_reading(
         wheelset.caliper_force,
@@ -70,7 +70,7 @@ def _step_caliper(wheelset: Wheelset, gauge: float, p: Parameters) -> None:
     wheelset.caliper_force = clamping_force(stroke, p.clearance, p.contact_stiffness, p.lever_ratio)
 
 
-def _step_cylinder(wheelset: Wheelset, reading: float, p: Parameters) -> None:
+def _step_cylinder_pressure(wheelset: Wheelset, reading: float, p: Parameters) -> None:
     """Turn the reading of a tank into cylinder pressure; a caliper's own cylinder needs no such model."""
     filtered = output(reading, wheelset.memory_1, p.b0)
     wheelset.memory_1 = memory(reading, filtered, p.b1, p.a1, wheelset.memory_2)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from uictest.physics import (
-    changes,
+    air_changes,
     coldness,
     compressor_running,
     demanded_pressure,
@@ -68,7 +68,7 @@ def _fill_tank(wheelset: Wheelset, drawn: float, vented: float, car: Car, p: Par
     exchange = select(has_caliper, p.caliper_tank_exchange, p.tank_exchange)
     growth = swept * wheelset.stroke_change
     wheelset.air_mass += drawn - vented
-    warming, rise = changes(
+    warming, rise = air_changes(
         wheelset.pressure,
         wheelset.air_temperature,
         wheelset.air_mass,
@@ -99,7 +99,7 @@ def _fill_line(
     released = enthalpy(exhausted, car.line_temperature, p.air_temperature, p.heat_capacity_pressure)
     gained = filled - exhausted - drawn
     car.line_mass += gained
-    warming, rise = changes(
+    warming, rise = air_changes(
         car.line_pressure,
         car.line_temperature,
         car.line_mass,

@@ -1,4 +1,4 @@
-"""The compensation: cylinder dynamics and four-phase hysteresis in place of a caliper that is not there."""
+"""The compensation: cylinder dynamics or modelled air, and four-phase hysteresis, in place of a caliper."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

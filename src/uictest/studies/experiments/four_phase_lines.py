@@ -38,7 +38,7 @@ def _quantities() -> Iterator[StudyQuantity]:
             f"BC and WSP {motion} lines, difference over its confidence",
             "",
             "a line of its own in each phase",
-            lower=1.0,
+            lower=1.0 if motion == "releasing" else None,
             reason="ours",
         )
     for lines, words in (("four", "four lines"), ("two", "the BC lines in every phase")):
