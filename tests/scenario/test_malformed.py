@@ -334,7 +334,7 @@ IMPOSSIBLE: list[Row] = [
         "modelled air that a step overheats",
         HEAD + "rig: {compensation: thermal, compensation_model: {extends: six-inch, air:"
         " {caliper_heat_conductance: 9000 W/K}}}\n",
-        *(4, 102, "rig.compensation_model.air.caliper_heat_conductance", "too much", "at most 3.46e+03 W/K"),
+        *(4, 102, "rig.compensation_model.air.caliper_heat_conductance", "too much", "at most 3.37e+03 W/K"),
     ),
     (
         "modelled piston that sweeps a tank",

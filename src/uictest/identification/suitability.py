@@ -79,7 +79,7 @@ def sampling_time(time: Samples, longest: float) -> float:
             f"uneven sampling: {intervals[worst] * 1e3:.4g} ms at {time[worst]:.6g} s"
             f" where {median * 1e3:.4g} ms is usual"
         )
-    if median > longest:
+    if median > longest * (1.0 + EVENNESS):
         raise UnsuitableRecordError(
             f"sampled every {median * 1e3:.4g} ms; the dynamics need {longest * 1e3:g} ms or less"
         )

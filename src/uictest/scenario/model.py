@@ -215,7 +215,8 @@ class Scenario(Model):
         """
         model, system = self.rig.compensation_model.air, self.brake.system
         warmed = self.simulation.time_step * system.air.temperature * (system.air.heat_capacity_ratio - 1.0)
-        largest = system.air.atmospheric_pressure * system.tank.volume / warmed
+        at_rest = system.tank.volume - model.swept_volume
+        largest = max(system.air.atmospheric_pressure * at_rest / warmed, 0.0)
         for key, conductance in (
             ("tank_heat_conductance", model.tank_heat_conductance),
             ("caliper_heat_conductance", model.caliper_heat_conductance),

@@ -95,6 +95,7 @@ def test_sensors_with_noise_change_little(tmp_path: Path) -> None:
         ({"cylinder": lambda record: record["tank"]}, "the same, sample by sample"),
         ({"tank": lambda record: np.full_like(record["tank"], 2e5)}, "no excitation"),
         ({"line": lambda record: np.full_like(record["line"], np.nan)}, "not numbers"),
+        ({"tank": lambda record: np.minimum(record["tank"], record["tank"] - 8e4)}, "is it gauge pressure"),
         ({"line": lambda record: record["line"] + 2e5}, "begin with released brakes, but the line pressure"),
     ],
 )

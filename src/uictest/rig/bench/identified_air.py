@@ -31,6 +31,8 @@ _LOG_STEP = 1e-4
 """Relative step of the unknowns in numerical derivatives; chosen."""
 _AT_REST = 0.02
 """Share of its largest value that a pressure may have where the record begins; chosen."""
+_LEAST_PRESSURE = -0.5 * BAR
+"""Gauge pressure in Pa below which no valve leads; chosen."""
 _NAMES = (
     "tank_heat_conductance",
     "caliper_heat_conductance",
@@ -97,7 +99,12 @@ def identify_air(
 
 
 def _require_rest(pressures: Mapping[str, Samples]) -> None:
+    """Raise UnsuitableRecordError for pressures that begin braked, or that no valve can reach."""
     for name, pressure in pressures.items():
+        if pressure.min() < _LEAST_PRESSURE:
+            raise identification.UnsuitableRecordError(
+                f"the {name} pressure falls to {pressure.min() / BAR:.3g} bar: is it gauge pressure?"
+            )
         if pressure[0] > _AT_REST * pressure.max():
             raise identification.UnsuitableRecordError(
                 f"the record must begin with released brakes, but the {name} pressure begins at"
