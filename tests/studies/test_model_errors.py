@@ -35,5 +35,13 @@ def test_each_setting_is_judged_by_the_pressure_that_it_uses(
     assert pressure_error(recording, setting, 4e5) == pytest.approx(error)
 
 
+def test_the_true_pressure_may_be_compared_instead(recording: Recording) -> None:
+    true = Recording(
+        {**recording.channels, "tank_pressure_1": recording["cylinder_pressure_1"] + 2e3},
+        {**UNITS, "tank_pressure_1": "Pa"},
+    )
+    assert pressure_error(true, "thermal", 4e5, "tank_pressure_1") == pytest.approx(1.0)
+
+
 def test_a_force_error_is_a_share_of_the_largest_force(recording: Recording) -> None:
     assert force_error(recording, force_channel("full")) == pytest.approx(5.0)

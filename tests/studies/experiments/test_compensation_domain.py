@@ -67,7 +67,7 @@ def test_a_cell_of_the_map_holds_the_worst_of_its_wheelsets() -> None:
     def replay(friction: float, position: str, error: float) -> ReplayErrors:
         rail, brake = SimpleNamespace(friction=friction), SimpleNamespace(position=position)
         case: Any = SimpleNamespace(scenario=SimpleNamespace(rail=rail, brake=brake))
-        return ReplayErrors(case, 1, {"full": SettingErrors(error, 0.0)})
+        return ReplayErrors(case, 1, {"full": SettingErrors(error, error, 0.0)})
 
     made_up = [replay(0.08, "P", 3.0), replay(0.08, "P", 2.0), replay(0.08, "R", 1.0), replay(0.1, "P", 4.0)]
     np.testing.assert_array_equal(worst_by_cell(made_up, "pressure_error", "full"), [[3.0, 1.0], [4.0, 0.0]])
