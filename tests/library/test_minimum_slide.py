@@ -21,5 +21,5 @@ def test_the_largest_slide_passes_where_the_largest_mean_over_a_second_does_not(
     fast = recording["speed"] > 30.0 / 3.6
     slides = [1.0 - recording[f"wheel_speed_{n}"][fast] / recording["speed"][fast] for n in (1, 2, 3, 4)]
     means = [np.convolve(slide, np.full(RATE, 1.0 / RATE), "valid") for slide in slides]
-    assert all(0.36 < slide.max() < 0.43 for slide in slides)
+    assert all(slide.max() > LIMIT for slide in slides)
     assert all(mean.max() < LIMIT for mean in means)

@@ -63,7 +63,7 @@ def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
 
     controller = case.scenario.controller
     assert (controller.name, controller.based_on) == ("mine", "threshold")
-    assert (controller.original.slip_threshold, controller.original.hold_limit) == (1.477, 2.0)
+    assert (controller.original.slip_threshold, controller.original.hold_limit) == (0.9993, 2.0)
 
 
 def test_a_copy_with_another_number_still_knows_what_it_was_changed_from(loaded: Loaded, head: str) -> None:
@@ -123,3 +123,19 @@ def test_two_profiles_cannot_have_criteria_of_the_same_name(
 
     (inline,) = refused(f"{head}criteria:\n- a.yaml\n- {{name: b, criteria: [{CRITERION}]}}\n")
     assert (inline.line, inline.message) == (6, "criterion 'same' of profile 'b' is in profile 'a' as well")
+
+
+def test_a_part_cannot_give_inherited_numbers_another_source(head: str, loaded: Loaded) -> None:
+    sources = "sources: {chosen: {mark: published, text: Some other paper}}"
+    with pytest.raises(ScenarioErrors, match="source 'chosen' describes numbers of the part") as rejected:
+        loaded(head + f"controller: {{extends: threshold, {sources}}}\n")
+    assert "sources.chosen" in str(rejected.value)
+
+
+def test_a_part_may_add_sources_of_its_own(head: str, loaded: Loaded) -> None:
+    sources = "sources: {bench: {mark: chosen, text: Bench test}}"
+    (case,) = loaded(
+        head + f"controller: {{extends: threshold, {sources}, hold_limit: {{value: 3 s, source: bench}}}}\n"
+    )
+    assert case.scenario.controller.sources["bench"].text == "Bench test"
+    assert case.scenario.controller.sources["chosen"].mark == "chosen"

@@ -1,9 +1,12 @@
 """Arguments and options of `uictest identify`."""
 
+import math
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from uictest.cli.exit_codes import InvalidInputError
 
 Recording = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
@@ -73,3 +76,17 @@ RigOverrides = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig of the record. May be repeated."),
 ]
+
+
+def interval(text: str) -> tuple[float, float]:
+    """Return first and last time in s of a `--wsp` option. Raises InvalidInputError."""
+    first, dots, last = text.partition("..")
+    try:
+        begin, end = float(first), float(last)
+    except ValueError:
+        begin, end = 1.0, 0.0
+    if not dots or not -math.inf < begin < end < math.inf:
+        raise InvalidInputError(
+            f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
+        )
+    return begin, end

@@ -6,6 +6,7 @@ from .channels import (
 )
 from .compensation_file import (
     Provenance as Provenance,
+    check_compensation as check_compensation,
     load_compensation as load_compensation,
     with_air as with_air,
     with_cylinder as with_cylinder,
@@ -16,7 +17,11 @@ from .cylinder import (
     identify_cylinder as identify_cylinder,
     require_fit as require_fit,
 )
-from .hysteresis import HysteresisResult as HysteresisResult, identify_hysteresis as identify_hysteresis
+from .hysteresis import (
+    HysteresisResult as HysteresisResult,
+    identify_hysteresis as identify_hysteresis,
+    require_force_fit as require_force_fit,
+)
 from .phases import (
     on_lines as on_lines,
     wsp_acting_from_commands as wsp_acting_from_commands,

@@ -14,7 +14,7 @@ from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
 from uictest.scenario import Compensation, Files, Parts, Roots
-from uictest.scenario.yaml import Quantity, Scalar, whole_file
+from uictest.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 
 Numbers = dict[str, Any]
@@ -62,6 +62,12 @@ def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensat
         Parts(Files()).resolve(Scalar(reference, reference, place), Compensation, ("base",)).part
     )
     return named
+
+
+def check_compensation(text: str, path: Path) -> None:
+    """Raise ScenarioErrors if a compensation file of this text would be rejected; ``path`` is its name."""
+    tree = parse(Document(display_name(path), path.parent, text))
+    Parts(Files()).resolve(tree, Compensation, ())
 
 
 def with_hysteresis(

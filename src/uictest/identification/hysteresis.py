@@ -44,6 +44,8 @@ _INDEPENDENT = 0.01
 """Sampling time in s of the points that are fitted; closer readings are not independent; chosen."""
 _LEAST_SPAN = 0.1
 """Share of the record's range of pressures that a phase must cover, and of its forces; chosen."""
+_POOREST_ERROR = 0.1
+"""Largest rms error of the computed force on held-out parts, share of the largest force; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +121,16 @@ def identify_hysteresis(
         float(np.sqrt(np.mean(error**2))),
         largest,
     )
+
+
+def require_force_fit(result: HysteresisResult) -> None:
+    """Raise UnsuitableRecordError if the lines hardly compute the force of the held-out parts."""
+    if not result.rms_error <= _POOREST_ERROR:
+        raise UnsuitableRecordError(
+            f"the force does not follow from the pressure by four lines: its rms error on held-out parts is"
+            f" {100.0 * result.rms_error:.3g} % of the largest force, at most {100.0 * _POOREST_ERROR:g} %"
+            " are accepted"
+        )
 
 
 def _require_force(force: Samples) -> None:

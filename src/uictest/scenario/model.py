@@ -13,7 +13,6 @@ from uictest.physics import LONGEST_DELAY_CYCLES
 from uictest.scenario.feasibility import (
     braking_force,
     largest_clamping_force,
-    longest_step,
     stopping_time_at_least,
 )
 from uictest.scenario.parts.compensation import COMPENSATION_SETTINGS
@@ -22,6 +21,7 @@ from uictest.scenario.parts.criteria import Criteria
 from uictest.scenario.parts.measures import MeasureDefinitions
 from uictest.scenario.parts.vehicle import Vehicle
 from uictest.scenario.sections import Brake, Rail, Rig, Simulation
+from uictest.scenario.stability import limit_of_air, limit_of_vehicle
 from uictest.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
@@ -113,12 +113,13 @@ class Scenario(Model):
             yield from self._unresolved_cylinder()
         yield from self._unresolved_air()
         yield from self._criteria_of_the_same_name()
-        if not self.tank_volume_with_caliper > 0.0:
+        yield from self._delay_too_long()
+        if self.tank_volume_with_caliper > 0.0:
+            yield from self._step_too_long()
+        else:
             yield Inconsistency(
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
-        yield from self._delay_too_long()
-        yield from self._step_too_long()
         yield from self._brake_too_strong()
         shortest = stopping_time_at_least(
             self.initial_speed, self.rail.highest_friction, self.rail.gradient, self.vehicle
@@ -138,16 +139,21 @@ class Scenario(Model):
             )
 
     def _step_too_long(self) -> Iterator[Inconsistency]:
-        """Yield a step that cannot follow the car on its springs and dampers."""
-        longest, motion = longest_step(self.vehicle)
-        if self.simulation.time_step > longest:
-            step = self.simulation.time_step
-            yield Inconsistency(
-                ("vehicle",) if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
-                f"a step of {step.text} is too long for {motion}: the simulation would be unstable",
-                f"check masses, stiffness and damping; with these simulation.time_step must be at most"
-                f" {longest * 1000.0:.3g} ms",
-            )
+        """Yield a step that cannot follow the car on its springs, or the air behind its valves."""
+        system = self.brake.system
+        smallest_tank = min(float(system.tank.volume), self.tank_volume_with_caliper)
+        step = self.simulation.time_step
+        for key, limit in (
+            (("vehicle",), limit_of_vehicle(self.vehicle)),
+            (("brake", "system"), limit_of_air(system, self.rig.caliper, smallest_tank)),
+        ):
+            if step > limit.longest:
+                yield Inconsistency(
+                    key if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
+                    f"a step of {step.text} is too long for {limit.of}: the simulation could become unstable",
+                    f"check {limit.keys}; with these simulation.time_step must be at most"
+                    f" {limit.longest * 1000.0:.3g} ms",
+                )
 
     def _brake_too_strong(self) -> Iterator[Inconsistency]:
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""

@@ -189,7 +189,7 @@ class Parts:
             )
             return generations[-1]
 
-        merged, documents = inherit(tree, fetch)
+        merged, documents = inherit(tree, fetch, _reject_changed_sources)
         part = validated(model, plain(merged), merged, key)
         return ResolvedPart(self._with_origin(part, generations, model), documents)
 
@@ -255,3 +255,19 @@ def _require_schema(tree: Map, expected: str) -> None:
     if not isinstance(schema, Scalar) or schema.value != expected:
         schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
         raise single_error(schema.place, f"expected {expected}, found {schema_text}", "schema")
+
+
+def _reject_changed_sources(parent: Map, merged: Map) -> None:
+    """Raise ScenarioErrors where a part describes a source anew that its parent's numbers refer to."""
+    inherited, own = parent.get("sources"), merged.get("sources")
+    if not isinstance(inherited, Map) or not isinstance(own, Map):
+        return
+    for name, entry in inherited.entries.items():
+        changed = own.entries[name]
+        if plain(changed.node) != plain(entry.node):
+            raise single_error(
+                changed.key,
+                f"source {quoted(name)} describes numbers of the part that this one extends",
+                f"sources.{name}",
+                "give your source another name: inherited numbers keep theirs",
+            )

@@ -155,6 +155,7 @@ def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace
         (("hysteresis", "record.parquet", "--base", "seven-inch"), "six-inch"),
         (("cylinder", "record.parquet", "--input", "valve_command_1"), "unit '1'"),
         (("hysteresis", "record.parquet", "-o", "nowhere/x.yaml"), "no folder"),
+        (("hysteresis", "record.parquet", "-o", "record.parquet", "--name", "x"), "the recording itself"),
         (("cylinder", "record.parquet", "-o", "x.yaml", "--name", "Our caliper"), "--name"),
         (
             ("cylinder", "record.parquet", "--input", "cylinder_pressure_1"),
@@ -187,6 +188,11 @@ def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workpl
         ("measured_pressure_2", lambda p: -p, "never above zero"),
         ("measured_pressure_2", lambda p: 4.0 - p, "does not follow from the tank pressure"),
         ("clamping_force_1", lambda force: 0.0 * force + 5.0, "the force varies by 0 N only"),
+        (
+            "clamping_force_1",
+            lambda force: np.minimum(force, 3.0),
+            "the force does not follow from the pressure",
+        ),
         ("valve_command_1", lambda command: command + 7.3, "a valve command is 0 fill, 1 hold or 2 vent"),
     ],
 )
@@ -202,6 +208,19 @@ def test_a_record_that_supports_nothing_is_refused_with_the_reason(
     assert answer.err.startswith("uictest: record.parquet: ")
     assert reason in answer.err
     assert "Warning" not in answer.err
+    assert not (workplace / "found.yaml").exists()
+
+
+def test_numbers_that_a_scenario_would_reject_are_not_written(call, record, workplace):
+    recording = read_parquet(record)
+    leading = np.roll(recording["cylinder_pressure_1"], -round(0.05 / STEP))
+    force = np.maximum(4.5 * leading - 1.7, 0.0)
+    write_parquet(Recording({**recording.channels, "clamping_force_1": force}, recording.units), record)
+    answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml")
+    assert answer.code == 4
+    assert "record.parquet: nothing written" in answer.err
+    assert "found.yaml" in answer.err
+    assert "the squeezing line must lie below the releasing line" in answer.err
     assert not (workplace / "found.yaml").exists()
 
 

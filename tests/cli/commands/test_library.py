@@ -58,7 +58,7 @@ def test_a_users_part_shows_marks_sources_and_what_it_changes(call: Call) -> Non
     lines = [" ".join(line.split()) for line in answer.out.splitlines()]
     assert answer.code == 0
     assert lines[:2] == ["mine.yaml: Ours", "based on threshold"]
-    assert "slip_threshold 3 km/h user (threshold: 1.477 m/s)" in lines
+    assert "slip_threshold 3 km/h user (threshold: 0.9993 m/s)" in lines
     assert "hold_limit 3 s published bench (threshold: 2 s)" in lines
     assert "vent_watchdog 5 s chosen" in lines
     assert "bench Our bench test of 2024" in lines

@@ -103,7 +103,7 @@ def test_the_piston_alone_is_followed_within_two_per_mille(thermal: Any) -> None
     """No heat and a quick piston before a rigid disc: only the volume that it sweeps makes a difference."""
     caliper = ("viscous_friction=20 N s/m", "contact_friction=0 N s/m", "contact_stiffness=1e10 N/m")
     walls = {"tank_exchange": 0.0, "caliper_tank_exchange": 0.0, "line_exchange": 1e9}
-    bench = thermal(*(f"rig.caliper.{key}" for key in caliper), **walls)
+    bench = thermal("simulation.time_step=0.125 ms", *(f"rig.caliper.{key}" for key in caliper), **walls)
     caliper, tank, modelled = followed(bench, commands(2, 4.0))
     assert np.abs(tank - caliper).max() > 0.01 * bench.p.commanded_pressure
     assert np.abs(modelled - caliper).max() < 0.002 * bench.p.commanded_pressure

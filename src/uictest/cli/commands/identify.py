@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import shlex
 from collections.abc import Sequence
@@ -31,6 +30,7 @@ from uictest.cli.identify_options import (
     RigOverrides,
     TankChannel,
     TransitionTime,
+    interval,
 )
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
@@ -79,7 +79,7 @@ def hysteresis(
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
     base_part = _base(base, trusted or ())
     part_name = "" if output is None else _name(name, record)
-    acting_intervals = [_interval(text) for text in intervals or ()]
+    acting_intervals = [interval(text) for text in intervals or ()]
     roles = {"pressure": pressure, "force": force} | ({} if acting_intervals else {"command": command})
     recorded = _record(record, roles)
     acting = _wsp_acting(recorded, acting_intervals, acting_time)
@@ -90,7 +90,7 @@ def hysteresis(
         text = identification.with_hysteresis(
             base_part, part_name, result, provenance, acting_time, transition_time
         )
-        _write(output, text)
+        _write(output, record, text)
     return ExitCode.MET
 
 
@@ -116,7 +116,7 @@ def cylinder(
     data(identification.cylinder_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
-        _write(output, identification.with_cylinder(base_part, part_name, result, provenance))
+        _write(output, record, identification.with_cylinder(base_part, part_name, result, provenance))
     return ExitCode.MET
 
 
@@ -146,7 +146,7 @@ def air(
     data(identification.air_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
-        _write(output, identification.with_air(base_part, part_name, result, provenance))
+        _write(output, record, identification.with_air(base_part, part_name, result, provenance))
     return ExitCode.MET
 
 
@@ -194,11 +194,13 @@ def _hysteresis(
 ) -> identification.HysteresisResult:
     channels = recorded.channels
     try:
-        return identification.identify_hysteresis(
+        result = identification.identify_hysteresis(
             channels["time"], channels["pressure"], channels["force"], acting, transition_time, held_out
         )
+        identification.require_force_fit(result)
     except identification.UnsuitableRecordError as error:
         raise InvalidInputError(f"uictest: {record}: {error}") from error
+    return result
 
 
 def _cylinder(
@@ -234,19 +236,6 @@ def _existing(record: Path) -> Path:
     if not record.is_file():
         raise InvalidInputError(f"uictest: {record}: {'not a file' if record.exists() else 'no such file'}")
     return record
-
-
-def _interval(text: str) -> tuple[float, float]:
-    first, dots, last = text.partition("..")
-    try:
-        begin, end = float(first), float(last)
-    except ValueError:
-        begin, end = 1.0, 0.0
-    if not dots or not -math.inf < begin < end < math.inf:
-        raise InvalidInputError(
-            f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
-        )
-    return begin, end
 
 
 def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
@@ -285,8 +274,17 @@ def _provenance(
     )
 
 
-def _write(output: Path, text: str) -> None:
+def _write(output: Path, record: Path, text: str) -> None:
+    """Write a compensation file. Raises InvalidInputError for numbers that no compensation can have."""
     if not output.parent.is_dir():
         raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+    if output.exists() and output.samefile(record):
+        raise InvalidInputError(f"uictest: --output {output} is the recording itself: name another file")
+    try:
+        identification.check_compensation(text, output)
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(
+            f"uictest: {record}: nothing written, since the identified numbers fit no caliper\n{errors}"
+        ) from errors
     recording.write_text_atomic(output, text)
     message(f"uictest: wrote {output}")

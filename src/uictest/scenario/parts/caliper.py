@@ -1,10 +1,11 @@
 """The caliper: the physical model that stands in for the hardware."""
 
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Part, Quantity, of_kind
+from uictest.scenario.yaml import Inconsistency, Part, Quantity, of_kind
 
 
 class Caliper(Part):
@@ -45,3 +46,13 @@ class Caliper(Part):
     lever_ratio: Annotated[Quantity, of_kind("number", at_least="0.01", at_most="20")] = Field(
         description="Clamping force over the net force at the piston."
     )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a piston that nothing holds before the pads touch."""
+        yield from super().inconsistencies()
+        if self.spring_rate == 0.0 and self.viscous_friction == 0.0:
+            yield Inconsistency(
+                ("viscous_friction",),
+                "a piston without spring rate and viscous friction has no stroke that follows from its load",
+                "give spring_rate or viscous_friction",
+            )

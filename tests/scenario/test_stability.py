@@ -1,0 +1,93 @@
+"""The longest step is where pressures begin to swing from step to step, and no shipped part comes near it."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.rig import simulate
+from uictest.scenario import Case, ScenarioErrors, load
+from uictest.scenario.stability import StepLimit, limit_of_air, limit_of_vehicle
+
+SCENARIO = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 20 km/h
+rail: {condition: dry}
+"""
+STEP = 0.5e-3
+Load = Callable[..., Case]
+
+
+@pytest.fixture
+def stop(tmp_path: Path) -> Load:
+    """A dry stop, changed by ``key=value`` overrides."""
+    path = tmp_path / "stop.yaml"
+    path.write_text(SCENARIO)
+    return lambda *overrides: load([path], list(overrides))[0]
+
+
+def air_limit(case: Case) -> StepLimit:
+    system = case.scenario.brake.system
+    smallest = min(float(system.tank.volume), case.scenario.tank_volume_with_caliper)
+    return limit_of_air(system, case.scenario.rig.caliper, smallest)
+
+
+def swing(case: Case, channel: str) -> float:
+    """Share of a channel's travel that is made back and forth between neighbouring steps."""
+    recording = simulate(case, record_every=float(case.scenario.simulation.time_step)).recording
+    assert recording is not None
+    changes = np.diff(recording[channel])
+    back = changes[1:] * changes[:-1] < 0.0
+    return float(np.abs(changes[1:][back]).sum() / np.abs(changes).sum())
+
+
+@pytest.mark.parametrize("brake", ["ep-disc", "distributor"])
+@pytest.mark.parametrize("vehicle", ["intercity-180", "crh380a", "manchester-benchmark"])
+def test_the_library_leaves_room_for_a_step_of_one_millisecond(stop: Load, brake: str, vehicle: str) -> None:
+    case = stop(f"brake.system={brake}", f"vehicle={vehicle}", "simulation.time_step=1 ms")
+    assert air_limit(case).longest > 1e-3
+    assert limit_of_vehicle(case.scenario.vehicle).longest > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("changed", "channel"),
+    [
+        ("brake.system.relay_valve.proportional_band=0.04 bar", "brake_line_pressure"),
+        ("brake.system.brake_line.volume=2 L", "brake_line_pressure"),
+        ("rig.caliper.viscous_friction=70 N s/m", "tank_pressure_1"),
+    ],
+)
+def test_no_pressure_swings_just_inside_the_limit(stop: Load, changed: str, channel: str) -> None:
+    case = stop(changed)
+    assert STEP <= air_limit(case).longest < 1.2 * STEP
+    assert swing(case, channel) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("changed", "of"),
+    [
+        ("brake.system.relay_valve.proportional_band=0.005 bar", "the air in the brake line"),
+        ("brake.system.brake_line.volume=0.1 L", "the air in the brake line"),
+        ("brake.system.wsp_valve.fill_conductance=1e-5 m3/(s Pa)", "the air in"),
+        ("brake.system.reservoir.volume=0.2 L", "the air in the reservoir"),
+        ("rig.caliper.viscous_friction=0 N s/m", "the free piston of the caliper"),
+    ],
+)
+def test_air_that_a_step_cannot_follow_is_rejected(stop: Load, changed: str, of: str) -> None:
+    with pytest.raises(ScenarioErrors, match=f"too long for {of}"):
+        stop(changed)
+
+
+def test_a_step_within_the_stated_limit_is_accepted(stop: Load) -> None:
+    tight = "brake.system.relay_valve.proportional_band=0.02 bar"
+    with pytest.raises(ScenarioErrors, match=r"time_step must be at most 0\.2") as rejected:
+        stop(tight)
+    assert "relay_valve" in str(rejected.value)
+    assert air_limit(stop(tight, "simulation.time_step=0.25 ms")).longest > 0.25e-3
+
+
+def test_a_piston_that_nothing_holds_is_rejected(stop: Load) -> None:
+    with pytest.raises(ScenarioErrors, match="without spring rate and viscous friction"):
+        stop("rig.caliper.viscous_friction=0 N s/m", "rig.caliper.spring_rate=0 N/m")
