@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 SOURCES = Path(__file__).parent / "c"
 PLAIN = ("-O3", "-march=native")
@@ -29,6 +30,7 @@ STRICT = (*PLAIN, "-ffp-contract=off")
 
 RECORDS = {
     "Parameters": PARAMETERS,
+    "WheelsetParameters": WHEELSET_PARAMETERS,
     "Car": CAR,
     "Bogie": BOGIE,
     "Wheelset": WHEELSET,
@@ -45,7 +47,15 @@ class NoCompilerError(RuntimeError):
 def records_header() -> str:
     """Return records.h: the struct of each record, field by field in the order of its dtype."""
     structs = (_struct(name, dtype) for name, dtype in RECORDS.items())
-    return "\n".join(["#pragma once", '#include "number.h"', *structs])
+    return "\n".join(["#pragma once", '#include "number.h"', *structs, _copy_function()])
+
+
+def _copy_function() -> str:
+    """Return what sets the parameters in the state of a wheelset, which is scalar code."""
+    names = WHEELSET_PARAMETERS.names or ()
+    lines = "".join(f"    wheelset->{name} = own->{name};\n" for name in names)
+    head = "OURS void copy_wheelset_parameters(Wheelset *wheelset, const WheelsetParameters *own)"
+    return f"{head}\n{{\n{lines}}}\n"
 
 
 def _struct(name: str, dtype: np.dtype[Any]) -> str:
@@ -123,17 +133,23 @@ class CLanes:
             Unit("lanes.c", (*PLAIN, f"-DWIDTH={width}")), Unit("lanes_step.c", vectors)
         ).stops
         self._stops.restype = None
-        # number of stops, parameters, friction laws, measures, wheelsets' measures
-        self._stops.argtypes = [ctypes.c_int64] + [ctypes.c_void_p] * 4
+        # number of stops, parameters, those of wheelsets, friction laws, measures, wheelsets' measures
+        self._stops.argtypes = [ctypes.c_int64] + [ctypes.c_void_p] * 5
 
     def __call__(
-        self, parameters: Any, rails: NDArray[np.float64], measures: Any, wheelset_measures: Any
+        self,
+        parameters: Any,
+        wheelset_parameters: Any,
+        rails: NDArray[np.float64],
+        measures: Any,
+        wheelset_measures: Any,
     ) -> None:
         """Run a stop for each parameter record and its row of ``rails``: place, friction, time, factor."""
-        _reject_modelled_air(parameters)
+        _reject_what_is_missing(parameters)
         self._stops(
             len(parameters),
             _address(parameters),
+            _address(wheelset_parameters),
             _address(rails),
             _address(measures),
             _address(wheelset_measures),
@@ -146,9 +162,10 @@ class CStop:
     def __init__(self, flags: tuple[str, ...]) -> None:
         self._stop = library(Unit("rig.c", flags)).stop
         self._stop.restype = None
-        # car, bogies, wheelsets, parameters, friction laws, their number of points, both measures
+        # car, bogies, wheelsets, parameters, those of wheelsets, friction laws, number of their points,
+        # both measures
         pointer = ctypes.c_void_p
-        self._stop.argtypes = [pointer] * 5 + [ctypes.c_int64] + [pointer] * 2
+        self._stop.argtypes = [pointer] * 6 + [ctypes.c_int64] + [pointer] * 2
 
     def __call__(
         self,
@@ -156,7 +173,9 @@ class CStop:
         bogies: Any,
         wheelsets: Any,
         parameters: Any,
+        wheelset_parameters: Any,
         rail: NDArray[np.float64],
+        memory: Any,
         measures: Any,
         wheelset_measures: Any,
         trace: Any,
@@ -165,12 +184,13 @@ class CStop:
         """Run one stop on zeroed records; return the number of rows recorded, which is none."""
         if steps_per_sample:
             raise ValueError("the C rig records nothing")
-        _reject_modelled_air(parameters)
+        _reject_what_is_missing(parameters)
         self._stop(
             _address(car),
             _address(bogies),
             _address(wheelsets),
             _address(parameters),
+            _address(wheelset_parameters),
             _address(rail),
             rail.shape[1],
             _address(measures),
@@ -179,9 +199,25 @@ class CStop:
         return 0
 
 
-def _reject_modelled_air(parameters: Any) -> None:
-    if np.any(parameters["uses_module_air"]):
-        raise ValueError("the C rig has no modelled air: it cannot run rig.compensation=thermal")
+MISSING = {
+    "uses_module_air": "modelled air: it cannot run rig.compensation=thermal",
+    "uses_pole_wheels": "pole wheels: it cannot run rig.sensors.speed.method=whole-teeth or an eccentricity",
+    "cleans_rail": "rail that sliding cleans: it cannot run rail.cleaning",
+    "varies_pad_friction": "pads that vary: it cannot run brake.pad other than constant",
+    "models_disc_temperature": "discs that warm: it cannot run brake.disc_temperature=modelled",
+}
+"""Parameter that uses a part which the C rig lacks, and what it then says."""
+
+
+def can_run(parameters: Any) -> bool:
+    """Return whether the C rig has all parts that a stop uses."""
+    return not any(np.any(parameters[name]) for name in MISSING)
+
+
+def _reject_what_is_missing(parameters: Any) -> None:
+    for name, part in MISSING.items():
+        if np.any(parameters[name]):
+            raise ValueError(f"the C rig has no {part}")
 
 
 def _address(values: Any) -> int:

@@ -40,17 +40,17 @@ class Rig:
 
 def opened(record: Any) -> SimpleNamespace:
     """Return the fields of a record as attributes holding Python numbers."""
-    return SimpleNamespace(**{name: record[name].item() for name in record.dtype.names})
+    return SimpleNamespace(**{name: record[name].tolist() for name in record.dtype.names})
 
 
 def rolling(stop: Stop) -> Rig:
     """Return the rig at the brake command, its valves filling."""
-    parameters, rail, controller = stop
+    parameters, wheelset_parameters, rail, controller = stop
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
     with_own = with_controller(controller, _unchanged, {})
-    translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters)
+    translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters, wheelset_parameters)
     read_sensors(car[0], wheelsets, parameters)
     translate(start_cycle, _unchanged, with_own)(car[0], wheelsets, parameters, rail)
     command_valves(car[0], wheelsets, parameters)

@@ -48,13 +48,13 @@ class Column(np.ndarray):
         return self - other
 
 
-def different_stops(stop: Stop) -> tuple[Any, NDArray[np.float64]]:
-    """Return parameters and friction laws of stops on rails from slippery to good."""
+def different_stops(stop: Stop) -> tuple[Any, Any, NDArray[np.float64]]:
+    """Return parameters, those of wheelsets and friction laws of stops on rails from slippery to good."""
     parameters = np.repeat(stop.parameters.reshape(1), STOPS).view(stop.parameters.dtype)
     parameters["case_key"] = np.arange(STOPS)
     rails = np.tile(stop.rail[:, :1], (STOPS, 1, 1))
     rails[:, FRICTIONS, 0] = np.linspace(0.10, 0.30, STOPS)
-    return parameters, rails
+    return parameters, np.tile(stop.wheelset_parameters, (STOPS, 1)), rails
 
 
 def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
@@ -64,9 +64,10 @@ def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
 
 def c_lanes(lanes: CLanes, stop: Stop) -> float:
     """Run stops in C in lanes."""
-    parameters, rails = different_stops(stop)
+    parameters, wheelset_parameters, rails = different_stops(stop)
     measures, wheelset_measures = np.zeros(STOPS, STOP_MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
-    lanes(parameters, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
+    rails = np.ascontiguousarray(rails[:, :, 0])
+    lanes(parameters, wheelset_parameters, rails, measures, wheelset_measures)
     return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
 
 

@@ -7,6 +7,7 @@ sensors and controller. LSODA, relative tolerance 1e-6.
 
 from collections.abc import Callable
 from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from uictest.physics.polach import creep_force
 from uictest.physics.tank import air_changes, enthalpy
 from uictest.physics.wheelset import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
+from uictest.rig.model.friction_law import FRICTIONS
 
 _CYLINDER_LAG = 0.02
 """Time constant of the cylinder, s."""
@@ -32,8 +34,8 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
     from scipy.integrate import solve_ivp
 
     rates = _rates()
-    p = opened(stop[0])
-    friction = float(stop[1][1, 0])
+    p = SimpleNamespace(**vars(opened(stop.parameters)), **vars(opened(stop.wheelset_parameters[0])))
+    friction = float(stop.rail[FRICTIONS, 0])
     module = [p.atmospheric_pressure, p.air_temperature, p.atmospheric_pressure]
     wheelset = [*module, p.initial_speed / p.wheel_radius]
     start = np.array([p.initial_speed, *wheelset * 4])
@@ -116,4 +118,4 @@ def _tank_rates(pressure: float, temperature: float, p: Any) -> tuple[float, flo
 
 def _brake(cylinder: float, p: Any) -> float:
     force = line(cylinder - p.atmospheric_pressure, p.linear_slope, p.linear_intercept)
-    return torque(force, p.calipers_per_wheelset, p.pads_per_caliper, p.pad_friction, p.disc_radius)
+    return torque(force, p.calipers_per_wheelset, p.pads_per_caliper, p.reference_pad_friction, p.disc_radius)

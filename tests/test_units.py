@@ -35,6 +35,14 @@ def test_a_recording_may_write_a_unit_as_people_do(unit: str, si: str, size: flo
     assert recorded_unit_size(unit, si) == pytest.approx(size)
 
 
+def test_degrees_celsius_have_their_own_zero() -> None:
+    """What only multiplies, as the unit of a recorded channel does, cannot take them."""
+    assert in_unit(373.15, "degC") == pytest.approx(100.0)
+    assert in_unit(373.15, "K") == 373.15
+    assert recorded_unit_size("K", "K") == 1.0
+    assert recorded_unit_size("degC", "K") is None
+
+
 def test_a_unit_of_another_kind_or_an_ambiguous_one_has_no_size() -> None:
     assert recorded_unit_size("bar", "m/s") is None
     assert recorded_unit_size("mPa", "Pa") is None

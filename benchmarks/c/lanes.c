@@ -40,6 +40,7 @@ typedef struct {
 typedef struct {
     int64_t count, next;
     const Parameters *parameters;
+    const WheelsetParameters *wheelset_parameters; /* four of each stop */
     const double *rails; /* friction laws of one point, four numbers per stop */
     Measures *measures;
     WheelsetMeasures *wheelset_measures;
@@ -52,7 +53,7 @@ static void take_next(Work *work, Place *place, State *state, Lanes *parameters,
         return;
     const Parameters *p = &work->parameters[place->stop];
     memset(state, 0, sizeof *state);
-    start(&state->car, state->bogies, state->wheelsets, p);
+    start(&state->car, state->bogies, state->wheelsets, p, &work->wheelset_parameters[4 * place->stop]);
     begin_stop_measures(&state->car, &work->measures[place->stop], &work->wheelset_measures[4 * place->stop], p);
     put(parameters, lane, p, NUMBERS(Parameters));
 }
@@ -78,10 +79,10 @@ static void start_cycle_of_stop(const Work *work, const Place *place, State *sta
     start_cycle(&state->car, state->wheelsets, p, laws);
 }
 
-void stops(int64_t count, const Parameters *parameters, const double *rails, Measures *measures,
-           WheelsetMeasures *wheelset_measures)
+void stops(int64_t count, const Parameters *parameters, const WheelsetParameters *wheelset_parameters,
+           const double *rails, Measures *measures, WheelsetMeasures *wheelset_measures)
 {
-    Work work = {count, 0, parameters, rails, measures, wheelset_measures};
+    Work work = {count, 0, parameters, wheelset_parameters, rails, measures, wheelset_measures};
     Lanes *lanes = aligned_alloc(64, NUMBERS(State) * sizeof(Lanes));
     Lanes *lane_parameters = aligned_alloc(64, NUMBERS(Parameters) * sizeof(Lanes));
     Lanes *car = lanes, *bogies = car + NUMBERS(Car), *wheelsets = bogies + 2 * NUMBERS(Bogie);

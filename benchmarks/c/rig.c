@@ -9,11 +9,11 @@
 #include "rig/step.h"
 
 void stop(Car *restrict car, Bogie *restrict bogies, Wheelset *restrict wheelsets, const Parameters *restrict p,
-          const double *rail, int64_t rail_width, Measures *restrict measures,
+          const WheelsetParameters *restrict wheelset_parameters, const double *rail, int64_t rail_width, Measures *restrict measures,
           WheelsetMeasures *restrict wheelset_measures)
 {
     Rail laws = {rail, rail_width};
-    start(car, bogies, wheelsets, p);
+    start(car, bogies, wheelsets, p, wheelset_parameters);
     begin_stop_measures(car, measures, wheelset_measures, p);
     while (car->stopped == 0.0 && car->cycle < p->cycles) {
         read_sensors(car, wheelsets, p);

@@ -19,6 +19,7 @@ from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.controller import CONTROLLER_MODELS
 from uictest.scenario.parts.criteria import Criterion
 from uictest.scenario.parts.measures import MeasureDefinitions
+from uictest.scenario.parts.pad import Pad
 from uictest.scenario.parts.rail import RailCondition
 from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.parts.vehicle import Vehicle
@@ -32,6 +33,7 @@ HEADINGS = ("key", "written as", "default", "range", "meaning")
 PARTS: dict[str, type[BaseModel]] = {
     "vehicle": Vehicle,
     "brake": BrakeSystem,
+    "pad": Pad,
     "caliper": Caliper,
     "compensation": Compensation,
     **{f"{name} controller": model for name, model in CONTROLLER_MODELS.items()},

@@ -177,8 +177,12 @@ _KINDS = (
     ),
     _kind("frequency", "Hz", _unit("Hz", 1)),
     _kind("inverse speed", "s/m", _unit("s/m", 1)),
+    _kind("energy per length", "J/m", _unit("J/m", 1), _unit("kJ/m", 1000)),
     _kind("film coefficient", "W/(m2 K)", _unit("W/(m2 K)", 1)),
     _kind("heat conductance", "W/K", _unit("W/K", 1)),
+    _kind("thermal conductivity", "W/(m K)", _unit("W/(m K)", 1)),
+    _kind("density", "kg/m3", _unit("kg/m3", 1)),
+    _kind("specific heat", "J/(kg K)", _unit("J/(kg K)", 1)),
     _kind("gas constant", "J/(kg K)", _unit("J/(kg K)", 1)),
     _kind("number", "1"),
     _kind("count", "1"),
@@ -187,23 +191,31 @@ _KINDS = (
 KINDS: Final = MappingProxyType({kind.name: kind for kind in _KINDS if kind.units or not kind.all_units})
 """Every kind of quantity that a scenario can state, by name."""
 
+_ZEROS: Final = {unit.symbol: float(unit.offset) for kind in _KINDS for unit in kind.all_units if unit.offset}
+"""Symbol of a unit that has its own zero -> the SI value of that."""
+
 SIZES: Final = {
     unit.symbol: float(unit.factor) for kind in _KINDS for unit in kind.all_units if not unit.offset
 }
 """Symbol of a unit -> its size in the SI unit of its kind (NL: in normal cubic metres); no temperatures."""
 
 KILOMETRE_PER_HOUR: Final = SIZES["km/h"]
+CELSIUS_ZERO: Final = _ZEROS["degC"]
 BAR: Final = SIZES["bar"]
 KILONEWTON: Final = SIZES["kN"]
 KILONEWTON_PER_BAR: Final = SIZES["kN/bar"]
 LITRE: Final = SIZES["L"]
 PERCENT: Final = SIZES["%"]
 
-_KINDS_IN_RECORDINGS: Final = frozenset({"time", "length", "speed", "pressure", "force", "torque", "share"})
+_KINDS_IN_RECORDINGS: Final = frozenset(
+    {"time", "length", "speed", "pressure", "force", "torque", "share", "temperature"}
+)
 
 
 def in_unit(value: float, unit: str) -> float:
     """Return an SI value in `unit`."""
+    if unit in _ZEROS:
+        return value - _ZEROS[unit]
     return value / SIZES[unit]
 
 
@@ -228,12 +240,16 @@ def with_unit(numbers: str, unit: str) -> str:
 
 
 def recorded_spellings(si: str) -> dict[str, float]:
-    """Return what recordings may write for a unit whose SI unit is `si`: spelling -> size in SI."""
+    """Return what recordings may write for a unit whose SI unit is `si`: spelling -> size in SI.
+
+    A unit with a zero of its own is none of them: a channel map states it as SI unit and offset.
+    """
     units = [
         unit
         for kind in _KINDS
         if kind.name in _KINDS_IN_RECORDINGS and kind.canonical == si
         for unit in kind.all_units
+        if not unit.offset
     ]
     symbols = {unit.symbol: float(unit.factor) for unit in units}
     return symbols | {spelling: float(unit.factor) for unit in units for spelling in unit.recorded_as}

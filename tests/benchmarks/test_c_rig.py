@@ -49,13 +49,46 @@ def test_c_rig_refuses_the_modelled_air_that_it_lacks() -> None:
         run_to_end(c_stop(), stop)
 
 
+def test_c_rig_runs_wheelsets_that_differ() -> None:
+    """With the same bits: its formulae read the same fields."""
+    stop = short_stop("low-adhesion-80")
+    stop.wheelset_parameters["brake_force"] = 0.9, 1.0, 1.1, 1.2
+    stop.wheelset_parameters["configured_radius"] = 0.42, 0.43, 0.44, 0.45
+    stop.wheelset_parameters["valve_delay_steps"] = 0.0, 5.0, 10.0, 15.0
+    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(stop.controller), stop))
+
+
+def test_c_rig_refuses_the_pole_wheels_that_it_lacks() -> None:
+    stop = short_stop("dry-120")
+    stop.parameters.uses_pole_wheels = 1.0
+    with pytest.raises(ValueError, match="whole-teeth"):
+        run_to_end(c_stop(), stop)
+
+
+def test_c_rig_refuses_a_rail_that_sliding_cleans() -> None:
+    stop = short_stop("dry-120")
+    stop.parameters.cleans_rail = 1.0
+    with pytest.raises(ValueError, match=r"rail\.cleaning"):
+        run_to_end(c_stop(), stop)
+
+
+@pytest.mark.parametrize("feature", ["varies_pad_friction", "models_disc_temperature"])
+def test_c_rig_refuses_pads_and_discs_that_it_lacks(feature: str) -> None:
+    """It would brake with constant pads and say nothing."""
+    stop = short_stop("dry-120")
+    stop.parameters[feature] = 1.0
+    with pytest.raises(ValueError, match=r"the C rig has no (pads|discs)"):
+        run_to_end(c_stop(), stop)
+
+
 def test_header_follows_the_records() -> None:
     from c_library import records_header
 
     from uictest.rig.model.parameters import PARAMETERS
 
     header = records_header()
-    assert all(f" {name};" in header for name in PARAMETERS.names)
+    assert all(f" {name};" in header or f" {name}[" in header for name in PARAMETERS.names)
+    assert "real pad_speeds[16];" in header
     assert "real speed_after_sliding[11];" in header
 
 
@@ -66,12 +99,12 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
     from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 
     stop = short_stop("dry-120")
-    parameters, rail, _ = stop
+    parameters, own, rail, _ = stop
     parameters.uses_cylinder_dynamics = 0.0
     scalar = run_to_end(c_stop(), stop)
     stops = np.repeat(parameters.reshape(1), 11).view(parameters.dtype)
     measures, wheelset_measures = np.zeros(11, STOP_MEASURES), np.zeros(44, WHEELSET_MEASURES)
-    CLanes()(stops, np.tile(rail[:, 0], (11, 1)), measures, wheelset_measures)
+    CLanes()(stops, np.tile(own, (11, 1)), np.tile(rail[:, 0], (11, 1)), measures, wheelset_measures)
     np.testing.assert_allclose(measures["end_distance"], scalar.measures.end_distance, rtol=1e-9)
     np.testing.assert_allclose(
         wheelset_measures["maximum_clamping_force"][:4],

@@ -16,7 +16,7 @@ def test_a_run_and_itself_do_not_differ(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(), DEFAULT)
     assert found.agrees
     assert (list(found.differences), list(found.notes)) == ([], [])
-    assert found.compared == 1 + 1 + 11 + 2 * 5
+    assert found.compared == 1 + 1 + 11 + 2 * 6
 
 
 def test_a_figure_that_moved_is_named_with_both_values(make_run: MakeRun) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from uictest.controllers import CONTROLLERS, built_in, registry
 from uictest.physics import VENT
-from uictest.rig import StopInputs, assemble
+from uictest.rig import assemble
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.plain import plain_stop
 from uictest.scenario import ScenarioErrors, load
@@ -54,7 +54,7 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pyt
         "minimum_speed",
         "lower_slide",
     } <= model.model_fields.keys()
-    inputs = StopInputs(*assemble(load([tmp_path / "stop.yaml"])[0])[:2], controller)
+    inputs = assemble(load([tmp_path / "stop.yaml"])[0])._replace(controller=controller)
     inputs.parameters.cycles = 1
     with np.errstate(invalid="ignore"):  # no air is drawn within one cycle
         finished = run_to_end(plain_stop(controller), inputs)

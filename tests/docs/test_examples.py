@@ -19,6 +19,7 @@ from uictest.sweep import load_sweep
 REPOSITORY = Path(__file__).parents[2]
 KEYS = {
     "brake": "brake: {system: %s}",
+    "pad": "brake: {pad: %s}",
     "caliper": "rig: {caliper: %s}",
     "compensation": "rig: {compensation_model: %s}",
     "sensors": "rig: {sensors: %s}",

@@ -35,7 +35,14 @@ MEASURES = [
     "air_residual",
     "air_energy_residual",
 ]
-WHEELSET = ["maximum_slide", "locked_time_s", "valve_actuations", "maximum_clamping_force_n", "air_vented_nl"]
+WHEELSET = [
+    "maximum_slide",
+    "locked_time_s",
+    "valve_actuations",
+    "maximum_clamping_force_n",
+    "maximum_disc_temperature_degc",
+    "air_vented_nl",
+]
 
 
 @pytest.fixture
@@ -113,10 +120,21 @@ def test_the_same_results_give_the_same_text_however_long_they_took(results) -> 
     assert to_json(result_document(slower)) == to_json(result_document(results))
 
 
-def test_a_column_of_another_version_is_refused(results) -> None:
+def test_a_column_that_an_earlier_version_lacked_is_not_known(results) -> None:
     document = result_document(results)
     document["cases"][0]["measures"] = {"braking_distance_m": 465.0}
-    with pytest.raises(ValueError, match=r"cases\.0\.measures: .*should have the columns braking_distance_m"):
+    read = results_of(document)[0].measures
+    assert read["braking_distance_m"] == 465.0
+    assert all(math.isnan(value) for name, value in read.items() if name != "braking_distance_m")
+
+
+@pytest.mark.parametrize("content", [{}, {"braking_distance_m": 465.0, "mood": 1.0}, [465.0]])
+def test_other_columns_are_refused(results, content: object) -> None:
+    document = result_document(results)
+    document["cases"][0]["measures"] = content
+    with pytest.raises(
+        ValueError, match=r"cases\.0\.measures: .*should have columns out of braking_distance_m"
+    ):
         results_of(document)
 
 

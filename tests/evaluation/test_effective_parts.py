@@ -80,6 +80,18 @@ def test_a_friction_of_the_scenario_stands_in_place_of_the_conditions(cases: Cas
     assert of(slippery)["rail"].removed == ()
 
 
+def test_a_cleaning_of_the_scenario_stands_in_place_of_the_conditions(cases: Cases) -> None:
+    own = "{energy: 9 kJ/m, recovered_friction: 0.28, reach: 0.5 m, carry_over: 0.5}"
+    (shipped,) = cases("rail: {condition: wet-cleaning}\n")
+    (given,) = cases(f"rail: {{condition: wet-cleaning, cleaning: {own}}}\n")
+    (alone,) = cases(f"rail: {{condition: wet, cleaning: {own}}}\n")
+    assert parameters(of(shipped))["rail.condition.cleaning.energy"].value == 5300.0
+    assert "rail.cleaning.energy" not in parameters(of(shipped))
+    assert not any(key.startswith("rail.condition.cleaning") for key in parameters(of(given)))
+    assert changed(of(given)) == {"rail.cleaning.energy": ("9 kJ/m", "5300 J/m")}
+    assert parameters(of(alone))["rail.cleaning.carry_over"].value == 0.5
+
+
 def test_the_mark_says_whose_number_it_is(cases: Cases) -> None:
     (case,) = cases("rail: {gradient: 0 permille}\nvehicle: manchester-benchmark\n")
     found = parameters(of(case))

@@ -85,7 +85,7 @@ def by_every_measure(case: Case, channels: Channels, prepared: Any) -> Case:
     criteria = tuple(
         _criterion(name, side, share, share * values[name][0])
         for name in MEASURES
-        if not math.isnan(values[name][0])
+        if values[name] and not math.isnan(values[name][0])
         for side in ("lower", "upper")
         for share in (0.1, 0.9, 1.1, 3.0)
     )

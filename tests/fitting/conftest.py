@@ -42,7 +42,9 @@ def recorded_stop() -> Make:
     def make(speed: float, friction: str, seed: int = 0, without: tuple[str, ...] = (), **facts: Any) -> Any:
         wsp = facts.get("wsp", "active")
         case = stated_case(
-            "stop", speed / 3.6, ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}"]
+            "stop",
+            speed / 3.6,
+            ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
         )
         recording = simulate(case, record_every=0.01).recording
         assert recording is not None

@@ -9,9 +9,10 @@ import pytest
 from uictest.field_data import stated_case
 from uictest.fitting import FitError, fit_stop
 from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.estimate import stretch_names, stretch_of
+from uictest.fitting.stretches import stretch_names, stretch_of
 from uictest.fitting.wheel_loads import wheel_loads
 from uictest.physics.polach import contact_stiffness, creep_force
+from uictest.scenario import load_part
 
 Make = Callable[..., Any]
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]
@@ -56,6 +57,23 @@ def test_a_stretch_that_no_wheelset_reached_is_told(recorded_stop: Make) -> None
     assert fit.determined
 
 
+def test_what_wheelsets_have_of_their_own_is_accounted_for(recorded_stop: Make) -> None:
+    """A weak brake, a small wheel, other pads: the balances of that wheelset hold with its own numbers."""
+    small = "wheel_radius: 0.41 m, configured_radius: 0.41 m"
+    own = f"{{1: {{brake_force: 80 %}}, 2: {{{small}}}, 4: {{pad_friction: 0.45}}}}"
+    case, stop = recorded_stop(80.0, "0.07", seed=3, settings=[f"vehicle.wheelsets={own}"])
+    fit = fit_stop(stop, case.scenario)
+    assert fit.friction[0].value == pytest.approx(0.07, rel=0.03)
+    alike, _ = recorded_stop(80.0, "0.07", seed=3)
+    assert fit.residual < 0.5 * fit_stop(stop, alike.scenario).residual
+
+
+def test_one_factor_does_not_stand_for_pads_of_single_wheelsets(recorded_stop: Make) -> None:
+    case, stop = recorded_stop(80.0, "0.07", settings=["vehicle.wheelsets.2.pad_friction=0.36"])
+    with pytest.raises(FitError, match="single wheelsets"):
+        fit_stop(stop, case.scenario, with_pads=True)
+
+
 def test_pad_friction_beside_friction(recorded_stop: Make) -> None:
     case, stop = recorded_stop(80.0, "0.08")
     pads = case.scenario.brake.system.disc.pad_friction
@@ -73,6 +91,17 @@ def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide(recorded
     assert fit_stop(stop, case.scenario).friction[0].value == pytest.approx(0.06, rel=0.05)
     with pytest.raises(FitError, match="clamping forces"):
         fit_stop(stop, case.scenario, with_pads=True)
+
+
+def test_forces_do_not_say_the_torque_of_pads_that_vary(recorded_stop: Make) -> None:
+    """The recorded torque does, and whether pads are weaker than the scenario's cannot be asked."""
+    case, stop = recorded_stop(80.0, "0.08")
+    varying = case.scenario.brake.model_copy(update={"pad": load_part("pads/disc-pad")})
+    scenario = case.scenario.model_copy(update={"brake": varying})
+    constant = fit_stop(stop, case.scenario).friction[0].value
+    assert fit_stop(stop, scenario).friction[0].value == pytest.approx(constant, rel=0.01)
+    with pytest.raises(FitError, match="pad: constant"):
+        fit_stop(stop, scenario, with_pads=True)
 
 
 def test_a_fit_needs_all_speeds(recorded_stop: Make) -> None:

@@ -1,5 +1,6 @@
 """The parts that ship: every number with its source, published numbers as published."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,9 @@ def test_the_parts_named_in_the_documents_are_there() -> None:
         "controllers/threshold",
         "criteria/uic-541-05-appendix-b",
         "criteria/uictest-stop",
+        "pads/composite-block",
+        "pads/constant",
+        "pads/disc-pad",
         "rails/dry",
         "rails/wet",
         "sensors/standard",
@@ -74,6 +78,9 @@ def test_the_parts_named_in_the_documents_are_there() -> None:
         ("rails/wet", "reduction_adhesion", 0.30),
         ("rails/wet", "reduction_slip", 0.10),
         ("brakes/ep-disc", "disc.pad_friction", 0.38),
+        ("brakes/ep-disc", "disc.thermal.conductivity", 46.0),
+        ("brakes/ep-disc", "disc.thermal.density", 7500.0),
+        ("brakes/ep-disc", "disc.thermal.specific_heat", 490.0),
         ("brakes/ep-disc", "air.atmospheric_pressure", 101_325.0),
     ],
 )
@@ -118,6 +125,10 @@ def test_every_stated_or_published_source_names_a_publication_and_a_place() -> N
         ("rails/wet", "contact.kalker_coefficient", 4.3),
         ("brakes/ep-disc", "disc.mean_radius", 0.289),
         ("calipers/six-inch", "spring_rate", 1645.0),
+        ("rails/wet-cleaning", "cleaning.energy", 5300.0),
+        ("rails/wet-cleaning", "cleaning.recovered_friction", 0.28),
+        ("rails/wet-cleaning", "cleaning.reach", 0.5),
+        ("rails/wet-cleaning", "cleaning.carry_over", 0.5),
     ],
 )
 def test_numbers_whose_publication_nobody_can_name_are_chosen(
@@ -166,3 +177,24 @@ def test_an_unknown_part_is_refused_with_the_nearest() -> None:
 def test_only_what_is_listed_can_be_read(folder: str, name: str) -> None:
     with pytest.raises(KeyError):
         library.content(folder, name)
+
+
+def test_the_ring_of_a_disc_is_that_of_its_diameters() -> None:
+    """740 mm outer and 425 mm inner diameter; the pads act near the middle of the ring."""
+    assert value("brakes/ep-disc", "disc.thermal.area") == pytest.approx(
+        math.pi / 4.0 * (0.740**2 - 0.425**2), rel=1e-3
+    )
+    assert 0.425 / 2.0 < value("brakes/ep-disc", "disc.mean_radius") < 0.740 / 2.0
+
+
+def test_composite_blocks_are_marked_as_recalled() -> None:
+    """k2 200 kN, k3 50 kN, k4 150 km/h, k5 75 km/h: nobody has checked them against the publication."""
+    numbers_of_law = [
+        ("force.numerator", 200e3),
+        ("force.denominator", 50e3),
+        ("speed.numerator", 150.0 / 3.6),
+        ("speed.denominator", 75.0 / 3.6),
+    ]
+    for key, recalled in numbers_of_law:
+        assert value("pads/composite-block", key) == pytest.approx(recalled)
+        assert mark("pads/composite-block", key) == "chosen"

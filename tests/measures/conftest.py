@@ -45,6 +45,7 @@ class Samples:
     wheel_speed: Column
     venting: Column
     clamping_force: Column
+    disc_temperature: Column
     reservoir_pressure: Column
 
 
@@ -68,6 +69,8 @@ def _samples() -> Samples:
         clamping_force=14e3
         * np.minimum(time[:, None] / 2.0, 1.0)
         * random.uniform(0.95, 1.0, (time.size, 4)),
+        disc_temperature=293.15
+        + 80.0 * np.sqrt(time[:, None]) * (1.0 - time[:, None] / 30.0) * np.array([1.0, 0.99, 0.97, np.nan]),
         reservoir_pressure=8e5 - 3e4 * np.sin(time / 8.0),
     )
 
@@ -88,8 +91,12 @@ def _measured(samples: Samples) -> tuple[Any, Any]:
     for k in range(1, samples.time.size):
         time, speed = float(samples.time[k]), float(samples.speed[k])
         for i in range(4):
-            row = (samples.wheel_speed[k, i], samples.venting[k, i], samples.clamping_force[k, i])
-            observe_wheelset(wheelsets[i], train, definition, i + 1, time, speed, *map(float, row))
+            columns = (
+                *(samples.wheel_speed, samples.venting),
+                *(samples.clamping_force, samples.disc_temperature),
+            )
+            row = [float(column[k, i]) for column in columns]
+            observe_wheelset(wheelsets[i], train, definition, i + 1, time, speed, *row)
             keep_slide(wheelsets[i], wheelsets[i], definition, speed)
         observe_train(
             train, definition, time, float(samples.distance[k]), speed, float(samples.reservoir_pressure[k])

@@ -75,6 +75,23 @@ def test_largest_clamping_force(samples: Any, stop: Stop) -> None:
     np.testing.assert_array_equal(stop[1].maximum_clamping_force, samples.clamping_force[1:].max(axis=0))
 
 
+def test_highest_disc_temperature_where_it_is_known(samples: Any, stop: Stop) -> None:
+    """The record of the last wheelset holds no temperature."""
+    np.testing.assert_array_equal(stop[1].maximum_disc_temperature, samples.disc_temperature[1:].max(axis=0))
+    assert np.isnan(stop[1].maximum_disc_temperature).tolist() == [False, False, False, True]
+
+
+def test_a_gap_in_a_recording_does_not_hide_what_came_before(samples: Any, measured: Measured) -> None:
+    count = len(samples.time)
+    hot = np.repeat(np.linspace(700.0, 400.0, count)[:, None], 4, axis=1)
+    hot[: count // 8] = hot[count // 2 : count // 2 + 5] = np.nan
+    force = np.repeat(np.linspace(12e3, 2e3, count)[:, None], 4, axis=1)
+    force[count // 2 : count // 2 + 5] = np.nan
+    wheelsets = measured(replace(samples, disc_temperature=hot, clamping_force=force))[1]
+    np.testing.assert_array_equal(wheelsets.maximum_disc_temperature, hot[count // 8])
+    np.testing.assert_array_equal(wheelsets.maximum_clamping_force, force[1])
+
+
 def test_two_locks_are_not_one(samples: Any, measured: Measured) -> None:
     """Standing for 1 s, rolling for a moment, standing for 2 s: the longest lock is 2 s."""
     wheel_speed = np.repeat(samples.speed[:, None], 4, axis=1)

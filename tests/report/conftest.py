@@ -129,7 +129,7 @@ FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
     "maximum_deceleration_mps2": 1.31,
     "reservoir_minimum_bar": 7.2,
     "air_consumed_nl": 180.0,
-    "energy_residual": 1e-5,
+    "energy_residual": 1e-8,
     "air_residual": 1e-12,
     "air_energy_residual": 1e-12,
 }

@@ -14,17 +14,24 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS, DEFAULT
+from uictest.record import layout_of
 from uictest.rig.assembly import StopInputs, assemble
 from uictest.rig.backends.compiled import translate
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.controller import begin
+from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
 from uictest.scenario import Case, load
 
 Array = NDArray[np.float64]
+
+
+class EveryParameter(Parameters, WheelsetParameters):
+    """The parameters of a rig whose wheelsets are alike."""
 
 
 class Rig:
@@ -38,14 +45,23 @@ class Rig:
         return load([self.path], list(overrides))[0]
 
     def parameters(self, *overrides: str, **fields: float) -> tuple[Any, Array]:
-        parameters, rail, _ = assemble(self.case(*overrides))
-        for name, value in fields.items():
-            parameters[name] = value
-        return parameters, rail
+        """Parameters and, beside them in one record, those of the first wheelset; and the rail."""
+        inputs = self.inputs(*overrides, **fields)
+        record: Any = np.zeros(
+            1, layout_of(EveryParameter, *(each.parameters for each in CONTROLLERS.values()))
+        )
+        for source in (inputs.parameters, inputs.wheelset_parameters[0]):
+            for name in source.dtype.names:
+                record[name] = source[name]
+        return record[0], inputs.rail
 
     def inputs(self, *overrides: str, **fields: float) -> StopInputs:
-        """What the rig is given, with the controller that the overrides choose."""
-        return StopInputs(*self.parameters(*overrides, **fields), assemble(self.case(*overrides)).controller)
+        """What the rig is given; fields of a wheelset are set in all four."""
+        inputs = assemble(self.case(*overrides))
+        for name, value in fields.items():
+            own = name in WHEELSET_PARAMETERS.names
+            (inputs.wheelset_parameters if own else inputs.parameters)[name] = value
+        return inputs
 
     def _stop(self, *overrides: str, every: int = 0, **fields: float) -> FinishedStop:
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
@@ -63,12 +79,12 @@ class Bench:
     """A rig at the instant of the brake command, in plain numbers: quick to step in plain Python."""
 
     def __init__(self, parameters: Any) -> None:
-        self.p = SimpleNamespace(**{name: parameters[name].item() for name in parameters.dtype.names})
+        self.p = SimpleNamespace(**{name: parameters[name].tolist() for name in parameters.dtype.names})
         self.car = self._blank(CAR)
         self.bogies = [self._blank(BOGIE) for _ in range(2)]
         self.wheelsets = [self._blank(WHEELSET) for _ in range(4)]
         begin_stop = translate(start, lambda function: function, {begin: CONTROLLERS[DEFAULT].begin})
-        begin_stop(self.car, self.bogies, self.wheelsets, self.p)
+        begin_stop(self.car, self.bogies, self.wheelsets, self.p, [self.p] * 4)
 
     @staticmethod
     def _blank(layout: np.dtype[Any]) -> SimpleNamespace:

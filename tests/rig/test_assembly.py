@@ -10,6 +10,8 @@ from uictest.physics.flow import REFERENCE_DENSITY
 from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
 from uictest.rig.assembly import friction_laws
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail_memory import MARGIN, POINTS
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.scenario import ScenarioErrors
 from uictest.units import STANDARD_GRAVITY
 
@@ -18,8 +20,9 @@ def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: 
     from uictest.rig.assembly import assemble
 
     for case in scenarios:
-        parameters, rail, _ = assemble(case)
-        assert all(np.isfinite(parameters[name]) for name in PARAMETERS.names or ())
+        parameters, wheelset_parameters, rail, _ = assemble(case)
+        assert all(np.isfinite(parameters[name]).all() for name in PARAMETERS.names or ())
+        assert all(np.isfinite(wheelset_parameters[name]).all() for name in WHEELSET_PARAMETERS.names)
         assert np.isfinite(rail).all()
 
 
@@ -178,6 +181,32 @@ def test_steps_of_friction_are_pairs_of_points(rig: Any) -> None:
 def test_friction_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
     assert friction_laws(rig.case("rail.condition=wet").scenario)[1, 0] == pytest.approx(0.30)
     assert friction_laws(rig.case("rail.friction=0.09").scenario)[1, 0] == pytest.approx(0.09)
+
+
+def test_cleaning_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
+    given = "rail.cleaning={energy: 10 kJ/m, recovered_friction: 0.3, reach: 2 m, carry_over: 0.25}"
+    fields = ("cleans_rail", "cleaning_response", "recovered_friction", "cleaning_decay", "carry_over")
+    wet, shipped, own = (
+        [float(rig.parameters(*overrides)[0][name]) for name in fields]
+        for overrides in (
+            ("rail.condition=wet",),
+            ("rail.condition=wet-cleaning",),
+            ("rail.condition=wet-cleaning", given),
+        )
+    )
+    assert wet == [0.0] * 5
+    assert shipped == pytest.approx([1.0, 1.0 / 5300.0, 0.28, 2.0, 0.5])
+    assert own == pytest.approx([1.0, 1e-4, 0.3, 0.5, 0.25])
+
+
+@pytest.mark.parametrize("vehicle", ["intercity-180", "manchester-benchmark", "crh380a"])
+def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig: Any, vehicle: str) -> None:
+    """Its ring holds the longest gap, and its points lie closer than the shortest."""
+    p = rig.parameters(f"vehicle={vehicle}")[0]
+    wheelbase = 2.0 * p.half_wheelbase
+    gaps = np.array([wheelbase, 2.0 * p.half_pivot_distance - wheelbase])
+    assert gaps.max() * p.rail_points_per_metre == pytest.approx(POINTS - MARGIN)
+    assert gaps.min() * p.rail_points_per_metre > 1.0
 
 
 def test_cases_of_one_scenario_draw_different_noise(scenarios: Any) -> None:

@@ -81,3 +81,17 @@ def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
 
 def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop], scenarios: Any) -> None:
     assert is_compiled(scenarios)
+
+
+def test_temperatures_are_recorded_only_where_they_are_modelled(rig: Any) -> None:
+    """A recording has no channel that means nothing; its units are SI."""
+    cold, warm = (
+        simulate(rig.case(f"brake.disc_temperature={setting}"), record_every=0.1).recording
+        for setting in ("constant", "modelled")
+    )
+    assert cold is not None
+    assert warm is not None
+    added = {f"{name}_{n}" for name in ("disc_temperature", "disc_surface_temperature") for n in (1, 2, 3, 4)}
+    assert set(warm.channels) - set(cold.channels) == added
+    assert {warm.units[name] for name in added} == {"K"}
+    assert (warm["disc_surface_temperature_2"][0], cold["pad_friction_1"][-1]) == (293.15, 0.38)

@@ -355,6 +355,48 @@ IMPOSSIBLE: list[Row] = [
         *(4, 94, "rig.compensation_model.air.opening_pressure", "move back at 2 bar", "must not exceed"),
     ),
     (
+        "pads that go back in temperature",
+        HEAD + "brake: {pad: {temperature: {points: [{temperature: 90 degC, factor: 1},"
+        " {temperature: 20 degC, factor: 1}]}}}\n",
+        *(4, 87, "brake.pad.temperature.points.1.temperature", "20 degC does not come", "must increase"),
+    ),
+    (
+        "a pad without friction",
+        HEAD + "brake: {pad: {speed: {points: [{speed: 0 km/h, factor: 0}]}}}\n",
+        *(4, 56, "brake.pad.speed.points.0.factor", "at least 0.1", "at least 0.1 and at most 5"),
+    ),
+    (
+        "a pad that brakes against nothing",
+        HEAD + "brake: {pad: {force: {numerator: 200 kN, denominator: 0 kN, reference: 15 kN}}}\n",
+        *(4, 55, "brake.pad.force.denominator", "at least 0.1 kN", "at least 0.1 kN and at most 1000 kN"),
+    ),
+    (
+        "a pad over a quantity that there is not",
+        HEAD + "brake: {pad: {extends: disc-pad, temprature: {points: []}}}\n",
+        *(4, 34, "brake.pad.temprature", "unknown key", "temperature"),
+    ),
+    (
+        "no such pad",
+        HEAD + "brake: {pad: disc-pads}\n",
+        *(4, 14, "brake.pad", "no pad 'disc-pads' in the library", "disc-pad"),
+    ),
+    (
+        "discs hotter than iron",
+        HEAD + "brake: {initial_disc_temperature: 1500 degC}\n",
+        *(4, 35, "brake.initial_disc_temperature", "at most 1200 degC", "-60 degC"),
+    ),
+    (
+        "discs of which the brake says nothing",
+        HEAD + "brake: {disc_temperature: modelled, system: {extends: ep-disc, disc: {thermal: null}}}\n",
+        *(
+            4,
+            27,
+            "brake.disc_temperature",
+            "brake.system.disc.thermal is missing",
+            "disc_temperature: constant",
+        ),
+    ),
+    (
         "kS above kA",
         HEAD + "rail: {condition: {extends: wet, reduction_slip: 0.5}}\n",
         *(4, 50, "rail.condition.reduction_slip", "kS = 0.5 exceeds kA = 0.30", "reduction_adhesion"),

@@ -139,3 +139,13 @@ def test_a_part_may_add_sources_of_its_own(head: str, loaded: Loaded) -> None:
     )
     assert case.scenario.controller.sources["bench"].text == "Bench test"
     assert case.scenario.controller.sources["chosen"].mark == "chosen"
+
+
+def test_a_library_part_that_extends_another_is_its_own_original(head: str, loaded: Loaded) -> None:
+    (named,) = loaded(head + "rail: {condition: wet-cleaning}\nbrake: {system: distributor}\n")
+    assert named.scenario.rail.condition.based_on == "wet-cleaning"
+    assert named.scenario.rail.condition.original.cleaning is not None
+    (changed,) = loaded(head + "rail: {condition: {extends: wet-cleaning, friction: 0.1}}\n")
+    assert changed.scenario.rail.condition.based_on == "wet-cleaning"
+    assert changed.scenario.rail.condition.original.friction == 0.3
+    assert changed.scenario.rail.condition.original.cleaning is not None

@@ -18,9 +18,13 @@ def cases() -> dict[str, Case]:
 
 def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
     assert list(cases) == [
+        "cleaned-rail-120",
+        *(f"cleaned-rail-80[carry_over={share}]" for share in ("0", "0.5", "1")),
         "dry-120",
+        *(f"fade-160[initial_disc_temperature={hot}degC]" for hot in (20, 250, 400)),
         "friction-step-120",
         "low-adhesion-80",
+        *(f"radius-80[configured_radius={radius}m]" for radius in ("0.43", "0.4214")),
         "slide-80-four-caliper",
         *(f"slide-80[compensation={setting}]" for setting in COMPENSATION_SETTINGS),
         "slip-120",
@@ -65,7 +69,8 @@ def test_the_slide_tests_differ_in_the_rig_alone(cases: dict[str, Case]) -> None
 
 
 def test_only_the_bypassed_wsp_is_expected_to_fail(cases: dict[str, Case]) -> None:
-    assert [case.id for case in cases.values() if case.scenario.expect != "pass"] == ["wsp-bypassed-80"]
+    expected = {case.id: case.scenario.expect for case in cases.values() if case.scenario.expect != "pass"}
+    assert expected == {"cleaned-rail-120": "invalid", "wsp-bypassed-80": "fail"}
     assert cases["wsp-bypassed-80"].scenario.rig.wsp == "bypassed"
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from uictest.rig import simulate
 from uictest.scenario import Case, ScenarioErrors, load
-from uictest.scenario.stability import StepLimit, limit_of_air, limit_of_vehicle
+from uictest.scenario.stability import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -31,7 +31,8 @@ def stop(tmp_path: Path) -> Load:
 def air_limit(case: Case) -> StepLimit:
     system = case.scenario.brake.system
     smallest = min(float(system.tank.volume), case.scenario.tank_volume_with_caliper)
-    return limit_of_air(system, case.scenario.rig.caliper, smallest)
+    valve = ValveConductances(system.wsp_valve.fill_conductance, system.wsp_valve.vent_conductance)
+    return limit_of_air(system, case.scenario.rig.caliper, smallest, [valve] * 4)
 
 
 def swing(case: Case, channel: str) -> float:
@@ -71,6 +72,7 @@ def test_no_pressure_swings_just_inside_the_limit(stop: Load, changed: str, chan
         ("brake.system.relay_valve.proportional_band=0.005 bar", "the air in the brake line"),
         ("brake.system.brake_line.volume=0.1 L", "the air in the brake line"),
         ("brake.system.wsp_valve.fill_conductance=1e-5 m3/(s Pa)", "the air in"),
+        ("vehicle.wheelsets.3.wsp_valve.fill_conductance=2e-6 m3/(s Pa)", "the air in a tank"),
         ("brake.system.reservoir.volume=0.2 L", "the air in the reservoir"),
         ("rig.caliper.viscous_friction=0 N s/m", "the free piston of the caliper"),
     ],

@@ -9,7 +9,7 @@ import pytest
 from uictest.studies import STUDIES, StudyResult
 from uictest.studies.comparison import band_text, ours_text
 
-_SLOW = frozenset({"compensation-domain", "robustness"})
+_SLOW = frozenset({"compensation-domain", "field-against-rig", "robustness"})
 
 BOUNDED = [
     pytest.param(name, quantity.key, id=f"{name}-{quantity.key}", marks=[pytest.mark.slow] * (name in _SLOW))

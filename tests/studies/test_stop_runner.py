@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from uictest import rig
 from uictest.scenario import Case, load
 from uictest.studies import StopRunner, stop_runner
 from uictest.studies.stop_runner import seeded
@@ -70,3 +71,20 @@ def test_studies_stop_on_the_rail_of_the_shipped_scenario(name: str) -> None:
     for mine, theirs in zip(own, shipped, strict=True):
         for part in ("initial_speed", "brake", "rail", "rig", "vehicle"):
             assert getattr(mine.scenario, part) == getattr(theirs.scenario, part)
+
+
+def test_stops_in_lanes_have_the_bits_of_stops_alone(stop_runner: StopRunner) -> None:
+    """Rails with one point and with several, side by side."""
+    step = "{interpolation: steps, points: [{position: 0 m, friction: 0.3}, {position: 90 m, friction: 0.1}]}"
+    cases = [
+        *stop_runner.cases("slide-80", "rail.friction=0.14,0.17"),
+        *stop_runner.cases("slide-80", f"rail.friction={step}"),
+    ]
+    for case, stop in zip(cases, stop_runner.in_lanes(cases), strict=True):
+        alone = rig.simulate(case)
+        assert stop.measures.tobytes() == alone.measures.tobytes()
+        assert stop.wheelset_measures.tobytes() == alone.wheelset_measures.tobytes()
+
+
+def test_no_stops_in_lanes_are_none(stop_runner: StopRunner) -> None:
+    assert stop_runner.in_lanes([]) == []

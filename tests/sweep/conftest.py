@@ -45,7 +45,10 @@ def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
 
 
 def formula(
-    parameters: NDArray[Any], rail: NDArray[np.float64], controllers: Sequence[Controller]
+    parameters: NDArray[Any],
+    wheelset_parameters: NDArray[Any],
+    rail: NDArray[np.float64],
+    controllers: Sequence[Controller],
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
     measures = np.zeros(parameters.size, STOP_MEASURES)

@@ -14,7 +14,7 @@ static inline void begin_wheelset(WheelsetMeasures *m)
     m->first_sliding_time = NAN;
     m->sliding_duration = m->locked_time = m->longest_lock = m->lock = 0.0;
     m->valve_actuations = m->venting = m->maximum_clamping_force = 0.0;
-    m->air_vented = NAN;
+    m->air_vented = m->maximum_disc_temperature = NAN;
 }
 
 static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Parameters *p, int place, double time,

@@ -4,19 +4,33 @@
 #include "../physics/vehicle.h"
 #include "records.h"
 
-#define FRAME_ENERGY(frame, mass, inertia, p)                                                            \
-    (kinetic_energy((mass), (frame)->speed) + kinetic_energy((mass), (frame)->vertical_speed) +          \
-     kinetic_energy((inertia), (frame)->pitch_rate) + (mass) * (p)->gravity * (p)->gradient * (frame)->position)
+/* Position, height or pitch half a step ago. */
+static inline double behind(double position, double speed, const Parameters *p)
+{
+    return position - 0.5 * p->step * speed;
+}
+
+#define FRAME_ENERGY(frame, mass, inertia, p)                                                   \
+    (kinetic_energy((mass), (frame)->speed) + kinetic_energy((mass), (frame)->vertical_speed) + \
+     kinetic_energy((inertia), (frame)->pitch_rate) +                                           \
+     (mass) * (p)->gravity * ((p)->gradient * behind((frame)->position, (frame)->speed, (p))))
+
+#define PLACE(frame, above, p)                                 \
+    longitudinal(behind((frame)->position, (frame)->speed, p), \
+                 behind((frame)->pitch, (frame)->pitch_rate, p), (above))
+
+#define HEIGHT(frame, ahead, p)                                     \
+    vertical(behind((frame)->height, (frame)->vertical_speed, p),   \
+             behind((frame)->pitch, (frame)->pitch_rate, p), (ahead))
 
 static inline double joint_shift(const Car *car, const Bogie *bogie, double height, const Parameters *p)
 {
-    return longitudinal(car->position, car->pitch, height - p->body_height) -
-           longitudinal(bogie->position, bogie->pitch, height - p->bogie_height);
+    return PLACE(car, height - p->body_height, p) - PLACE(bogie, height - p->bogie_height, p);
 }
 
 static inline double secondary_energy(const Car *car, const Bogie *bogie, const Parameters *p)
 {
-    double rise = vertical(car->height, car->pitch, bogie->ahead) - bogie->height;
+    double rise = HEIGHT(car, bogie->ahead, p) - HEIGHT(bogie, 0.0, p);
     double energy = spring_energy(p->secondary_vertical_stiffness, rise);
     energy += spring_energy(p->secondary_longitudinal_stiffness, joint_shift(car, bogie, p->secondary_height, p));
     return energy + spring_energy(p->link_stiffness, joint_shift(car, bogie, p->link_height, p));
@@ -24,13 +38,14 @@ static inline double secondary_energy(const Car *car, const Bogie *bogie, const 
 
 static inline double wheelset_energy(const Wheelset *wheelset, const Bogie *bogie, const Parameters *p)
 {
-    double shift = wheelset->position - longitudinal(bogie->position, bogie->pitch, p->wheel_radius - p->bogie_height);
-    double rise = vertical(bogie->height, bogie->pitch, wheelset->ahead);
+    double position = behind(wheelset->position, wheelset->speed, p);
+    double shift = position - PLACE(bogie, wheelset->wheel_radius - p->bogie_height, p);
+    double rise = HEIGHT(bogie, wheelset->ahead, p);
     double springs = spring_energy(p->primary_longitudinal_stiffness, shift) +
                      spring_energy(p->primary_vertical_stiffness, rise);
     double motion =
         kinetic_energy(p->wheelset_mass, wheelset->speed) + kinetic_energy(p->wheelset_inertia, wheelset->rotation);
-    return springs + motion + p->wheelset_mass * p->gravity * p->gradient * wheelset->position;
+    return springs + motion + p->wheelset_mass * p->gravity * (p->gradient * position);
 }
 
 static inline double stored_energy(const Car *car, const Bogie *bogies, const Wheelset *wheelsets, const Parameters *p)

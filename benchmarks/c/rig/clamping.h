@@ -6,10 +6,10 @@
 
 OURS void step_caliper(Wheelset *wheelset, real gauge, const Parameters *p)
 {
-    real stroke = stroke_after(wheelset->stroke, gauge, p->piston_area, p->preload, p->coulomb_friction, p->clearance,
-                               p->piston_damping, p->contact_damping, p->squeezing_stiffness,
-                               p->releasing_stiffness, p->free_compliance, p->squeezing_compliance,
-                               p->releasing_compliance);
+    real stroke = stroke_after(wheelset->stroke, gauge, p->piston_area, p->preload, wheelset->coulomb_friction,
+                               p->clearance, p->piston_damping, p->contact_damping, wheelset->squeezing_stiffness,
+                               wheelset->releasing_stiffness, p->free_compliance, wheelset->squeezing_compliance,
+                               wheelset->releasing_compliance);
     wheelset->stroke_change = stroke - wheelset->stroke;
     wheelset->stroke = stroke;
     wheelset->caliper_force = clamping_force(stroke, p->clearance, p->contact_stiffness, p->lever_ratio);
@@ -46,12 +46,12 @@ OURS void step_clamping(Wheelset *wheelset, const Parameters *p)
 {
     real gauge = wheelset->pressure - p->atmospheric_pressure;
     step_caliper(wheelset, gauge, p);
-    real reading = analogue_reading(gauge, p->pressure_gain_error, p->pressure_offset, wheelset->pressure_error,
+    real reading = analogue_reading(gauge, wheelset->pressure_gain_error, wheelset->pressure_offset, wheelset->pressure_error,
                                     p->pressure_range, p->pressure_resolution, p->pressure_steps);
     wheelset->pressure_reading = reading;
     step_cylinder(wheelset, reading, p);
     step_hysteresis(wheelset, p);
-    real loadcells = analogue_reading(wheelset->caliper_force, p->loadcell_gain_error, p->loadcell_offset,
+    real loadcells = analogue_reading(wheelset->caliper_force, wheelset->loadcell_gain_error, wheelset->loadcell_offset,
                                       wheelset->loadcell_error, p->loadcell_range,
                                       p->loadcell_resolution, p->loadcell_steps);
     wheelset->clamping_force = choose(wheelset->has_caliper > 0.0, loadcells, wheelset->computed_force);

@@ -24,11 +24,12 @@ static inline double noise(const Parameters *p, int64_t cycle, int channel)
 static inline void read_module_sensors(Wheelset *wheelset, const Parameters *p, int64_t cycle, int place)
 {
     int channel = place * CHANNELS;
-    wheelset->pressure_error = p->pressure_noise * noise(p, cycle, channel + PRESSURE);
-    wheelset->loadcell_error = p->loadcell_noise * noise(p, cycle, channel + LOADCELL);
+    wheelset->pressure_error = wheelset->pressure_noise * noise(p, cycle, channel + PRESSURE);
+    wheelset->loadcell_error = wheelset->loadcell_noise * noise(p, cycle, channel + LOADCELL);
     wheelset->measured_speed =
-        speed_reading(wheelset->rotation * p->wheel_radius, p->tooth_pitch, p->timer_resolution, p->cycle_time,
-                      p->slowest_measured_speed, p->speed_noise * noise(p, cycle, channel + SPEED));
+        speed_reading(wheelset->rotation * wheelset->configured_radius, wheelset->tooth_pitch,
+                      wheelset->timer_resolution, p->cycle_time, wheelset->slowest_measured_speed,
+                      wheelset->speed_noise * noise(p, cycle, channel + SPEED) + wheelset->speed_gain_error);
 }
 
 static inline void command_valve(Wheelset *wheelset, const Parameters *p)
@@ -36,8 +37,8 @@ static inline void command_valve(Wheelset *wheelset, const Parameters *p)
     if (p->wsp_active == 0)
         wheelset->valve_command = FILL;
     wheelset->command_register = remember(wheelset->command_register, wheelset->valve_command);
-    int64_t before = command_before(wheelset->command_register, p->valve_delay_cycles + 1);
-    int64_t after = command_before(wheelset->command_register, p->valve_delay_cycles);
+    int64_t before = command_before(wheelset->command_register, wheelset->valve_delay_cycles + 1);
+    int64_t after = command_before(wheelset->command_register, wheelset->valve_delay_cycles);
     wheelset->fill_before = before == FILL;
     wheelset->fill_after = after == FILL;
     wheelset->vent_before = before == VENT;
@@ -51,7 +52,7 @@ static inline void read_sensors(Car *car, Wheelset *wheelsets, const Parameters 
 {
     for (int i = 0; i < 4; i++)
         read_module_sensors(&wheelsets[i], p, car->cycle, i);
-    car->line_pressure_error = p->pressure_noise * noise(p, car->cycle, LINE);
+    car->line_pressure_error = p->line_sensor_noise * noise(p, car->cycle, LINE);
 }
 
 static inline void start_cycle(Car *car, Wheelset *wheelsets, const Parameters *p, Rail rail)

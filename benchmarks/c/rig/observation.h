@@ -26,7 +26,8 @@ static inline void observe_cycle(const Car *car, const Wheelset *wheelsets, Meas
     }
     for (int i = 0; i < 4; i++)
         observe_wheelset(&wheelset_measures[i], measures, p, i + 1, car->time, car->speed,
-                         wheelsets[i].rotation * p->wheel_radius, wheelsets[i].venting, wheelsets[i].clamping_force);
+                         wheelsets[i].rotation * wheelsets[i].wheel_radius, wheelsets[i].venting,
+                         wheelsets[i].clamping_force);
     observe_train(measures, p, car->time, car->position, car->speed, reservoir);
 }
 

@@ -11,13 +11,13 @@ OURS real orifice(real pressure_1, real pressure_2, real coldness_1, real coldne
                      p->laminar_slope);
 }
 
-OURS void move_valve(Wheelset *wheelset, const Car *car, const Parameters *p)
+OURS void move_valve(Wheelset *wheelset, const Car *car)
 {
-    mask switched = car->substep >= p->valve_delay_steps;
+    mask switched = car->substep >= wheelset->valve_delay_steps;
     real fill_target = choose(switched, wheelset->fill_after, wheelset->fill_before);
     real vent_target = choose(switched, wheelset->vent_after, wheelset->vent_before);
-    wheelset->fill_opening = travel(wheelset->fill_opening, fill_target, p->valve_travel_per_step);
-    wheelset->vent_opening = travel(wheelset->vent_opening, vent_target, p->valve_travel_per_step);
+    wheelset->fill_opening = travel(wheelset->fill_opening, fill_target, wheelset->valve_travel_per_step);
+    wheelset->vent_opening = travel(wheelset->vent_opening, vent_target, wheelset->valve_travel_per_step);
 }
 
 /* Air that a vessel gains and loses in a step. */
@@ -27,12 +27,12 @@ typedef struct {
 
 OURS Flows step_valve(Wheelset *wheelset, const Car *car, const Parameters *p)
 {
-    move_valve(wheelset, car, p);
+    move_valve(wheelset, car);
     Flows flows;
     flows.gained = p->step * orifice(car->line_pressure, wheelset->pressure, car->line_coldness, wheelset->air_coldness,
-                                     p->fill_conductance * wheelset->fill_opening, p);
+                                     wheelset->fill_conductance * wheelset->fill_opening, p);
     flows.lost = p->step * orifice(wheelset->pressure, p->atmospheric_pressure, wheelset->air_coldness, p->air_coldness,
-                                   p->vent_conductance * wheelset->vent_opening, p);
+                                   wheelset->vent_conductance * wheelset->vent_opening, p);
     return flows;
 }
 

@@ -22,7 +22,8 @@
         real drag_ = (resistance) + gradient_force((mass), (p)->gradient, (p)->gravity); \
         (frame)->speed += (mass_response) * ((frame)->longitudinal_force - drag_);       \
         (frame)->vertical_speed += (mass_response) * (frame)->vertical_force;            \
-        (frame)->pitch_rate += (pitch_response) * (frame)->moment;                       \
+        (frame)->pitch_change = (pitch_response) * (frame)->moment;                      \
+        (frame)->pitch_rate += (frame)->pitch_change;                                    \
         (frame)->position += (p)->step * (frame)->speed;                                 \
         (frame)->height += (p)->step * (frame)->vertical_speed;                          \
         (frame)->pitch += (p)->step * (frame)->pitch_rate;                               \
@@ -60,7 +61,7 @@ OURS void couple_body(Car *car, Bogie *bogie, const Parameters *p)
 
 OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Parameters *p)
 {
-    real above = p->wheel_radius - p->bogie_height;
+    real above = wheelset->wheel_radius - p->bogie_height;
     real shift = wheelset->position - longitudinal(bogie->position, bogie->pitch, above);
     real rate = wheelset->speed - longitudinal(bogie->speed, bogie->pitch_rate, above);
     real pull = suspension_force(p->primary_longitudinal_stiffness, p->primary_longitudinal_damping, shift, rate);
@@ -74,8 +75,9 @@ OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
                                       p->primary_vertical_damping * rise_rate * rise_rate);
     wheelset->thrust = -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
     wheelset->wheel_load = maximum(fma(-0.5, lift, p->static_wheel_load), LOWEST_LOAD * p->reference_load);
-    wheelset->torque = brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
-                                    p->pad_friction, p->disc_radius);
+    wheelset->torque =
+        wheelset->brake_force * brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
+                                             wheelset->pad_friction, p->disc_radius);
 }
 
 OURS void find_friction_limit(Wheelset *wheelset, const Parameters *p)
@@ -108,7 +110,7 @@ OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
                                  wheelset->limit_slope, wheelset->contact_stiffness, p->reduction_adhesion,
                                  p->reduction_slip, &slope);
     wheelset->slip_estimate = refined_slip(wheelset->slip_estimate, &wheelset->lowest_slip, &wheelset->highest_slip,
-                                           wheelset->free_slip, p->slip_response, force, slope);
+                                           wheelset->free_slip, wheelset->slip_response, force, slope);
     return 2.0 * force;
 }
 
@@ -116,16 +118,16 @@ OURS void bracket_slip(Wheelset *wheelset, const Parameters *p)
 {
     real load_ratio = minimum(wheelset->wheel_load * p->load_scale, number(HIGHEST_LOAD));
     wheelset->contact_stiffness = contact_stiffness(p->creep_stiffness, load_ratio);
-    real slip = fma(-p->wheel_radius, wheelset->rotation, wheelset->speed);
+    real slip = fma(-wheelset->wheel_radius, wheelset->rotation, wheelset->speed);
     real braking = turning_direction(wheelset->rotation, wheelset->speed) * wheelset->torque;
     real pushed = fma(p->mass_response, wheelset->thrust, slip);
-    real free_slip = fma(p->inertia_response * p->wheel_radius, braking, pushed);
+    real free_slip = fma(p->inertia_response * wheelset->wheel_radius, braking, pushed);
     real direction = choose(free_slip < 0.0, number(-1.0), number(1.0));
     wheelset->slip_direction = direction;
     wheelset->free_slip = direction * free_slip;
     wheelset->highest_slip = wheelset->free_slip;
     wheelset->lowest_slip =
-        lowest_slip(wheelset->free_slip, p->slip_response, wheelset->wheel_load, wheelset->friction);
+        lowest_slip(wheelset->free_slip, wheelset->slip_response, wheelset->wheel_load, wheelset->friction);
     wheelset->slip_estimate = maximum(direction * slip, number(0.0));
 }
 
@@ -135,24 +137,32 @@ OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
     real rotation = wheelset->rotation;
     real direction = turning_direction(rotation, speed);
     real slip_change = wheelset->free_slip - wheelset->slip_estimate;
-    real turning_creep = wheelset->slip_direction * slip_change * p->slip_stiffness;
-    real moment = fma(p->wheel_radius, turning_creep, -direction * wheelset->torque);
+    real turning_creep = wheelset->slip_direction * slip_change * wheelset->slip_stiffness;
+    real moment = fma(wheelset->wheel_radius, turning_creep, -direction * wheelset->torque);
     real turned = fma(p->inertia_response, moment, rotation);
     mask locked = turned * direction <= 0.0;
     real free_speed = fma(p->mass_response, wheelset->thrust, speed);
     real sliding_creep = locked_force(speed, free_speed, wheelset->sliding_force, p->mass_response);
-    real holding = fma(p->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
+    real holding = fma(wheelset->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
     real creep = choose(locked, sliding_creep, turning_creep);
     real braking = choose(locked, holding, direction * wheelset->torque);
     wheelset->creep_force = creep;
     wheelset->speed = fma(-p->mass_response, creep, free_speed);
     wheelset->rotation = choose(locked, number(0.0), turned);
     wheelset->position += p->step * wheelset->speed;
-    wheelset->slip_speed = fma(-p->wheel_radius, wheelset->rotation, wheelset->speed);
+    wheelset->slip_speed = fma(-wheelset->wheel_radius, wheelset->rotation, wheelset->speed);
     real turning = 0.5 * (rotation + wheelset->rotation);
-    wheelset->brake_heat += p->step * braking * (turning + bogie->pitch_rate);
-    wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - p->wheel_radius * turning);
+    wheelset->angle += p->step * turning;
+    wheelset->braking = braking;
+    wheelset->disc_rotation = turning + bogie->pitch_rate;
+    wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - wheelset->wheel_radius * turning);
     bogie->moment -= braking;
+}
+
+OURS void heat_disc(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
+{
+    real rubbing = fma(number(0.5), bogie->pitch_change, wheelset->disc_rotation);
+    wheelset->brake_heat += p->step * wheelset->braking * rubbing;
 }
 
 OURS void step_body(Car *car, const Parameters *p)

@@ -18,8 +18,11 @@ static inline void start_supply(Car *car, const Parameters *p)
 static inline void start_wheelset(Wheelset *wheelset, const Parameters *p)
 {
     wheelset->speed = p->initial_speed;
-    wheelset->rotation = p->initial_speed / p->wheel_radius;
+    wheelset->rotation = p->initial_speed / wheelset->wheel_radius;
     wheelset->wheel_load = p->static_wheel_load;
+    wheelset->pad_friction = wheelset->reference_pad_friction;
+    wheelset->disc_temperature = p->initial_disc_temperature;
+    wheelset->disc_surface_temperature = p->initial_disc_temperature;
 }
 
 static inline void start_module(Wheelset *wheelset, double has_caliper, const Parameters *p)
@@ -40,7 +43,8 @@ static inline void start_module(Wheelset *wheelset, double has_caliper, const Pa
     wheelset->pressure_ratio = 1.0;
 }
 
-static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
+static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p,
+                         const WheelsetParameters *wheelset_parameters)
 {
     car->speed = p->initial_speed;
     start_supply(car, p);
@@ -50,6 +54,7 @@ static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Par
     }
     for (int i = 0; i < 4; i++) {
         double side = 1.0 - 2.0 * (i % 2);
+        copy_wheelset_parameters(&wheelsets[i], &wheelset_parameters[i]);
         start_wheelset(&wheelsets[i], p);
         start_module(&wheelsets[i], i < p->calipers ? 1.0 : 0.0, p);
         wheelsets[i].ahead = side * p->half_wheelbase;

@@ -35,6 +35,8 @@ OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Param
         step_wheelset(&wheelsets[i], &bogies[i / 2], p);
     for (int j = 0; j < 2; j++)
         STEP_FRAME(&bogies[j], p->bogie_mass, p->bogie_mass_response, p->bogie_pitch_response, number(0.0), p);
+    for (int i = 0; i < 4; i++)
+        heat_disc(&wheelsets[i], &bogies[i / 2], p);
     step_body(car, p);
 }
 

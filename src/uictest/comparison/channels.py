@@ -10,9 +10,9 @@ from typing import Final
 from uictest import recording
 from uictest.report import PLOT_QUANTITIES, channel_names
 from uictest.scenario.yaml import nearest
-from uictest.units import SIZES
+from uictest.units import CELSIUS_ZERO, SIZES
 
-_SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN"})
+_SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN", "K": "degC"})
 """Unit of a recording -> unit that every page shows it in."""
 _PER_CENT: Final = frozenset(
     name for key, quantity in PLOT_QUANTITIES.items() if quantity.unit == "%" for name in channel_names(key)
@@ -21,13 +21,17 @@ _PER_CENT: Final = frozenset(
 
 
 def in_shown_units(record: recording.Recording) -> recording.Recording:
-    """Return a recording in the units of the page: km/h, bar, kN, slides in %."""
+    """Return a recording in the units of the page: km/h, bar, kN, degC, slides in %."""
     units = {name: _shown_unit(name, unit) for name, unit in record.units.items()}
     channels = {
-        name: samples if units[name] == record.units[name] else samples / SIZES[units[name]]
+        name: samples if units[name] == record.units[name] else _in_unit(samples, units[name])
         for name, samples in record.channels.items()
     }
     return recording.Recording(channels, units, record.metadata)
+
+
+def _in_unit(samples: recording.Samples, unit: str) -> recording.Samples:
+    return samples - CELSIUS_ZERO if unit == "degC" else samples / SIZES[unit]
 
 
 def _shown_unit(channel: str, unit: str) -> str:

@@ -16,7 +16,8 @@ _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.w
 """Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
 _SECTIONS: Final = ("brake", "rail", "rig", "simulation")
-_FRICTION: Final = ("friction",)
+_RAIL_OVERRIDES: Final = ("friction", "cleaning")
+"""Keys of the rail that replace what the rail condition has under the same name."""
 
 
 class EffectiveParts:
@@ -33,7 +34,7 @@ class EffectiveParts:
             own = tuple(_section(scenario, name))
             parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
         for kind, key in _PARTS.items():
-            overridden = _FRICTION if kind == "rail" and scenario.rail.friction is not None else ()
+            overridden = _overridden(scenario) if kind == "rail" else ()
             parts[kind] = self.part(_at(scenario, key), kind, key, overridden)
         return parts | self._criteria(scenario)
 
@@ -50,7 +51,7 @@ class EffectiveParts:
         }
 
     def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
-        """Return one part that stands at `key`, without the parameter that the scenario overrides."""
+        """Return one part that stands at `key`, without the keys that the scenario overrides."""
         kept = self._computed.get((id(part), overridden))
         if kept is None:
             kept = part, _effective(part, kind, key, overridden)
@@ -65,10 +66,10 @@ class EffectiveParts:
 
 
 def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePart:
-    values, original = dict(values_in(part)), dict(values_in(part.original))
-    if overridden:
-        for settings in (values, original):
-            settings.pop(overridden, None)
+    values, original = (
+        {place: value for place, value in values_in(each) if place[0] not in overridden}
+        for each in (part, part.original)
+    )
     above = f"{key}." if key else ""
     library = original if part.original else None
     parameters = tuple(
@@ -79,6 +80,10 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
     used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
     return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
+
+
+def _overridden(scenario: Scenario) -> Key:
+    return tuple(name for name in _RAIL_OVERRIDES if getattr(scenario.rail, name) is not None)
 
 
 def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list[Key]:
@@ -105,8 +110,9 @@ def _stop(scenario: Scenario) -> Iterator[Parameter]:
 
 
 def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
-    # A friction that is left out is the condition's.
-    defaults = {"friction": scenario.rail.condition.friction} if name == "rail" else {}
+    # What the rail leaves out is the condition's.
+    of_condition = _RAIL_OVERRIDES if name == "rail" else ()
+    defaults = {key: getattr(scenario.rail.condition, key) for key in of_condition}
     return _own(getattr(scenario, name), f"{name}.", defaults)
 
 

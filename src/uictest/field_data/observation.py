@@ -72,6 +72,7 @@ class _Samples:
     wheel_speed: list[list[float]]
     venting: list[list[float]]
     force: list[list[float]]
+    disc_temperature: list[list[float]]
 
 
 def _samples_of(recording: Recording) -> _Samples:
@@ -84,6 +85,7 @@ def _samples_of(recording: Recording) -> _Samples:
         [_channel(recording, f"wheel_speed_{n}").tolist() for n in WHEELSETS],
         [_venting(_channel(recording, f"valve_command_{n}")).tolist() for n in WHEELSETS],
         [_channel(recording, f"clamping_force_{n}").tolist() for n in WHEELSETS],
+        [_channel(recording, f"disc_surface_temperature_{n}").tolist() for n in WHEELSETS],
     )
 
 
@@ -125,6 +127,7 @@ def _observe_wheelset(samples: _Samples, k: int, i: int, wheelset: Any, train: A
         wheel_speed,
         samples.venting[i][k],
         samples.force[i][k],
+        samples.disc_temperature[i][k],
     )
     if isnan(speed - wheel_speed):
         # A lock before a gap and one after it need not be the same lock.

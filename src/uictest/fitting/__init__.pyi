@@ -1,4 +1,9 @@
+from .cleaning_fit import CleaningFit as CleaningFit, fit_cleaning as fit_cleaning
 from .estimate import Fit as Fit, fit_stop as fit_stop
-from .outputs import fit_document as fit_document, fitted_yaml as fitted_yaml
-from .overlay import agreement as agreement, overlay as overlay
-from .samples import FitError as FitError
+from .outputs import (
+    cleaning_document as cleaning_document,
+    fit_document as fit_document,
+    fitted_yaml as fitted_yaml,
+)
+from .overlay import Agreement as Agreement, agreement as agreement, overlay as overlay
+from .samples import FitError as FitError, initial_speed as initial_speed

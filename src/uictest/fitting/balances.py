@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.samples import StopSamples
+from uictest.fitting.samples import StopSamples, of_wheelsets
 from uictest.scenario import Scenario
 from uictest.units import STANDARD_GRAVITY
 
@@ -76,35 +76,35 @@ class Balances:
             self.windows, s, wheelset_creep(slip, s.speed, s.load, friction, self.scenario.rail.condition)
         )
 
-    def brake_impulse(self, brake_factor: float) -> Array | None:
+    def brake_impulse(self, brake_factor: float | Array) -> Array | None:
         """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
         s, wheelset = self.samples, self.scenario.vehicle.wheelset
         if s.torque is None:
             return None
-        turned = (
-            s.wheel_speed[:, self.windows.last] - s.wheel_speed[:, self.windows.first]
-        ) / wheelset.radius
+        radius = of_wheelsets(self.scenario, "wheel_radius")
+        turned = (s.wheel_speed[:, self.windows.last] - s.wheel_speed[:, self.windows.first]) / radius
         torque = brake_factor * over(self.windows, s, s.torque)
-        impulse: Array = (torque + wheelset.rotational_inertia * turned) / wheelset.radius
+        impulse: Array = (torque + wheelset.rotational_inertia * turned) / radius
         return impulse
 
-    def wheelset_residuals(self, friction: Array, brake_factor: float) -> Array:
-        """Return the residuals of the balances of sliding wheelsets."""
-        needed = self.brake_impulse(brake_factor)
-        if needed is None:
-            return np.empty(0)
-        usable = self.windows.sliding & ~self.windows.standing
-        residual = (self.rail_impulse(friction) - needed) / self._load_impulse()
-        return np.asarray(residual[usable])
+    def residuals(self, friction: Array, brake_factor: float | Array) -> tuple[Array, Array]:
+        """Return the residuals of the balances of sliding wheelsets, and of the train.
 
-    def train_residuals(self, friction: Array, brake_factor: float) -> Array:
-        """Return the residuals of the train's balance, in windows in which all impulses are known."""
+        The train's are those of windows in which all impulses are known.
+
+        Args:
+            friction: initial friction coefficient under each wheelset, (4, n).
+            brake_factor: on the torque of the brakes, one or (4, 1).
+        """
         by_rail, by_brake = self.rail_impulse(friction), self.brake_impulse(brake_factor)
-        sliding = self.windows.sliding
-        impulse = by_rail if by_brake is None else np.where(sliding, by_rail, by_brake)
-        known = sliding.all(axis=0) if by_brake is None else (sliding | ~self.windows.standing).all(axis=0)
-        residual = (impulse.sum(axis=0) - self.lost_momentum()) / self._load_impulse().sum(axis=0)
-        return np.asarray(residual[known])
+        load, sliding, standing = self._load_impulse(), self.windows.sliding, self.windows.standing
+        if by_brake is None:
+            of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)
+        else:
+            of_wheelsets = ((by_rail - by_brake) / load)[sliding & ~standing]
+            impulse, known = np.where(sliding, by_rail, by_brake), (sliding | ~standing).all(axis=0)
+        of_train = (impulse.sum(axis=0) - self.lost_momentum()) / load.sum(axis=0)
+        return of_wheelsets, np.asarray(of_train[known])
 
     def lost_momentum(self) -> Array:
         """Return the impulse of the rails by the deceleration of the train, N s, (k,)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
@@ -11,9 +11,10 @@ from typing import Any, Final
 import yaml
 
 from uictest import evaluation, library
+from uictest.fitting.cleaning_fit import CleaningFit
 from uictest.fitting.estimate import Fit
 from uictest.fitting.overlay import Agreement
-from uictest.scenario import EXPANSION_KEYS, PART_KEYS, Case, Scenario
+from uictest.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, Scenario
 from uictest.scenario.yaml import dotted
 
 SCHEMA: Final = "uictest/fit/1"
@@ -21,7 +22,15 @@ _DIGITS: Final = 5
 _LONGEST_NAME: Final = 90
 
 
-def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: Path, folder: Path) -> str:
+def fitted_yaml(
+    case: Case,
+    statements: Mapping[str, str],
+    fit: Fit,
+    scenario: Path,
+    folder: Path,
+    cleaning: CleaningFit | None = None,
+    stop: tuple[str, str] | None = None,
+) -> str:
     """Return the text of a scenario that extends `scenario` from `folder` and states the fitted friction.
 
     Args:
@@ -30,15 +39,17 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
         fit: the fitted values.
         scenario: file of the case.
         folder: folder of the new file.
+        cleaning: how sliding cleans the rail, if that was fitted.
+        stop: name and initial speed of the stop, where there are several.
 
     Raises ValueError where a value cannot be written below a part that the scenario only refers to.
 
     """
     content: dict[str, Any] = {
         "schema": "uictest/scenario/1",
-        "name": f"{case.scenario.name[:_LONGEST_NAME]}-fitted",
+        "name": _name(case.scenario.name, stop),
         "title": f"{case.scenario.name} with the friction of a recorded stop",
-        "description": "\n".join(_account(fit)),
+        "description": "\n".join(_account(fit, cleaning)),
         "extends": Path(os.path.relpath(scenario, folder)).as_posix(),
         "expect": case.scenario.expect,
         **dict.fromkeys(EXPANSION_KEYS),
@@ -47,6 +58,10 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
         _assign(content, key, yaml.safe_load(value))
     _assign(content, "rail.friction", friction_of(fit, case.scenario))
     _assign(content, "rail.friction_over_time", None)
+    if cleaning is not None:
+        _assign(content, "rail.cleaning", _numbers_of(cleaning.in_force))
+    if stop is not None:
+        _assign(content, "initial_speed", stop[1])
     if fit.pad_factor is not None:
         content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
@@ -71,9 +86,26 @@ def friction_of(fit: Fit, scenario: Scenario) -> float | dict[str, Any]:
     return {"points": points, "interpolation": "steps"}
 
 
-def _account(fit: Fit) -> list[str]:
+def _name(scenario: str, stop: tuple[str, str] | None) -> str:
+    if stop is None:
+        return f"{scenario[:_LONGEST_NAME]}-fitted"
+    half = _LONGEST_NAME // 2
+    return f"{scenario[:half]}-fitted-{stop[0][:half]}"
+
+
+def _numbers_of(cleaning: Cleaning) -> dict[str, str | float]:
+    return {
+        "energy": cleaning.energy.text,
+        "recovered_friction": float(cleaning.recovered_friction),
+        "reach": cleaning.reach.text,
+        "carry_over": float(cleaning.carry_over),
+    }
+
+
+def _account(fit: Fit, cleaning: CleaningFit | None) -> list[str]:
     pads = [] if fit.pad_factor is None else [fit.pad_factor]
-    return ["Fitted to a recorded stop.", *(str(estimate) for estimate in (*fit.friction, *pads))]
+    cleaned = [] if cleaning is None else [cleaning.estimate]
+    return ["Fitted to a recorded stop.", *(str(estimate) for estimate in (*fit.friction, *pads, *cleaned))]
 
 
 def _assign(content: dict[str, Any], key: str, value: Any) -> None:
@@ -105,6 +137,25 @@ def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dic
         "fit": asdict(fit),
         "agreement": asdict(agreement),
         "preparation": choices,
+    }
+    form: dict[str, Any] = evaluation.json_form(document)
+    return form
+
+
+def cleaning_document(
+    fit: CleaningFit, names: Sequence[str], agreements: Sequence[Agreement], choices: Sequence[dict[str, str]]
+) -> dict[str, Any]:
+    """Return the cleaning and what belongs to each stop: its fit, agreement and preparation; NaN as None."""
+    stops = zip(names, fit.stops, agreements, choices, strict=True)
+    document = {
+        "schema": SCHEMA,
+        "determined": fit.determined,
+        "cleaning": asdict(fit.estimate),
+        "in_force": _numbers_of(fit.in_force),
+        "stops": [
+            {"name": name, "fit": asdict(each), "agreement": asdict(agreement), "preparation": choice}
+            for name, each, agreement, choice in stops
+        ],
     }
     form: dict[str, Any] = evaluation.json_form(document)
     return form

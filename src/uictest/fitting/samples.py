@@ -11,7 +11,7 @@ from uictest import field_data
 from uictest.field_data import WHEELSETS
 from uictest.fitting.wheel_loads import wheel_loads
 from uictest.recording import TIME, Recording
-from uictest.scenario import BrakeSystem, Scenario
+from uictest.scenario import WHEELSET_NUMBERS, Scenario, wheelset_value
 
 Array = NDArray[np.float64]
 _SMOOTHING = 0.1
@@ -73,7 +73,7 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples
         slip,
         np.asarray(recording["distance"])[part] - _behind(scenario)[:, None],
         wheel_loads(scenario.vehicle, -np.gradient(_smoothed(speed, 5 * width), time)),
-        _torque(recording, scenario.brake.system, part),
+        _torque(recording, scenario, part, width),
         (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed),
         wheels < 2.0 * definition.locked_speed,
     )
@@ -111,12 +111,30 @@ def _behind(scenario: Scenario) -> Array:
     return np.array([0.0, base, pivots, pivots + base])
 
 
-def _torque(recording: Recording, system: BrakeSystem, part: slice) -> Array | None:
-    """Return the brake torque by the clamping forces and the scenario's pads, else as recorded."""
-    disc = system.disc
-    per_force = disc.calipers_per_wheelset * disc.pads_per_caliper * disc.pad_friction * disc.mean_radius
-    for kind, factor in (("clamping_force", per_force), ("brake_torque", 1.0)):
+def of_wheelsets(scenario: Scenario, name: str) -> Array:
+    """Return a value of each wheelset by its name below ``vehicle.wheelsets.N``, SI, shape (4, 1)."""
+    return np.array([[float(wheelset_value(scenario, number, name))] for number in WHEELSET_NUMBERS])
+
+
+def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -> Array | None:
+    """Return the brake torque by the clamping forces and the scenario's pads, else as recorded.
+
+    It is averaged like the speeds, so that both sides of a balance are. Of pads that vary with speed or
+    temperature the forces alone do not say the torque.
+    """
+    disc = scenario.brake.system.disc
+    pads = of_wheelsets(scenario, "pad_friction") * of_wheelsets(scenario, "brake_force")
+    per_force = disc.calipers_per_wheelset * disc.pads_per_caliper * disc.mean_radius * pads
+    sources = (("clamping_force", per_force), ("brake_torque", np.ones_like(per_force)))
+    for kind, factor in sources[1:] if scenario.brake.pad.varies else sources:
         names = [f"{kind}_{n}" for n in WHEELSETS]
         if all(name in recording.channels and np.isfinite(recording[name]).all() for name in names):
-            return factor * np.array([np.asarray(recording[name])[part] for name in names])
+            samples = [_smoothed(np.asarray(recording[name])[part], width) for name in names]
+            return np.asarray(factor * np.array(samples))
     return None
+
+
+def initial_speed(stop: field_data.RecordedStop) -> float:
+    """Return the speed of the train at the brake command, m/s: the mean of the first samples."""
+    time = np.asarray(stop.recording[TIME])
+    return float(np.mean(stop.recording["speed"][time <= _SMOOTHING]))

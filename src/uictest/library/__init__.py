@@ -14,6 +14,7 @@ FOLDERS: Final = (
     "controllers",
     "criteria",
     "measures",
+    "pads",
     "rails",
     "sensors",
     "vehicles",

@@ -55,6 +55,7 @@ class WheelsetMeasures(Record):
     venting: float  # 1 while the vent is commanded open
     maximum_clamping_force: float  # of one caliper, N
     air_vented: float  # kg
+    maximum_disc_temperature: float  # of the friction surface, where modelled, K
 
 
 class MeasureDefinition(Record):

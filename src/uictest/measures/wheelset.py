@@ -1,4 +1,4 @@
-"""Measures of one wheelset: slide, locks, valve actuations, clamping force."""
+"""Measures of one wheelset: slide, locks, valve actuations, clamping force, disc temperature."""
 
 from uictest.measures.records import SPEED_CLASSES, MeasureDefinition, StopMeasures, WheelsetMeasures
 from uictest.physics import maximum, minimum, select
@@ -21,6 +21,7 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.venting = 0.0
     measures.maximum_clamping_force = 0.0
     measures.air_vented = NAN
+    measures.maximum_disc_temperature = NAN
 
 
 def begin_slides(measures: WheelsetMeasures) -> None:
@@ -39,6 +40,7 @@ def observe_wheelset(
     wheel_speed: float,
     venting: float,
     clamping_force: float,
+    disc_temperature: float,
 ) -> None:
     """Observe the next sample of wheelset ``number`` (1..4), before the train's.
 
@@ -52,10 +54,15 @@ def observe_wheelset(
         wheel_speed: circumferential speed r omega, m/s.
         venting: 1.0 while the WSP valve is commanded to vent, else 0.0.
         clamping_force: of one caliper, N.
+        disc_temperature: of the friction surface of the discs, K; NaN where it is not known.
     """
     measures.valve_actuations += select(venting > measures.venting, 1.0, 0.0)
     measures.venting = venting
-    measures.maximum_clamping_force = maximum(measures.maximum_clamping_force, clamping_force)
+    # A sample that is NaN, where a recording has a gap, leaves the largest as it is.
+    measures.maximum_clamping_force = maximum(clamping_force, measures.maximum_clamping_force)
+    hottest = maximum(disc_temperature, measures.maximum_disc_temperature)
+    known = measures.maximum_disc_temperature >= 0.0  # false for the NaN before the first sample
+    measures.maximum_disc_temperature = select(known, hottest, disc_temperature)
     moves = speed > definition.moving_speed
     interval = time - train.end_time
     slip = speed - wheel_speed

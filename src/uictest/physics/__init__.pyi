@@ -14,6 +14,16 @@ from .caliper import (
 )
 from .cylinder import memory as memory, output as output
 from .disc_brake import torque as torque
+from .disc_temperature import (
+    MODES as MODES,
+    bulk_change as bulk_change,
+    cooled_heat as cooled_heat,
+    held_mode as held_mode,
+    held_rest as held_rest,
+    mode_after as mode_after,
+    mode_relaxation as mode_relaxation,
+    relaxed_share as relaxed_share,
+)
 from .flow import (
     REFERENCE_DENSITY as REFERENCE_DENSITY,
     coldness as coldness,
@@ -27,7 +37,12 @@ from .module_air import (
     pressure_volume_after as pressure_volume_after,
     travel_after as travel_after,
 )
-from .noise import bell as bell, threefry as threefry
+from .noise import bell as bell, threefry as threefry, uniform as uniform
+from .pad_friction import (
+    MOST_PAD_POINTS as MOST_PAD_POINTS,
+    quotient_factor as quotient_factor,
+    quotient_scale as quotient_scale,
+)
 from .polach import (
     contact_stiffness as contact_stiffness,
     creep_force as creep_force,
@@ -35,7 +50,19 @@ from .polach import (
     friction_limit as friction_limit,
     stress_gradient as stress_gradient,
 )
+from .pole_wheel import (
+    last_tooth as last_tooth,
+    passed_turns as passed_turns,
+    passing_rate as passing_rate,
+    speed_of_teeth as speed_of_teeth,
+    time_since as time_since,
+)
 from .rail import interpolated as interpolated
+from .rail_cleaning import (
+    cleaned_friction as cleaned_friction,
+    cleaned_share as cleaned_share,
+    share_left_behind as share_left_behind,
+)
 from .reservoir import compressor_running as compressor_running, isothermal_pressure as isothermal_pressure
 from .resistance import gradient_force as gradient_force, running_resistance as running_resistance
 from .sensors import analogue_reading as analogue_reading, speed_reading as speed_reading

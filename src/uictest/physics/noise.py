@@ -41,6 +41,11 @@ def _round(x: int, y: int, rotation: int) -> tuple[int, int]:
     return x, x ^ y
 
 
+def uniform(words: tuple[int, int]) -> float:
+    """Number between 0 and 1 from the first of two words of random bits."""
+    return (words[0] + 0.5) * (_SCALE * _SCALE)
+
+
 def bell(word_0: int, word_1: int) -> float:
     """Bell-shaped number of mean 0 and variance 1, within +-3.47: the scaled sum of four uniform numbers.
 

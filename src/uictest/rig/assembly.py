@@ -1,7 +1,7 @@
 """From a case, as a user wrote it, to the numbers that the rig steps."""
 
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -16,8 +16,11 @@ from uictest.rig.derived_parameters import (
     friction_along_track,
     friction_factor_over_time,
 )
+from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
+from uictest.rig.disc_parameters import DISC_BRAKE
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.parameters import PARAMETERS, Parameters
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.scenario import Case, Scenario
 
 
@@ -26,26 +29,36 @@ class StopInputs(NamedTuple):
 
     Attributes:
         parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
+        wheelset_parameters: four records of
+            :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
         rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
         controller: the WSP controller.
     """
 
     parameters: Any
+    wheelset_parameters: Any
     rail: NDArray[np.float64]
     controller: Controller
 
 
 def assemble(case: Case) -> StopInputs:
     """Return what the rig is given for the stop of a case."""
-    record = np.zeros(1, PARAMETERS)
+    record, wheelsets = np.zeros(1, PARAMETERS), np.zeros(4, WHEELSET_PARAMETERS)
     values = assigned(ASSIGNMENTS, case.scenario)
     values["case_key"] = zlib.crc32(case.id.encode())
-    missing = set(PARAMETERS.names or ()) ^ set(values)
+    _fill(record[0], values)
+    for place, assignments in enumerate(WHEELSET_ASSIGNMENTS):
+        _fill(wheelsets[place], assigned(assignments, case.scenario))
+    return StopInputs(record[0], wheelsets, friction_laws(case.scenario), controller_of(case.scenario))
+
+
+def _fill(record: Any, values: Mapping[str, float]) -> None:
+    """Set every field of a record."""
+    missing = set(record.dtype.names) ^ set(values)
     if missing:
         raise AssertionError(f"parameters without a value, or unknown: {', '.join(sorted(missing))}")
     for name, value in values.items():
         record[name] = value
-    return StopInputs(record[0], friction_laws(case.scenario), controller_of(case.scenario))
 
 
 def controller_of(scenario: Scenario) -> Controller:
@@ -53,8 +66,10 @@ def controller_of(scenario: Scenario) -> Controller:
     return CONTROLLERS[scenario.controller.algorithm]
 
 
-def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str, float]:
-    """Return the parameters that some of :data:`ASSIGNMENTS` set for a scenario."""
+def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str, Any]:
+    """Return the parameters that assignments set for a scenario: some of :data:`ASSIGNMENTS` or of those for
+    one wheelset, :data:`~uictest.rig.derived_wheelset_parameters.WHEELSET_ASSIGNMENTS`.
+    """
     parameters = Parameters()
     for assignment in assignments:
         assignment.apply(parameters, scenario)
@@ -92,6 +107,7 @@ def _set_controller(parameters: Parameters, scenario: Scenario) -> None:
 ASSIGNMENTS: tuple[Assignment, ...] = (
     *(_copying(field, source) for field, source in scenario_values(Parameters).items()),
     *DERIVED,
+    *DISC_BRAKE,
     Assignment(_set_controller, ("controller",)),
 )
 """What sets all parameters but `case_key`."""

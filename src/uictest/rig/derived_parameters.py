@@ -8,11 +8,13 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 from uictest.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
-from uictest.scenario import COMPENSATION_SETTINGS, Scenario
+from uictest.rig.model.rail_memory import MARGIN, POINTS
+from uictest.scenario import COMPENSATION_SETTINGS, WHEELSET_NUMBERS, Scenario, wheelset_value
 from uictest.units import STANDARD_GRAVITY
 
 _ALWAYS = 1.0
@@ -25,7 +27,7 @@ Set = Callable[[Parameters, Scenario], None]
 class Assignment:
     """What sets some fields of the parameters, and the keys of the scenario that it reads."""
 
-    apply: Set
+    apply: Callable[[Any, Scenario], None]
     keys: tuple[str, ...]
 
 
@@ -95,18 +97,6 @@ def _air(p: Parameters, scenario: Scenario) -> None:
     p.air_coldness = coldness(float(air.temperature))
 
 
-@_reads("brake.system.wsp_valve", "simulation.time_step", "controller.cycle_time")
-def _wsp_valve(p: Parameters, scenario: Scenario) -> None:
-    """Travel per step; switching delay in whole controller cycles and the steps that remain."""
-    valve = scenario.brake.system.wsp_valve
-    step = float(scenario.simulation.time_step)
-    steps_per_cycle = round(float(scenario.controller.cycle_time) / step)
-    p.valve_travel_per_step = min(step / max(float(valve.travel_time), step), 1.0)
-    p.valve_delay_cycles, p.valve_delay_steps = divmod(
-        round(float(valve.switching_delay) / step), steps_per_cycle
-    )
-
-
 @_reads("brake.system.caliper_tank", "brake.system.tank")
 def _caliper_tank(p: Parameters, scenario: Scenario) -> None:
     system = scenario.brake.system
@@ -128,15 +118,7 @@ def _walls(p: Parameters, scenario: Scenario) -> None:
 @_reads("rig.caliper", "simulation.time_step")
 def _caliper(p: Parameters, scenario: Scenario) -> None:
     caliper = scenario.rig.caliper
-    (
-        p.piston_damping,
-        p.contact_damping,
-        p.squeezing_stiffness,
-        p.releasing_stiffness,
-        p.free_compliance,
-        p.squeezing_compliance,
-        p.releasing_compliance,
-    ) = stiffnesses(
+    p.piston_damping, p.contact_damping, _, _, p.free_compliance, _, _ = stiffnesses(
         float(caliper.spring_rate),
         float(caliper.load_friction),
         float(caliper.viscous_friction),
@@ -205,12 +187,9 @@ def _wheelset(p: Parameters, scenario: Scenario) -> None:
     step = float(scenario.simulation.time_step)
     by_mass = step / wheelset.mass
     by_inertia = step / wheelset.rotational_inertia
-    slip_response = by_mass + wheelset.radius * wheelset.radius * by_inertia
     p.mass_response = by_mass
     p.inertia_response = by_inertia
     p.inertia_stiffness = 1.0 / by_inertia
-    p.slip_response = slip_response
-    p.slip_stiffness = 1.0 / slip_response
 
 
 @_reads("vehicle")
@@ -232,9 +211,28 @@ def _friction(p: Parameters, scenario: Scenario) -> None:
     p.friction_times = len(friction_factor_over_time(scenario))
 
 
-@_reads("rig.sensors.speed", "vehicle.wheelset")
-def _speed_sensor(p: Parameters, scenario: Scenario) -> None:
-    p.tooth_pitch = 2.0 * math.pi * scenario.vehicle.wheelset.radius / scenario.rig.sensors.speed.teeth
+@_reads("rail", "vehicle.bogie", "vehicle.half_pivot_distance")
+def _cleaning(p: Parameters, scenario: Scenario) -> None:
+    """Numbers of :mod:`uictest.physics.rail_cleaning`; zero where nothing is cleaned."""
+    cleaning = scenario.rail.cleaning_in_force
+    wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
+    largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)
+    p.rail_points_per_metre = (POINTS - MARGIN) / largest
+    p.cleans_rail = float(cleaning is not None)
+    p.cleaning_response = 0.0 if cleaning is None else 1.0 / cleaning.energy
+    p.cleaning_decay = 0.0 if cleaning is None else 1.0 / cleaning.reach
+    p.recovered_friction = 0.0 if cleaning is None else cleaning.recovered_friction
+    p.carry_over = 0.0 if cleaning is None else cleaning.carry_over
+
+
+@_reads("rig.sensors.speed", "vehicle.wheelsets")
+def _pole_wheels(p: Parameters, scenario: Scenario) -> None:
+    def differs(number: int) -> bool:
+        method = wheelset_value(scenario, number, "sensors.speed.method")
+        eccentricity = float(wheelset_value(scenario, number, "sensors.speed.eccentricity"))
+        return method != "momentary" or eccentricity > 0.0
+
+    p.uses_pole_wheels = float(any(map(differs, WHEELSET_NUMBERS)))
 
 
 def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:

@@ -9,7 +9,7 @@ from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.rig.assembly import assemble, controller_of
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop, stops_are_compiled
-from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+from uictest.rig.model.trace import CAR_CHANNELS, DISC_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario import Case
 
 
@@ -49,13 +49,15 @@ def is_compiled(cases: Iterable[Case]) -> bool:
 
 
 def _recording(case: Case, finished: FinishedStop) -> Recording:
-    """Return the channels of the train, then those of each wheelset."""
+    """Return the channels of the train, then those of each wheelset, without what is not modelled."""
     train, wheelsets = finished.trace
+    modelled = case.scenario.brake.models_disc_temperature
+    recorded = [each for each in WHEELSET_CHANNELS if modelled or each[0] not in DISC_CHANNELS]
     channels = {name: train[name].copy() for name, _ in CAR_CHANNELS}
     units = dict(CAR_CHANNELS)
     for i in range(4):
-        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name, _ in WHEELSET_CHANNELS}
-        units |= {f"{name}_{i + 1}": unit for name, unit in WHEELSET_CHANNELS}
+        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name, _ in recorded}
+        units |= {f"{name}_{i + 1}": unit for name, unit in recorded}
     return Recording(channels, units, _facts(case, finished))
 
 

@@ -22,13 +22,14 @@ from .part_keys import (
     with_default_parts as with_default_parts,
 )
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
-from .parts.brake import BrakeSystem as BrakeSystem
+from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, Compensation as Compensation
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.friction import FrictionProfile as FrictionProfile
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
-from .parts.rail import RailCondition as RailCondition
+from .parts.pad import PadLaw as PadLaw
+from .parts.rail import Cleaning as Cleaning, RailCondition as RailCondition
 from .parts.vehicle import Vehicle as Vehicle
 from .rail_friction import (
     CONDITION as CONDITION,
@@ -43,6 +44,11 @@ from .values import (
     is_changed as is_changed,
     mark_of as mark_of,
     values_in as values_in,
+)
+from .wheelset_values import (
+    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
+    wheelset_keys as wheelset_keys,
+    wheelset_value as wheelset_value,
 )
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

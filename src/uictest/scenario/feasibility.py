@@ -1,14 +1,23 @@
 """Limits of physics: the shortest stop and the largest brake force."""
 
 import math
+from collections.abc import Iterable
+from typing import NamedTuple
 
 from uictest import physics
 from uictest.scenario.parts.brake import Disc
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
-from uictest.scenario.parts.criteria import WHEELSET_COUNT
 from uictest.scenario.parts.vehicle import Vehicle
 from uictest.units import STANDARD_GRAVITY
+
+
+class BrakedWheelset(NamedTuple):
+    """What of a wheelset decides its brake force: a share, a coefficient and a radius in m."""
+
+    brake_force: float
+    pad_friction: float
+    wheel_radius: float
 
 
 def stopping_time_at_least(speed: float, friction: float, gradient: float, vehicle: Vehicle) -> float:
@@ -29,13 +38,12 @@ def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressur
     return max(caliper.lever_ratio * net, *(line.force(pressure) for line in lines))
 
 
-def braking_force(disc: Disc, vehicle: Vehicle, clamping_force: float) -> float:
+def braking_force(disc: Disc, wheelsets: Iterable[BrakedWheelset], clamping_force: float) -> float:
     """Return the force at the rims of all wheelsets, N, with ``clamping_force`` N at every caliper."""
-    torque = physics.torque(
-        clamping_force,
-        disc.calipers_per_wheelset,
-        disc.pads_per_caliper,
-        disc.pad_friction,
-        disc.mean_radius,
+    calipers, pads, radius = disc.calipers_per_wheelset, disc.pads_per_caliper, disc.mean_radius
+    return math.fsum(
+        each.brake_force
+        * physics.torque(clamping_force, calipers, pads, each.pad_friction, radius)
+        / each.wheel_radius
+        for each in wheelsets
     )
-    return WHEELSET_COUNT * torque / vehicle.wheelset.radius

@@ -11,6 +11,7 @@ from pydantic import Field
 from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.physics import LONGEST_DELAY_CYCLES
 from uictest.scenario.feasibility import (
+    BrakedWheelset,
     braking_force,
     largest_clamping_force,
     stopping_time_at_least,
@@ -20,8 +21,10 @@ from uictest.scenario.parts.controller import Controller
 from uictest.scenario.parts.criteria import Criteria
 from uictest.scenario.parts.measures import MeasureDefinitions
 from uictest.scenario.parts.vehicle import Vehicle
+from uictest.scenario.pole_wheels import impossible_pole_wheels
 from uictest.scenario.sections import Brake, Rail, Rig, Simulation
-from uictest.scenario.stability import limit_of_air, limit_of_vehicle
+from uictest.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
+from uictest.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
@@ -120,39 +123,45 @@ class Scenario(Model):
             yield Inconsistency(
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
+        yield from impossible_pole_wheels(self)
         yield from self._brake_too_strong()
         shortest = stopping_time_at_least(
-            self.initial_speed, self.rail.highest_friction, self.rail.gradient, self.vehicle
+            self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
         )
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)
 
     def _delay_too_long(self) -> Iterator[Inconsistency]:
         """Yield a switching delay of the valve that is longer than the rig remembers commands."""
-        delay, cycle = self.brake.system.wsp_valve.switching_delay, self.controller.cycle_time
-        step = self.simulation.time_step
-        if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
-            yield Inconsistency(
-                ("brake", "system", "wsp_valve", "switching_delay"),
-                f"{delay.text} is too long for controller cycles of {cycle.text}",
-                f"less than {LONGEST_DELAY_CYCLES + 1} cycles are accepted",
-            )
+        cycle, step = self.controller.cycle_time, self.simulation.time_step
+        for key, delay in distinct_values(self, "wsp_valve.switching_delay"):
+            if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
+                yield Inconsistency(
+                    key,
+                    f"{delay.text} is too long for controller cycles of {cycle.text}",
+                    f"less than {LONGEST_DELAY_CYCLES + 1} cycles are accepted",
+                )
 
     def _step_too_long(self) -> Iterator[Inconsistency]:
         """Yield a step that cannot follow the car on its springs, or the air behind its valves."""
         system = self.brake.system
         smallest_tank = min(float(system.tank.volume), self.tank_volume_with_caliper)
+        valves = [
+            ValveConductances(
+                *(wheelset_value(self, number, f"wsp_valve.{way}_conductance") for way in ("fill", "vent"))
+            )
+            for number in WHEELSET_NUMBERS
+        ]
         step = self.simulation.time_step
         for key, limit in (
             (("vehicle",), limit_of_vehicle(self.vehicle)),
-            (("brake", "system"), limit_of_air(system, self.rig.caliper, smallest_tank)),
+            (("brake", "system"), limit_of_air(system, self.rig.caliper, smallest_tank, valves)),
         ):
             if step > limit.longest:
                 yield Inconsistency(
                     key if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
                     f"a step of {step.text} is too long for {limit.of}: the simulation could become unstable",
-                    f"check {limit.keys}; with these simulation.time_step must be at most"
-                    f" {limit.longest * 1000.0:.3g} ms",
+                    limit.hint,
                 )
 
     def _brake_too_strong(self) -> Iterator[Inconsistency]:
@@ -162,14 +171,22 @@ class Scenario(Model):
             return  # reported by the brake itself
         pressure = self.brake.command * position.maximum_pressure
         force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
-        deceleration = braking_force(self.brake.system.disc, self.vehicle, force) / self.vehicle.total_mass
+        braking = self.brake.pad.largest_factor * braking_force(
+            self.brake.system.disc, self._wheelsets(), force
+        )
+        deceleration = braking / self.vehicle.total_mass
         if deceleration > STANDARD_GRAVITY:
             yield Inconsistency(
                 ("brake",),
                 f"the brake would slow this car of {self.vehicle.total_mass / 1000.0:.4g} t by"
                 f" {deceleration:.3g} m/s2; no rail carries more than {STANDARD_GRAVITY:.3g} m/s2",
-                "compare disc, caliper, compensation_model and maximum_pressure with the mass of the vehicle",
+                "compare disc, pad, caliper, compensation_model and maximum_pressure with the mass of the"
+                " vehicle",
             )
+
+    def _wheelsets(self) -> Iterator[BrakedWheelset]:
+        for number in WHEELSET_NUMBERS:
+            yield BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
 
     def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
         """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""
@@ -195,7 +212,7 @@ class Scenario(Model):
         return Inconsistency(
             ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
             f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
-            f"{least} with friction {self.rail.highest_friction:g} and this gradient",
+            f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
         )
 
     def _unresolved_cylinder(self) -> Iterator[Inconsistency]:

@@ -40,6 +40,7 @@ KIND_OF_FOLDER: Final = {
     "controllers": "controller",
     "criteria": "criteria",
     "measures": "measures",
+    "pads": "pad",
     "rails": "rail",
     "sensors": "sensors",
     "vehicles": "vehicle",
@@ -194,13 +195,16 @@ class Parts:
         return ResolvedPart(self._with_origin(part, generations, model), documents)
 
     def _with_origin(self, part: Any, generations: Sequence[Map], model: Any) -> Any:
+        """Return a part that knows the library part it names or extends, else the file at the root."""
+        for tree in generations:
+            display = tree.place.document.display
+            if display.startswith(LIBRARY):
+                original = part if tree is generations[0] else self._built(tree, model, (), "").part
+                return part.with_origin(PurePosixPath(display).stem, original)
         root = generations[-1]
-        display = root.place.document.display
-        file = PurePosixPath(display)
-        if display.startswith(LIBRARY):
-            original = part if len(generations) == 1 else self._original(root, model)
-            return part.with_origin(file.stem, original)
-        return part if len(generations) == 1 else part.with_origin(file.name, self._original(root, model))
+        if root is generations[0]:
+            return part
+        return part.with_origin(PurePosixPath(root.place.document.display).name, self._original(root, model))
 
     def _original(self, root: Map, model: Any) -> Any:
         """The part that a file at the root of `extends` describes; None where it is not a whole part."""

@@ -9,7 +9,8 @@ from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.friction import FactorProfile, FrictionProfile
-from uictest.scenario.parts.rail import Friction, RailCondition
+from uictest.scenario.parts.pad import DiscTemperature, Pad
+from uictest.scenario.parts.rail import Cleaning, Friction, RailCondition
 from uictest.scenario.parts.sensors import Sensors
 from uictest.scenario.yaml import (
     Inconsistency,
@@ -40,6 +41,24 @@ class Brake(Model):
     position: str = Field(
         default="R", description="Brake position; one of the positions of the brake system."
     )
+    pad: Annotated[Pad, PartReference(Pad, "constant")] = Field(
+        description="How pad friction varies: a library name, a relative path or an inline mapping."
+    )
+    disc_temperature: Literal["constant", "modelled"] | None = Field(
+        default=None,
+        description="Whether the discs warm up; if left out, they do where the pad's friction depends on it.",
+    )
+    initial_disc_temperature: DiscTemperature | None = Field(
+        default=None,
+        description="Temperature of the discs at the brake command; that of the air if left out.",
+    )
+
+    @property
+    def models_disc_temperature(self) -> bool:
+        """Whether the temperature of the discs is modelled."""
+        if self.disc_temperature is None:
+            return self.pad.temperature is not None
+        return self.disc_temperature == "modelled"
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a position that the system does not have."""
@@ -48,6 +67,12 @@ class Brake(Model):
                 ("position",),
                 f"unknown brake position {quoted(self.position)}",
                 suggestion(self.position, self.system.positions),
+            )
+        if self.models_disc_temperature and self.system.disc.thermal is None:
+            yield Inconsistency(
+                ("pad",) if self.disc_temperature is None else ("disc_temperature",),
+                "brake.system.disc.thermal is missing: what the discs warm up by is not known",
+                "add system.disc.thermal, or write disc_temperature: constant",
             )
 
 
@@ -70,6 +95,9 @@ class Rail(Model):
     friction_over_time: FactorProfile | None = Field(
         default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
     )
+    cleaning: Cleaning | None = Field(
+        default=None, description="How sliding cleans the rail; as the condition says if left out."
+    )
     gradient: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = (
         Field(
             default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
@@ -87,6 +115,18 @@ class Rail(Model):
         if isinstance(self.friction, FrictionProfile):
             return factor * max(at.friction for at in self.friction.points)
         return factor * (self.condition.friction if self.friction is None else self.friction)
+
+    @property
+    def cleaning_in_force(self) -> Cleaning | None:
+        """How sliding cleans the rail, or None where it does not."""
+        return self.condition.cleaning if self.cleaning is None else self.cleaning
+
+    @property
+    def highest_friction_after_cleaning(self) -> float:
+        """The highest friction coefficient that a wheelset can meet."""
+        cleaning = self.cleaning_in_force
+        found = self.highest_friction
+        return found if cleaning is None else max(found, cleaning.recovered_friction)
 
 
 class Rig(Model):

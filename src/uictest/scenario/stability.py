@@ -1,7 +1,7 @@
 """Longest step with which the integration follows the car on its springs and the air behind its valves."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from uictest.physics import REFERENCE_DENSITY, orifice_law
@@ -11,7 +11,10 @@ from uictest.scenario.parts.vehicle import Vehicle
 
 _PRIMARIES, _SECONDARIES = 2.0, 2.0
 """Axle boxes of a wheelset, sides of a bogie."""
-_TANKS = 4.0
+
+
+_SHORTEST = 1e-5
+"""Shortest step that a scenario accepts, s."""
 
 
 class StepLimit(NamedTuple):
@@ -20,6 +23,21 @@ class StepLimit(NamedTuple):
     longest: float
     of: str
     keys: str
+
+    @property
+    def hint(self) -> str:
+        """What to change."""
+        if self.longest < _SHORTEST:
+            return f"check {self.keys}; no step is short enough for these"
+        longest = f"{self.longest * 1000.0:.3g} ms"
+        return f"check {self.keys}; with these simulation.time_step must be at most {longest}"
+
+
+class ValveConductances(NamedTuple):
+    """Sonic conductances of the WSP valve of a wheelset, m3/(s Pa)."""
+
+    fill: float
+    vent: float
 
 
 def limit_of_vehicle(vehicle: Vehicle) -> StepLimit:
@@ -33,7 +51,9 @@ def limit_of_vehicle(vehicle: Vehicle) -> StepLimit:
     return StepLimit(longest, motion, "masses, stiffness and damping")
 
 
-def limit_of_air(system: BrakeSystem, caliper: Caliper, smallest_tank: float) -> StepLimit:
+def limit_of_air(
+    system: BrakeSystem, caliper: Caliper, smallest_tank: float, valves: Sequence[ValveConductances]
+) -> StepLimit:
     """Return the longest step with which no pressure swings from step to step, and the air that limits it.
 
     Flows follow from the pressures at the beginning of a step. Where they grow by g kg/s per Pa, air of
@@ -44,12 +64,15 @@ def limit_of_air(system: BrakeSystem, caliper: Caliper, smallest_tank: float) ->
         system: the air supply, valves and tanks.
         caliper: the caliper whose piston moves the air of its module.
         smallest_tank: smallest volume of air in a module, m3.
+        valves: the WSP valves of all wheelsets.
     """
-    return min((*_vessels(system, smallest_tank), _piston(system, caliper, smallest_tank)))
+    return min((*_vessels(system, smallest_tank, valves), _piston(system, caliper, smallest_tank)))
 
 
-def _vessels(system: BrakeSystem, smallest_tank: float) -> Iterator[StepLimit]:
-    valve, relay = system.wsp_valve, system.relay_valve
+def _vessels(
+    system: BrakeSystem, smallest_tank: float, valves: Sequence[ValveConductances]
+) -> Iterator[StepLimit]:
+    relay = system.relay_valve
     steepest = orifice_law(float(system.critical_pressure_ratio), float(system.laminar_pressure_ratio))[2]
     supply = max(system.reservoir.initial_pressure, system.compressor.cut_out_pressure)
     opened = (supply + system.air.atmospheric_pressure) / relay.proportional_band
@@ -57,13 +80,13 @@ def _vessels(system: BrakeSystem, smallest_tank: float) -> Iterator[StepLimit]:
     for volume, conductance, of, keys in (
         (
             smallest_tank,
-            (valve.fill_conductance + valve.vent_conductance) * steepest,
+            max(valve.fill + valve.vent for valve in valves) * steepest,
             "the air in a tank",
             "tank volumes and the conductances of wsp_valve",
         ),
         (
             system.brake_line.volume,
-            _TANKS * valve.fill_conductance * steepest + through_relay,
+            math.fsum(valve.fill for valve in valves) * steepest + through_relay,
             "the air in the brake line",
             "brake_line.volume, relay_valve and wsp_valve.fill_conductance",
         ),
@@ -120,7 +143,7 @@ def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
     def pitch(height: float) -> list[tuple[float, _Coupling]]:
         return [((secondary.height - height) ** 2, side_pull), ((link.height - height) ** 2, rod)]
 
-    on_axles = (bogie.height - wheelset.radius) ** 2
+    on_axles = max((bogie.height - radius) ** 2 for radius in vehicle.wheel_radii)
     return [
         ("a wheelset on its primary suspension", float(wheelset.mass), pull),
         ("the longitudinal motion", float(bogie.mass), _sum((2.0, pull), (1.0, side_pull), (1.0, rod))),

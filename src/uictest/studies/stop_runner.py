@@ -8,11 +8,16 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TypeVar
 
+import numpy as np
+
 from uictest import campaign, rig
 from uictest.recording import Recording
 from uictest.scenario import Case, load
 
 _SCENARIOS = Path(__file__).parent / "scenarios"
+
+_BATCH = 128
+"""Stops that a thread runs in lanes at a time."""
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -48,6 +53,16 @@ class StopRunner:
         self._stops.update(zip(new_cases, self.map(_stop, list(new_cases.values())), strict=True))
         return [Stops(case, [self._stops[_key(seeded(case, seed))] for seed in seeds]) for case in cases]
 
+    def in_lanes(self, cases: Sequence[Case]) -> list[rig.SimulatedStop]:
+        """Return the stop, without recording, of every case: for many cases that are run once.
+
+        Stops run side by side in the lanes of a register and have the bits of :func:`uictest.rig.simulate`.
+        """
+        batches = [cases[start : start + _BATCH] for start in range(0, len(cases), _BATCH)]
+        # The first compiles what the threads then share.
+        stops = [*map(_side_by_side, batches[:1]), *self.map(_side_by_side, batches[1:])]
+        return [stop for batch in stops for stop in batch]
+
     def recordings(self, cases: Sequence[Case], every: float) -> list[Recording]:
         """Return a recording of the stop of every case, a sample every so many seconds."""
         return self.map(lambda case: _recording(case, every), cases)
@@ -76,6 +91,19 @@ def _key(case: Case) -> tuple[str, str]:
 
 def _stop(case: Case) -> rig.SimulatedStop:
     return rig.simulate(case)
+
+
+def _side_by_side(cases: Sequence[Case]) -> list[rig.SimulatedStop]:
+    inputs = [rig.assemble(case) for case in cases]
+    points = max(each.rail.shape[1] for each in inputs)
+    batch = rig.run_in_lanes(
+        np.array([each.parameters for each in inputs]),
+        np.array([each.wheelset_parameters for each in inputs]),
+        np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
+        [each.controller for each in inputs],
+    )
+    trains, wheelsets = batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray)
+    return [rig.SimulatedStop(*stop) for stop in zip(trains, wheelsets, strict=True)]
 
 
 def _recording(case: Case, every: float) -> Recording:

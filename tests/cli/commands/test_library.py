@@ -21,9 +21,9 @@ def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(c
     for line in call("library", "list").out.splitlines():
         answer = call("library", "show", line.split()[0])
         assert answer.code == 0
+        if line.startswith(("channel_maps/", "pads/constant")):
+            continue  # without numbers
         numbers, *rest = answer.out.split("\n\n")
-        if line.startswith("channel_maps/"):
-            continue
         for row in numbers.splitlines()[1:]:
             assert {"stated", "published", "identified", "chosen", "default"} & set(row.split()), row
         title, *sources = rest[0].splitlines()

@@ -401,7 +401,7 @@ def test_usage(call: Call, study: Path, options: list[str], said: str) -> None:
 def fake_cuda(monkeypatch: pytest.MonkeyPatch, context: Callable[[], None]) -> None:
     cuda = SimpleNamespace(CudaSupportError=ImportError, current_context=context)
     monkeypatch.setitem(vars(rig), "cuda", cuda)
-    monkeypatch.setitem(vars(rig), "run_on_gpu", lambda parameters, rail, controllers: None)
+    monkeypatch.setitem(vars(rig), "run_on_gpu", lambda *inputs: None)
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ def _stop(**changes: Any) -> Any:
         "speed_after_sliding": np.nan,
         "reservoir_minimum_pressure": 7.2e5,
         "air_consumed": 0.1185,
-        "energy_residual": 2e-6,
+        "energy_residual": 2e-8,
         "air_residual": -3e-14,
         "air_energy_residual": 2e-13,
     }

@@ -19,7 +19,7 @@ def test_the_summary_holds_parameters_as_written_and_figures_exactly(make_result
     (row,) = _rows(summary_csv([make_result()]))
     assert row["id"] == "dry-120[command=90]"
     assert row["parameters.brake.command"] == "90 %"
-    assert float(row["energy_residual"]) == 1e-5
+    assert float(row["energy_residual"]) == 1e-8
     assert (row["expect"], row["outcome"], row["met"]) == ("pass", "pass", "true")
 
 

@@ -21,6 +21,14 @@ def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording
     assert trace.sliding_time == 5.01
 
 
+def test_discs_are_drawn_in_degrees_where_their_temperature_is_recorded() -> None:
+    time = np.arange(10.0)
+    channels = {"time": time, "disc_surface_temperature_3": 293.15 + 10.0 * time}
+    trace = trace_of(Recording(channels, {"time": "s", "disc_surface_temperature_3": "K"}))
+    assert trace.curves["disc_surface_temperature_3"].y[[0, -1]] == pytest.approx([20.0, 110.0])
+    assert list(trace.curves) == ["disc_surface_temperature_3"]
+
+
 @pytest.mark.parametrize("samples", [1, 2, BINS, BINS + 1, 10 * BINS + 7])
 def test_no_more_samples_are_kept_than_a_screen_can_show(samples: int) -> None:
     time = np.arange(samples) / 100
@@ -94,3 +102,18 @@ def test_what_was_not_measured_leaves_no_deceleration() -> None:
     time = np.linspace(0.0, 10.0, 101)
     speed = np.where(time < 5.0, 30.0 - time, np.nan)
     assert np.isnan(deceleration(time, speed)[-1])
+
+
+@pytest.mark.parametrize(("share", "drawn"), [(0.0, False), (0.3, True)])
+def test_the_rail_is_drawn_only_where_sliding_has_cleaned_it(
+    make_recording: MakeRecording, share: float, drawn: bool
+) -> None:
+    """Elsewhere the friction that a wheelset meets is what was set, and the share is nothing."""
+    plain = make_recording()
+    of_rail = {f"friction_{n}": np.full_like(plain["time"], 0.08 + 0.2 * share) for n in (1, 2, 3, 4)}
+    of_rail |= {f"cleaned_share_{n}": np.full_like(plain["time"], share) for n in (1, 2, 3, 4)}
+    units = dict.fromkeys(of_rail, "1")
+    record = Recording({**plain.channels, **of_rail}, {**plain.units, **units}, plain.metadata)
+    curves = trace_of(record).curves
+    assert {name for name in of_rail if name in curves} == (set(of_rail) if drawn else set())
+    assert set(trace_of(plain).curves) == set(curves) - set(of_rail)

@@ -11,12 +11,14 @@ from uictest.controllers import CONTROLLERS, Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics.arithmetic import maximum
 from uictest.physics.flow import mass_flow, orifice_law
+from uictest.rig import StopInputs
 from uictest.rig.backends.compiled import sources, translate, with_controller
 from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop
 from uictest.rig.bench.step import run_bench_test
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 
@@ -39,24 +41,47 @@ SETTINGS = {
         ("rig.compensation=thermal", "initial_speed=20 km/h", "rail.condition=wet", "rail.friction=0.03"),
         {**QUICK_BRAKE, "valve_delay_cycles": 0, "cycles": 50},
     ),
+    "pole wheels, wheelsets that differ": (
+        (
+            *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
+            (
+                "vehicle.wheelsets={2: {wheel_radius: 0.42 m, brake_force: 80 %, pad_friction: 0.4}, 3:"
+                " {sensors: {speed: {method: momentary, missing_teeth: 0}, pressure: {offset: 0.1 bar}}}}"
+            ),
+        ),
+        {**QUICK_BRAKE, "cycles": 150},
+    ),
+    "pads that fade on discs that warm": (
+        ("brake.pad=disc-pad", "initial_speed=20 km/h", "brake.initial_disc_temperature=200 degC"),
+        {**QUICK_BRAKE, "cycles": 60},
+    ),
+    "composite blocks on discs that stay cold": (
+        ("brake.pad=composite-block", "initial_speed=20 km/h", "rail.condition=wet", "rail.friction=0.05"),
+        {**QUICK_BRAKE, "cycles": 40},
+    ),
     "no compensation, WSP bypassed, downhill": (
         ("rig.compensation=none", "rig.wsp=bypassed", "rail.gradient=-30 permille", "seed=4294967295"),
         {**QUICK_BRAKE, "cycles": 20},
     ),
+    "wheelsets that follow on a rail that is cleaned": (
+        ("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.005"),
+        {**QUICK_BRAKE, "cycles": 60},
+    ),
 }
 
 
-def everything(function: Any, parameters: Any, rail: Any, every: int) -> dict[str, bytes]:
+def everything(function: Any, inputs: StopInputs, every: int) -> dict[str, bytes]:
     """Bytes of all records and of the trace after a stop."""
     layouts = {"car": CAR, "bogies": BOGIE, "wheelsets": WHEELSET}
-    layouts |= {"measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
-    counts = (1, 2, 4, 1, 4)
+    layouts |= {"memory": RAIL_MEMORY, "measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
+    counts = (1, 2, 4, 1, 1, 4)
     records = {name: np.zeros(n, layout) for n, (name, layout) in zip(counts, layouts.items(), strict=True)}
-    trace = empty_trace(parameters.cycles * parameters.steps_per_cycle + 1 if every else 0)
+    trace = empty_trace(inputs.parameters.cycles * inputs.parameters.steps_per_cycle + 1 if every else 0)
     for samples in trace:
         samples[...] = 0.0
-    car, bogies, wheelsets, measures, wheelset_measures = records.values()
-    function(car[0], bogies, wheelsets, parameters, rail, measures[0], wheelset_measures, trace, every)
+    car, bogies, wheelsets, memory, measures, wheelset_measures = records.values()
+    *numbers, _ = inputs
+    function(car[0], bogies, wheelsets, *numbers, memory[0], measures[0], wheelset_measures, trace, every)
     return {name: record.tobytes() for name, record in records.items()} | {
         "trace": trace.train.tobytes() + trace.wheelsets.tobytes()
     }
@@ -73,9 +98,9 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
     overrides, fields = SETTINGS[setting]
     if "cycles" not in fields:
         fields = {**fields, "cycles": 200}
-    parameters, rail, controller = rig.inputs(*overrides, **fields)
-    plain = everything(plain_stop(controller), parameters, rail, 1)
-    compiled = everything(compiled_stop(controller), parameters, rail, 1)
+    inputs = rig.inputs(*overrides, **fields)
+    plain = everything(plain_stop(inputs.controller), inputs, 1)
+    compiled = everything(compiled_stop(inputs.controller), inputs, 1)
     for name, layout in (
         ("car", CAR),
         ("bogies", BOGIE),
@@ -89,7 +114,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
 def test_the_settings_reach_what_they_say(rig: Any) -> None:
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, downhill = ends.values()
+    standstill, slides, band, air, counted, fading, blocks, downhill, cleaned = ends.values()
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -97,7 +122,14 @@ def test_the_settings_reach_what_they_say(rig: Any) -> None:
     assert air.wheelset_measures.valve_actuations.all()
     assert air.wheelsets["modelled_travel"].max() == 1.0
     assert abs(air.wheelsets["pressure_ratio"][1:] - 1.0).min() > 1e-4
+    assert counted.wheelset_measures.valve_actuations.any()
+    assert counted.wheelsets["counted_teeth"].min() > 10.0
+    for pads in (fading, blocks):
+        assert 0.005 < abs(pads.wheelsets["pad_friction"] - 0.38).min() < 0.2
+    assert (fading.wheelset_measures.maximum_disc_temperature > 473.2).all()
     assert downhill.measures.end_speed > 0.0
+    assert cleaned.wheelsets["cleaned_share"].min() > 0.01
+    assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase
     used = {rig.inputs(*overrides).controller.name for overrides, _ in SETTINGS.values()}
     assert used == CONTROLLERS.keys()
 
@@ -133,7 +165,7 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew(control
 
 def test_a_stop_made_without_a_controller_says_so(rig: Any) -> None:
     with pytest.raises(NotImplementedError, match="without a controller"):
-        everything(run_stop, *rig.parameters(cycles=1), 0)
+        everything(run_stop, rig.inputs(cycles=1), 0)
 
 
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
@@ -157,10 +189,10 @@ def test_a_sparse_trace_is_part_of_a_dense_one(rig: Any) -> None:
 
 def test_threads_do_not_disturb_each_other(rig: Any) -> None:
     """The same stop in six places, and others beside it."""
-    parameters = [rig.parameters(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
+    cases = [rig.inputs(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
     compiled = compiled_stop(CONTROLLERS["threshold"])
     with ThreadPoolExecutor(4) as threads:
-        jobs = [threads.submit(everything, compiled, one, rail, 0) for one, rail in parameters * 2]
+        jobs = [threads.submit(everything, compiled, inputs, 0) for inputs in cases * 2]
         ends = [job.result() for job in jobs]
     assert ends[0] == ends[2] == ends[4] == ends[5] == ends[7] == ends[9]
     assert ends[1] == ends[6] != ends[0]

@@ -25,17 +25,20 @@ from uictest.rig.assembly import assemble
 from uictest.rig.backends import cuda
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.plain import plain_stop
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
 from uictest.scenario import load
 
 case = load([Path(sys.argv[1])], sys.argv[2:])[0]
 inputs = assemble(case)
-parameters, rail, controller = inputs
+parameters, wheelset_parameters, rail, controller = inputs
 parameters["cycles"] = 2
 measures, wheelsets = np.zeros(1, STOP_MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
 batch = np.array([parameters], dtype=parameters.dtype)
 with np.errstate(invalid="ignore"):
-    cuda.kernel(controller)[1, 1](batch, rail[None], measures, wheelsets, *cuda.constant_arguments())
+    memory = np.full(1, 9, RAIL_MEMORY)
+    arguments = batch, wheelset_parameters[None], rail[None], memory, measures, wheelsets
+    cuda.kernel(controller)[1, 1](*arguments, *cuda.constant_arguments())
     plain = run_to_end(plain_stop(controller), inputs)
 same = measures[0].tobytes() == plain.measures.tobytes()
 same_wheelsets = wheelsets[0].tobytes() == plain.wheelset_measures.tobytes()
@@ -52,14 +55,17 @@ from uictest.controllers import CONTROLLERS
 from uictest.rig.backends import cuda
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 kernel = cuda.kernel(CONTROLLERS["threshold"])
 # What a machine without a GPU cannot say of itself: the capability to compile for.
 dispatcher.get_current_device = lambda: SimpleNamespace(compute_capability=(9, 0))
 record = numba.from_dtype
 signature = numba.void(
-    record(PARAMETERS)[::1], numba.float64[:, :, ::1], record(STOP_MEASURES)[::1],
+    record(PARAMETERS)[::1], record(WHEELSET_PARAMETERS)[:, ::1], numba.float64[:, :, ::1],
+    record(RAIL_MEMORY)[::1], record(STOP_MEASURES)[::1],
     record(WHEELSET_MEASURES)[:, ::1],
     record(CAR)[::1], record(BOGIE)[::1], record(WHEELSET)[::1],
     record(TRAIN_SAMPLE)[::1], record(WHEELSET_SAMPLE)[:, ::1],
@@ -88,9 +94,22 @@ def printed(program: str, *arguments: str) -> list[Any]:
     return values
 
 
-@pytest.mark.parametrize("compensation", ["full", "thermal"])
-def test_the_kernel_gives_the_bits_of_plain_python(compensation: str) -> None:
-    same, same_wheelsets, distance = printed(SIMULATED, str(SLIDE), f"rig.compensation={compensation}")
+CLEANED = "rail.cleaning={energy: 1 J/m, recovered_friction: 0.28, reach: 1 mm, carry_over: 1}"
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ["rig.compensation=full"],
+        ["rig.compensation=thermal"],
+        ["rig.compensation=full", "rig.sensors=pole-wheel", "vehicle.wheelsets.2.wheel_radius=0.42 m"],
+        ["rig.compensation=none", CLEANED],
+        ["brake.pad=disc-pad"],
+    ],
+)
+def test_the_kernel_gives_the_bits_of_plain_python(overrides: list[str]) -> None:
+    """Whatever the memory of the rail held before, it is cleared where a rail is cleaned."""
+    same, same_wheelsets, distance = printed(SIMULATED, str(SLIDE), *overrides)
     assert same
     assert same_wheelsets
     assert distance > 0.3

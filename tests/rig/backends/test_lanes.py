@@ -17,12 +17,20 @@ from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 WET = ("rail.condition=wet", "rail.friction=0.09")
 PLACES = "{position: 0 m, friction: 0.2}, {position: 9 m, friction: 0.04}"
 TIMES = "{time: 0 s, factor: 1}, {time: 2 s, factor: 0.5}, {time: 3 s, factor: 1.5}"
 STEPPED = f"rail.friction={{interpolation: steps, points: [{PLACES}]}}"
 FADING = f"rail.friction_over_time={{points: [{TIMES}]}}"
+UNALIKE = (
+    "{1: {wheel_radius: 0.42 m, wsp_valve: {switching_delay: 31 ms, vent_conductance: 2e-8 m3/(s Pa)}},"
+    " 2: {configured_radius: 0.44 m, brake_force: 80 %, sensors: {speed: {teeth: 60}}},"
+    " 3: {pad_friction: 0.3, caliper: {load_friction: 9 %}, sensors: {pressure: {offset: 0.1 bar}}},"
+    " 4: {caliper: {coulomb_friction: 200 N}, sensors: {loadcell: {gain_error: -3 %}}}}"
+)
+CLEANED = "rail.condition=wet-cleaning"
 VARIANTS: tuple[tuple[str, ...], ...] = (
     (),
     ("rig.compensation=none", *WET),
@@ -37,6 +45,15 @@ VARIANTS: tuple[tuple[str, ...], ...] = (
     ("simulation.time_step=0.25 ms", *WET),
     ("vehicle=crh380a", "rail.gradient=10 permille"),
     ("brake.position=G", "brake.command=70 %"),
+    (f"vehicle.wheelsets={UNALIKE}", *WET),
+    ("rig.sensors=pole-wheel", f"vehicle.wheelsets={UNALIKE}", *WET),
+    ("rig.topology=four-caliper", f"vehicle.wheelsets={UNALIKE}", *WET),
+    (CLEANED, "rail.friction=0.05"),
+    (CLEANED, "rail.friction=0.05", "vehicle=crh380a", "rail.condition.cleaning.carry_over=1"),
+    (CLEANED, STEPPED, "rig.wsp=bypassed"),
+    ("brake.pad=composite-block", *WET),
+    ("brake.pad=disc-pad", "brake.initial_disc_temperature=240 degC"),
+    ("brake.disc_temperature=modelled", *WET),
 )
 
 WITHOUT_COMPILER = """
@@ -48,8 +65,8 @@ from uictest.controllers import CONTROLLERS
 from uictest.rig.backends.lanes import lanes_are_compiled, run_in_lanes
 controllers = [CONTROLLERS["threshold"]] * 2
 assert lanes_are_compiled(controllers)
-parameters, rail = (np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "rail"))
-print(run_in_lanes(parameters, rail, controllers).measures.tobytes().hex())
+inputs = [np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "wheelsets", "rail")]
+print(run_in_lanes(*inputs, controllers).measures.tobytes().hex())
 """
 
 
@@ -64,17 +81,20 @@ class Batch:
         ]
         cases.append(rig.inputs(cycles=120))
         self.parameters: NDArray[Any] = np.zeros(len(cases), PARAMETERS)
+        self.wheelsets: NDArray[Any] = np.zeros((len(cases), 4), WHEELSET_PARAMETERS)
         self.rail = np.zeros((len(cases), 4, max(case.rail.shape[1] for case in cases)))
         self.controllers = [case.controller for case in cases]
-        for number, (parameters, rail, _) in enumerate(cases):
+        for number, (parameters, wheelsets, rail, _) in enumerate(cases):
             self.parameters[number] = parameters
+            self.wheelsets[number] = wheelsets
             self.rail[number, :, : rail.shape[1]] = rail
         self.alone = [run_to_end(compiled_stop(case.controller), case) for case in cases]
 
     def in_lanes(self, numbers: Sequence[int], width: int | None = None) -> BatchMeasures:
         chosen = list(numbers)
         controllers = [self.controllers[number] for number in chosen]
-        return run_in_lanes(self.parameters[chosen], self.rail[chosen], controllers, width)
+        inputs = (self.parameters[chosen], self.wheelsets[chosen], self.rail[chosen])
+        return run_in_lanes(*inputs, controllers, width)
 
     def is_as_alone(self, numbers: Sequence[int], batch: BatchMeasures) -> bool:
         return all(
@@ -121,15 +141,16 @@ def test_threads_run_batches_of_their_own(batch: Batch) -> None:
 
 
 def test_parameters_and_friction_laws_are_only_read(batch: Batch) -> None:
-    before = batch.parameters.tobytes(), batch.rail.tobytes()
+    inputs = (batch.parameters, batch.wheelsets, batch.rail)
+    before = [each.tobytes() for each in inputs]
     batch.in_lanes(ALL)
-    assert (batch.parameters.tobytes(), batch.rail.tobytes()) == before
+    assert [each.tobytes() for each in inputs] == before
 
 
 def test_a_warm_start_needs_no_compiler(batch: Batch, tmp_path: Path) -> None:
     warm = batch.in_lanes([0, 1])
-    for name, array in (("parameters", batch.parameters[:2]), ("rail", batch.rail[:2])):
-        np.save(tmp_path / f"{name}.npy", array, allow_pickle=False)
+    for name in ("parameters", "wheelsets", "rail"):
+        np.save(tmp_path / f"{name}.npy", getattr(batch, name)[:2], allow_pickle=False)
     done = subprocess.run(
         [sys.executable, "-c", WITHOUT_COMPILER, tmp_path], capture_output=True, text=True, check=False
     )

@@ -15,8 +15,10 @@ from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import simulate
 from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.native import compiled_stop, stops_are_compiled
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.scenario import load
 
 THRESHOLD = CONTROLLERS["threshold"]
@@ -43,13 +45,15 @@ print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())
 
 
 def arguments(rig: Any) -> dict[str, Any]:
-    parameters, rail = rig.parameters(cycles=1)
+    inputs = rig.inputs(cycles=1)
     return {
         "car": np.zeros(1, CAR)[0],
         "bogies": np.zeros(2, BOGIE),
         "wheelsets": np.zeros(4, WHEELSET),
-        "p": parameters,
-        "rail": rail,
+        "p": inputs.parameters,
+        "wheelset_parameters": inputs.wheelset_parameters,
+        "rail": inputs.rail,
+        "memory": np.zeros(1, RAIL_MEMORY)[0],
         "measures": np.zeros(1, STOP_MEASURES)[0],
         "wheelset_measures": np.zeros(4, WHEELSET_MEASURES),
         "trace": empty_trace(0),
@@ -90,6 +94,7 @@ def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Pa
     {
         "car": np.zeros(1, WHEELSET)[0],
         "wheelsets": np.zeros(2, WHEELSET),
+        "wheelset_parameters": np.zeros(1, WHEELSET_PARAMETERS),
         "wheelset_measures": np.zeros(8, WHEELSET_MEASURES)[::2],
         "rail": np.zeros((4, 2), np.float32),
         "trace": Trace(np.zeros(0, TRAIN_SAMPLE), np.zeros((0, 4), TRAIN_SAMPLE)),

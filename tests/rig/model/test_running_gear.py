@@ -145,7 +145,7 @@ def set_state(bench: Any, x: Array) -> None:
 
 def advance(bench: Any, torques: Array) -> None:
     p = bench.p
-    per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.pad_friction * p.disc_radius
+    per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.reference_pad_friction * p.disc_radius
     for wheelset, torque in zip(bench.wheelsets, torques.tolist(), strict=True):
         wheelset.clamping_force = torque / per_force
         wheelset.friction = 1e3
@@ -235,8 +235,9 @@ def test_stored_energy_is_the_quadratic_form_of_mass_and_stiffness(rig: Any, ben
     displaced = bench(p)
     x = np.random.default_rng(4).normal(0.0, 0.01, 30)
     set_state(displaced, x)
-    q, rates = np.append(x[:13], np.zeros(4)), x[13:]
-    expected = 0.5 * (rates @ model.mass @ rates + q @ model.stiffness @ q)
+    rates = x[13:]
+    behind = np.append(x[:13], np.zeros(4)) - 0.5 * p.step * rates
+    expected = 0.5 * (rates @ model.mass @ rates + behind @ model.stiffness @ behind)
     energy = stored_energy(displaced.car, displaced.bogies, displaced.wheelsets, displaced.p)
     assert energy == pytest.approx(expected, rel=1e-12)
 
@@ -331,7 +332,7 @@ def test_a_locked_wheel_turns_again_once_the_brake_cannot_hold_it(rig: Any, benc
     """The rail's torque is 2 Q mu r; a brake of four fifths of it lets go, one of six fifths holds."""
     p = rig.parameters(*LOCKING, **LEVEL)[0]
     pressed = translate(step, lambda f: f, {step_air: still, step_clamping: still})
-    per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.pad_friction * p.disc_radius
+    per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.reference_pad_friction * p.disc_radius
     speed = 15.0
     mu = 0.09 * ((1.0 - p.friction_ratio) * np.exp(-p.friction_decay * speed) + p.friction_ratio)
     for share, turns in ((1.2, False), (0.8, True)):

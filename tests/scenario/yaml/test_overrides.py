@@ -185,3 +185,36 @@ def test_other_numbers_of_a_rail_condition_may_change_alone(
     rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
 
     assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
+
+
+def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a_whole(
+    loaded: Callable[..., list[Case]], refused: Callable[..., tuple[Diagnostic, ...]], head: str
+) -> None:
+    cleaned = "rail: {condition: wet-cleaning, friction: 0.09}\n"
+    swept = loaded(head + cleaned, "rail.condition.cleaning.energy=4 kJ/m,8 kJ/m")
+    own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"
+    (whole,) = loaded(head + cleaned, f"rail.cleaning={own}", "rail.cleaning.reach=2 m")
+    of_sweep = [case.scenario.rail.cleaning_in_force for case in swept]
+    of_rail = whole.scenario.rail.cleaning_in_force
+
+    assert [cleaning and (cleaning.energy, cleaning.reach) for cleaning in of_sweep] == [
+        (4000.0, 0.5),
+        (8000.0, 0.5),
+    ]
+    assert of_rail is not None
+    assert (of_rail.energy, of_rail.reach, of_rail.carry_over) == (8000.0, 2.0, 0.0)
+    missing = refused(head + cleaned, "rail.cleaning.energy=4 kJ/m")
+    assert [diagnostic.key for diagnostic in missing] == [
+        f"rail.cleaning.{key}" for key in ("recovered_friction", "reach", "carry_over")
+    ]
+
+
+def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(
+    loaded: Callable[..., list[Case]], refused: Callable[..., tuple[Diagnostic, ...]], head: str
+) -> None:
+    """Whether a stop can end is asked of the best friction that a wheelset may meet."""
+    slippery = "rail: {condition: wet, friction: 0.002}\nsimulation: {maximum_duration: 100 s}\n"
+    own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"
+
+    assert any("cannot end" in diagnostic.message for diagnostic in refused(head + slippery))
+    assert loaded(head + slippery, f"rail.cleaning={own}")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from uictest.evaluation import JUDGED_KEYS
-from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, assemble, assigned, friction_laws
+from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, WHEELSET_ASSIGNMENTS, assemble, assigned, friction_laws
 from uictest.scenario import Case, Scenario, load as load_scenarios
 from uictest.scenario.yaml.model import Model
 from uictest.sweep import Plan
@@ -37,6 +37,13 @@ grid:
   rail.friction_over_time: [{points: [{time: 0 s, factor: 1}, {time: 3 s, factor: 0.5}]}, null]
 zip: {simulation.time_step: [0.5 ms, 0.25 ms], controller.cycle_time: [10 ms, 5 ms], seed: [3, 4]}
 """,
+    "pads": """\
+grid:
+  brake.pad: [constant, disc-pad, composite-block]
+  brake.disc_temperature: [null, modelled, constant]
+  brake.initial_disc_temperature: [null, 300 degC]
+  brake.system.disc.thermal.thickness: [15 mm, 25 mm]
+""",
     "sample": """\
 grid: {rig.compensation: [none, full]}
 sample:
@@ -48,6 +55,18 @@ sample:
     brake.system.wsp_valve.vent_conductance: {log-uniform: [1e-8 m3/(s Pa), 2e-8 m3/(s Pa)]}
     brake.system.air.temperature: {normal: {mean: 15 degC, deviation: 8 degC, lower: -5 degC, upper: 35 degC}}
     rig.topology: {choice: [one-caliper, four-caliper]}
+""",
+    "wheelsets": """
+sample:
+  method: sobol
+  size: 16
+  parameters:
+    vehicle.wheelsets.2.wheel_radius: {uniform: [0.41 m, 0.44 m]}
+    vehicle.wheelsets.3.caliper.load_friction: {uniform: [1 %, 9 %]}
+    vehicle.wheelsets.4.brake_force: {choice: [80 %, 100 %, 120 %]}
+    vehicle.wheelset.radius: {uniform: [0.42 m, 0.43 m]}
+    brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
+    rig.sensors.pressure.offset: {uniform: [-0.01 bar, 0.01 bar]}
 """,
 }
 
@@ -68,9 +87,10 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
     for place in range(plan.size):
-        record, rail, controller = assemble(written_out(plan, place))
+        record, own, rail, controller = assemble(written_out(plan, place))
         assert block.controllers[place] is controller
         assert record.tobytes() == block.parameters[place].tobytes()
+        assert own.tobytes() == block.wheelset_parameters[place].tobytes()
         assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
 
 
@@ -104,6 +124,8 @@ class Watched:
             self._read.add(self._above.rstrip("."))  # a property may read anything of its model
             return value
         key = f"{self._above}{name}"
+        if key == "vehicle.wheelsets":
+            return {number: Watched(own, f"{key}.{number}.", self._read) for number, own in value.items()}
         if isinstance(value, Model):
             return Watched(value, f"{key}.", self._read)
         self._read.add(key)
@@ -126,7 +148,8 @@ SHIPPED = load_scenarios([Path(__file__).parents[3] / "scenarios"])
 @pytest.mark.parametrize("case", SHIPPED, ids=lambda case: case.id)
 def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> None:
     """What sets parameters, and what they are set to apart from all others."""
-    setters = [(lambda scenario, each=each: assigned([each], scenario), each.keys) for each in ASSIGNMENTS]
+    assignments = [*ASSIGNMENTS, *(each for wheelset in WHEELSET_ASSIGNMENTS for each in wheelset)]
+    setters = [(lambda scenario, each=each: assigned([each], scenario), each.keys) for each in assignments]
     for setter, keys in (*setters, (friction_laws, FRICTION_KEYS)):
         for read in keys_read(setter, case.scenario):
             assert any(read == key or read.startswith(f"{key}.") for key in keys), (keys, read)
@@ -138,8 +161,8 @@ def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
 
     from ..conftest import formula
 
-    record, rail, controller = assemble(case)
-    measures, wheelsets = formula(np.array([record]), rail[None], [controller])
+    record, own, rail, controller = assemble(case)
+    measures, wheelsets = formula(np.array([record]), own[None], rail[None], [controller])
     read: set[str] = set()
     watched: Any = Watched(case.scenario, "", read)
     for stopped in (1.0, 0.0):

@@ -1,8 +1,26 @@
-"""What valves and calipers do: vents of the WSP valve, the largest clamping force."""
+"""What valves, calipers and discs do: vents of the WSP valve, largest clamping force and temperature."""
 
 from __future__ import annotations
 
-from uictest.measures.measure import Measure, RecordedData, WheelsetColumn, value_per_wheelset
+import math
+
+from uictest.measures.measure import (
+    Measure,
+    MeasureValue,
+    RecordedData,
+    WheelsetColumn,
+    Wheelsets,
+    unavailable,
+    value_per_wheelset,
+)
+
+
+def _disc_temperatures(wheelsets: Wheelsets) -> MeasureValue:
+    temperatures = tuple(float(wheelset.maximum_disc_temperature) for wheelset in wheelsets)
+    if all(map(math.isnan, temperatures)):
+        return unavailable("the temperature of the discs is not modelled: brake.disc_temperature")
+    return MeasureValue(temperatures)
+
 
 MEASURES = (
     Measure(
@@ -34,5 +52,18 @@ MEASURES = (
             "maximum_clamping_force_n", "N", read=lambda wheelset: wheelset.maximum_clamping_force
         ),
         finite_field="maximum_clamping_force",
+    ),
+    Measure(
+        name="maximum_disc_temperature",
+        kind="temperature",
+        unit="degC",
+        course="grows",
+        meaning="highest temperature of the friction surface of the discs, where it is modelled",
+        read=lambda stop, wheelsets, definition: _disc_temperatures(wheelsets),
+        of_wheelsets=True,
+        recorded=RecordedData(("disc_surface_temperature_{n}",)),
+        column=WheelsetColumn(
+            "maximum_disc_temperature_degc", "degC", read=lambda wheelset: wheelset.maximum_disc_temperature
+        ),
     ),
 )

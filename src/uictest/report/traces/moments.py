@@ -94,6 +94,12 @@ def _largest_forces(verdict: evaluation.Verdict, channels: Channels) -> Moments:
     return Moments(extremes=_largest(channels, "clamping_force", everywhere))
 
 
+def _highest_disc_temperatures(verdict: evaluation.Verdict, channels: Channels) -> Moments:
+    """Return when the discs of each wheelset were hottest on their surface."""
+    everywhere = np.ones(len(channels["time"]), dtype=np.bool_)
+    return Moments(extremes=_largest(channels, "disc_surface_temperature", everywhere))
+
+
 def _smallest_deceleration(verdict: evaluation.Verdict, channels: Channels) -> Moments:
     """Return when the filtered deceleration was smallest once the brake was developed."""
     return _extreme_deceleration(verdict, channels, verdict.defined("developed_time") or 0.0, -1.0)
@@ -120,6 +126,7 @@ _FINDERS: Final[Mapping[str, Callable[[evaluation.Verdict, Channels], Moments]]]
         "sliding_duration": _slides,
         "maximum_slide_above_cutoff": _largest_slides,
         "maximum_clamping_force": _largest_forces,
+        "maximum_disc_temperature": _highest_disc_temperatures,
         "minimum_deceleration": _smallest_deceleration,
         "maximum_deceleration": _largest_deceleration,
         "reservoir_minimum_pressure": _lowest_reservoir_pressure,
@@ -156,7 +163,8 @@ def _largest(channels: Channels, quantity: str, counts: NDArray[np.bool_]) -> di
 
 
 def _extreme(channels: Channels, quantity: str, samples: Samples, row: int) -> Extreme:
-    return float(channels["time"][row]), float(samples[row]) / PLOT_QUANTITIES[quantity].scale
+    shown = PLOT_QUANTITIES[quantity]
+    return float(channels["time"][row]), (float(samples[row]) - shown.zero) / shown.scale
 
 
 def _extreme_deceleration(

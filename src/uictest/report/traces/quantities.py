@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from uictest.units import BAR, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
+from uictest.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
 
 WHEELSETS = (1, 2, 3, 4)
 ORDINARY_CREEP = 10.0
@@ -13,12 +13,13 @@ ORDINARY_CREEP = 10.0
 
 @dataclass(frozen=True, slots=True)
 class PlotQuantity:
-    """A channel as a page shows it: label, unit, and how many SI units one of that is."""
+    """A channel as a page shows it: label, unit, how many SI units one of that is, its zero in SI units."""
 
     label: str
     unit: str
     scale: float = 1.0
     of_wheelsets: bool = False
+    zero: float = 0.0
 
 
 PLOT_QUANTITIES = {
@@ -34,9 +35,16 @@ PLOT_QUANTITIES = {
     "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True),
     "deceleration": PlotQuantity("deceleration", "g"),
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True),
+    "friction": PlotQuantity("friction", "1", of_wheelsets=True),
+    "cleaned_share": PlotQuantity("cleaned share", "1", of_wheelsets=True),
+    "disc_temperature": PlotQuantity("disc", "degC", of_wheelsets=True, zero=CELSIUS_ZERO),
+    "disc_surface_temperature": PlotQuantity("disc surface", "degC", of_wheelsets=True, zero=CELSIUS_ZERO),
     "valve_command": PlotQuantity("valve", "1", of_wheelsets=True),
 }
 """Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed."""
+
+OF_CLEANED_RAIL = ("friction", "cleaned_share")
+"""Quantities that are drawn only where sliding has cleaned the rail: elsewhere they are what was set."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +74,13 @@ PANELS = (
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
+    Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
+    Panel(
+        "temperature",
+        "Temperature of the discs: surface (bulk dotted)",
+        "degC",
+        ("disc_temperature", "disc_surface_temperature"),
+    ),
 )
 """Panels over time from top to bottom; the strips follow below them."""
 
@@ -144,7 +159,7 @@ _ROLES = {
     "reservoir_pressure": "reservoir",
     "brake_line_pressure": "brake-line",
 }
-_DOTTED = frozenset({"reference_speed", "cylinder_pressure"})
+_DOTTED = frozenset({"reference_speed", "cylinder_pressure", "cleaned_share", "disc_temperature"})
 
 
 def lines_of(key: str) -> tuple[PlotLine, ...]:

@@ -11,7 +11,14 @@ from numpy.typing import NDArray
 from uictest import evaluation, recording
 from uictest.report.traces.extremes import thinned
 from uictest.report.traces.moments import Moments, moments_of
-from uictest.report.traces.quantities import LOOPS, PLOT_QUANTITIES, WHEELSETS, channel_names, loop_lines
+from uictest.report.traces.quantities import (
+    LOOPS,
+    OF_CLEANED_RAIL,
+    PLOT_QUANTITIES,
+    WHEELSETS,
+    channel_names,
+    loop_lines,
+)
 from uictest.units import STANDARD_GRAVITY
 
 BINS = 800
@@ -138,11 +145,13 @@ def _derived(record: recording.Recording) -> dict[str, Series]:
 
 
 def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
+    shares = (channels[name] for name in channel_names("cleaned_share") if name in channels)
+    hidden = () if any(np.any(share > 0.0) for share in shares) else OF_CLEANED_RAIL
     return {
-        name: np.asarray(channels[name], dtype=np.float64) / quantity.scale
+        name: (np.asarray(channels[name], dtype=np.float64) - quantity.zero) / quantity.scale
         for key, quantity in PLOT_QUANTITIES.items()
         for name in channel_names(key)
-        if name in channels
+        if name in channels and key not in hidden
     }
 
 

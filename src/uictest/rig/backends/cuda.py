@@ -18,6 +18,7 @@ from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics import fma
 from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
 from uictest.rig.backends.compiled import Function, translate, with_controller
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
@@ -48,7 +49,9 @@ def kernel(controller: Controller) -> Any:
 
     def run_stops(
         parameters: Any,
+        wheelset_parameters: Any,
         rail: Any,
+        memories: Any,
         measures: Any,
         wheelset_measures: Any,
         zeroed_car: Any,
@@ -73,7 +76,10 @@ def kernel(controller: Controller) -> Any:
                 bogies,
                 wheelsets,
                 parameters[i],
+                wheelset_parameters[i],
                 rail[i],
+                # A single memory where no case writes one: it is large beside the state of a stop.
+                memories[min(i, memories.shape[0] - 1)],
                 measures[i],
                 wheelset_measures[i],
                 Trace(no_train, no_wheelsets),
@@ -90,12 +96,14 @@ def constant_arguments() -> tuple[NDArray[Any], ...]:
 
 
 def run_on_gpu(
-    parameters: Any, rail: NDArray[np.float64], controllers: Sequence[Controller]
+    parameters: Any, wheelset_parameters: Any, rail: NDArray[np.float64], controllers: Sequence[Controller]
 ) -> BatchMeasures:
     """Simulate many stops on the GPU.
 
     Args:
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
+        wheelset_parameters: records of
+            :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, shape (n, 4).
         rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
             (n, 4, points).
         controllers: the controller of each case.
@@ -106,22 +114,29 @@ def run_on_gpu(
     count = len(parameters)
     batch = BatchMeasures(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES))
     for controller, cases in cases_by_controller(controllers):
-        measures, wheelset_measures = _run(controller, parameters[cases], rail[cases])
+        measures, wheelset_measures = _run(
+            controller, parameters[cases], wheelset_parameters[cases], rail[cases]
+        )
         batch.measures[cases] = measures
         batch.wheelset_measures[cases] = wheelset_measures
     return batch
 
 
-def _run(controller: Controller, parameters: Any, rail: NDArray[np.float64]) -> tuple[Any, Any]:
+def _run(
+    controller: Controller, parameters: Any, wheelset_parameters: Any, rail: NDArray[np.float64]
+) -> tuple[Any, Any]:
     """Return the measures of cases with the same controller."""
     count = len(parameters)
     measures = cuda.device_array(count, STOP_MEASURES)
     wheelset_measures = cuda.device_array((count, 4), WHEELSET_MEASURES)
+    memories = cuda.device_array(count if parameters["cleans_rail"].any() else 1, RAIL_MEMORY)
     blocks = -(-count // THREADS_PER_BLOCK)
     with without_contraction():
         kernel(controller)[blocks, THREADS_PER_BLOCK](
             cuda.to_device(parameters),
+            cuda.to_device(wheelset_parameters),
             cuda.to_device(rail),
+            memories,
             measures,
             wheelset_measures,
             *(cuda.to_device(array) for array in constant_arguments()),

@@ -8,6 +8,7 @@ import numpy as np
 
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import StopInputs
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 
@@ -31,7 +32,7 @@ def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0)
 
     Args:
         run_stop: what runs the stop, made for the controller of ``inputs``.
-        inputs: parameters, rail and controller.
+        inputs: parameters, those of the wheelsets, rail and controller.
         steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
     """
     parameters = inputs.parameters
@@ -42,7 +43,8 @@ def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0)
     wheelset_measures = np.zeros(4, WHEELSET_MEASURES)
     trace = empty_trace(_rows(parameters, steps_per_sample))
     rows = run_stop(
-        *(car[0], bogies, wheelsets, parameters, inputs.rail),
+        *(car[0], bogies, wheelsets, parameters, inputs.wheelset_parameters),
+        *(inputs.rail, np.zeros(1, RAIL_MEMORY)[0]),
         *(measures[0], wheelset_measures, trace, steps_per_sample),
     )
     return FinishedStop(

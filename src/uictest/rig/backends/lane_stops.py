@@ -9,7 +9,10 @@ from typing import Any, NamedTuple
 
 from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.pole_wheel import read_pole_wheels
+from uictest.rig.model.rail_memory import clean_rail, forget_rail
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
 from uictest.rig.model.stop import (
@@ -45,12 +48,13 @@ class Cases(NamedTuple):
     """Inputs of stops and the records that receive their measures, an entry for each case."""
 
     parameters: Any
+    wheelset_parameters: Any
     rail: Any
     measures: Any
     wheelset_measures: Any
 
 
-def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running: Any) -> None:
+def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running: Any, memories: Any) -> None:
     """Run the cases of ``queue`` in ``lanes`` and fill their measures.
 
     Args:
@@ -60,24 +64,32 @@ def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running
         queue: numbers of the cases to be run, in the order in which they start; at least one, and all with
             the same number of steps in a controller cycle.
         running: for each lane, the number of its case; set here.
+        memories: for each lane, what the rail of its case remembers; set here where a rail is cleaned.
     """
     align_stack()
     started = 0
     for k in range(running.size):
         # A lane for which no case is left steps this one: its numbers stay those of a stop.
-        _set_to_start(lanes, blank, cases.parameters[queue[0]], k)
-        started = _start_next_case(lanes, blank, cases, queue, running, started, k)
+        _set_to_start(lanes, blank, cases, queue[0], k)
+        started = _start_next_case(lanes, blank, cases, queue, running, memories, started, k)
     ended = 0
     while ended < queue.size:
-        _run_cycle(lanes, cases, running)
+        _run_cycle(lanes, cases, running, memories)
         for k in range(running.size):
             if running[k] != _IDLE and _finish_if_stopped(lanes, cases, running[k], k):
                 ended += 1
-                started = _start_next_case(lanes, blank, cases, queue, running, started, k)
+                started = _start_next_case(lanes, blank, cases, queue, running, memories, started, k)
 
 
 def _start_next_case(
-    lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running: Any, started: int, k: int
+    lanes: Lanes,
+    blank: RigRecords,
+    cases: Cases,
+    queue: Any,
+    running: Any,
+    memories: Any,
+    started: int,
+    k: int,
 ) -> int:
     """Start the next case in lane ``k``, or leave it idle when none waits; return how many have started."""
     if started == queue.size:
@@ -85,14 +97,16 @@ def _start_next_case(
         return started
     case = queue[started]
     running[k] = case
-    _set_to_start(lanes, blank, cases.parameters[case], k)
+    _set_to_start(lanes, blank, cases, case, k)
     begin_tables(cases.measures[case], cases.wheelset_measures[case])
+    if cases.parameters[case].cleans_rail > 0.0:
+        forget_rail(memories[k])
     return started + 1
 
 
-def _set_to_start(lanes: Lanes, blank: RigRecords, p: Any, k: int) -> None:
-    """Set lane ``k`` to the instant of the brake command."""
-    rig = lanes.rig
+def _set_to_start(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, k: int) -> None:
+    """Set lane ``k`` to the instant of the brake command of a case."""
+    p, rig = cases.parameters[case], lanes.rig
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
     copy_to_lane(lane(lanes.settings, k), p)
     copy_to_lane(car, blank.car[0])
@@ -100,31 +114,48 @@ def _set_to_start(lanes: Lanes, blank: RigRecords, p: Any, k: int) -> None:
         copy_to_lane(bogies[j], blank.bogies[j])
     for i in range(4):
         copy_to_lane(wheelsets[i], blank.wheelsets[i])
-    start(car, bogies, wheelsets, p)
+    start(car, bogies, wheelsets, p, cases.wheelset_parameters[case])
     begin_stop_measures(car, lane(lanes.measures, k), lane(lanes.wheelset_measures, k), p)
 
 
-def _run_cycle(lanes: Lanes, cases: Cases, running: Any) -> None:
+def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
     """Step all lanes through a controller cycle; idle lanes skip their controller."""
     rig = lanes.rig
     car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
     settings = vectors(lanes.settings)
     steps = 0
     follows_air = False
+    warms_discs = False
     read_sensors(car, wheelsets, settings)
+    if _any_pole_wheel(cases, running):
+        read_pole_wheels(car, wheelsets, settings)
     for k in range(running.size):
         case = running[k]
         if case != _IDLE:
             p = cases.parameters[case]
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
+            if p.cleans_rail > 0.0:
+                clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
             steps = p.steps_per_cycle
             follows_air = follows_air or p.uses_module_air > 0.0
+            warms_discs = warms_discs or p.models_disc_temperature > 0.0
     command_valves(car, wheelsets, settings)
     for _ in range(steps):
         if follows_air:
             follow_module_air(car, wheelsets, settings)
         step(car, bogies, wheelsets, settings)
+    if warms_discs:
+        warm_discs(wheelsets, settings)
     observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
+
+
+def _any_pole_wheel(cases: Cases, running: Any) -> bool:
+    """Whether the case of any lane has a sensor that the pole wheels are read for."""
+    found = False
+    for k in range(running.size):
+        if running[k] != _IDLE:
+            found = found or cases.parameters[running[k]].uses_pole_wheels > 0.0
+    return found
 
 
 def _finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:

@@ -24,12 +24,16 @@ from uictest.rig.backends.compiled import (
 )
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.model.cycle import command_valves, read_sensors
+from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.pole_wheel import read_pole_wheels
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
 from uictest.rig.model.stop import observe_cycle
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
@@ -39,6 +43,7 @@ _BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 
 def run_in_lanes(
     parameters: NDArray[Any],
+    wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
     controllers: Sequence[Controller],
     width: int | None = None,
@@ -50,17 +55,20 @@ def run_in_lanes(
 
     Args:
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (cases,).
+        wheelset_parameters: records of
+            :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, shape (cases, 4).
         rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
             (cases, 4, n).
         controllers: the controller of each case.
         width: number of lanes; by default as many as this processor's registers hold.
     """
     parameters, rail = np.ascontiguousarray(parameters), np.ascontiguousarray(rail)
+    own = np.ascontiguousarray(wheelset_parameters)
     batch = BatchMeasures(
         np.zeros(parameters.size, STOP_MEASURES), np.zeros((parameters.size, 4), WHEELSET_MEASURES)
     )
     for controller, queue in _queues(controllers, parameters["steps_per_cycle"]):
-        _run_queue(controller, parameters, rail, batch, queue, width or register_width())
+        _run_queue(controller, parameters, own, rail, batch, queue, width or register_width())
     return batch
 
 
@@ -84,6 +92,7 @@ def _queues(
 def _run_queue(
     controller: Controller,
     parameters: NDArray[Any],
+    wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
     batch: BatchMeasures,
     queue: NDArray[np.int64],
@@ -91,10 +100,11 @@ def _run_queue(
 ) -> None:
     blocks = [block(layout, width, number) for layout, number in _BLOCKS]
     blank = [np.zeros(number, layout) for layout, number in _RIG]
-    allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64))
+    allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64), np.empty(width, RAIL_MEMORY))
     count, points = parameters.size, rail.shape[-1]
     arguments = (
         address(parameters, PARAMETERS, (count,)),
+        address(wheelset_parameters, WHEELSET_PARAMETERS, (count, 4)),
         address(rail, "f8", (count, ROWS, points)),
         *(address(array, array.dtype, array.shape) for array in allocated),
         *(count, points, queue.size),
@@ -115,6 +125,7 @@ def _compile(controller: Controller, width: int) -> Any:
 
     def on_addresses(
         parameters: Any,
+        wheelset_parameters: Any,
         rail: Any,
         cars: Any,
         bogies: Any,
@@ -129,6 +140,7 @@ def _compile(controller: Controller, width: int) -> Any:
         wheelset_measures: Any,
         queue: Any,
         running: Any,
+        memories: Any,
         count: int,
         points: int,
         queued: int,
@@ -143,18 +155,21 @@ def _compile(controller: Controller, width: int) -> Any:
             rig(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
             all_cases(
                 carray(parameters, count),
+                carray(wheelset_parameters, (count, 4)),
                 carray(rail, (count, ROWS, points)),
                 carray(measures, count),
                 carray(wheelset_measures, (count, 4)),
             ),
             carray(queue, queued),
             carray(running, width),
+            carray(memories, width),
         )
         return 0
 
     blocks = (block(layout, width).dtype for layout, _ in _BLOCKS)
     records = (*(layout for layout, _ in _RIG), STOP_MEASURES, WHEELSET_MEASURES)
-    return callback(on_addresses, PARAMETERS, "f8", *blocks, *records, "i8", "i8", int, int, int)
+    inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8"
+    return callback(on_addresses, *inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
 
 
 def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
@@ -172,7 +187,15 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
         sqrt: vector_functions.sqrt,
         floor: vector_functions.floor,
     }
-    without_branches = (read_sensors, command_valves, follow_module_air, step, observe_cycle)
+    without_branches = (
+        read_sensors,
+        read_pole_wheels,
+        command_valves,
+        follow_module_air,
+        step,
+        warm_discs,
+        observe_cycle,
+    )
     wide = {function: translate(function, njit, in_lanes) for function in without_branches}
     scalar = with_controller(controller, njit, compiled_operations())
     return Lanes, RigRecords, Cases, translate(run_queue, njit, {**scalar, **wide})

@@ -20,12 +20,14 @@ from uictest.rig.backends.compiled import (
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 _ARGUMENTS = (
-    *(CAR, BOGIE, WHEELSET, PARAMETERS, "f8", int),
+    *(CAR, BOGIE, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS, "f8", int, RAIL_MEMORY),
     *(STOP_MEASURES, WHEELSET_MEASURES, TRAIN_SAMPLE, WHEELSET_SAMPLE, int, int),
 )
 
@@ -60,7 +62,9 @@ class NativeStop:
         bogies: Any,
         wheelsets: Any,
         p: Any,
+        wheelset_parameters: Any,
         rail: NDArray[np.float64],
+        memory: Any,
         measures: Any,
         wheelset_measures: Any,
         trace: Trace,
@@ -73,8 +77,10 @@ class NativeStop:
             address(bogies, BOGIE, (2,)),
             address(wheelsets, WHEELSET, (4,)),
             address(p, PARAMETERS),
+            address(wheelset_parameters, WHEELSET_PARAMETERS, (4,)),
             address(rail, np.dtype("f8"), (ROWS, rail.shape[1])),
             rail.shape[1],
+            address(memory, RAIL_MEMORY),
             address(measures, STOP_MEASURES),
             address(wheelset_measures, WHEELSET_MEASURES, (4,)),
             address(trace.train, TRAIN_SAMPLE, (rows,)),
@@ -95,8 +101,10 @@ def _compile(controller: Controller) -> Any:
         bogies: Any,
         wheelsets: Any,
         p: Any,
+        wheelset_parameters: Any,
         rail: Any,
         points: int,
+        memory: Any,
         measures: Any,
         wheelset_measures: Any,
         train_samples: Any,
@@ -109,7 +117,9 @@ def _compile(controller: Controller) -> Any:
             carray(bogies, 2),
             carray(wheelsets, 4),
             carray(p, 1)[0],
+            carray(wheelset_parameters, 4),
             carray(rail, (ROWS, points)),
+            carray(memory, 1)[0],
             carray(measures, 1)[0],
             carray(wheelset_measures, 4),
             Trace(carray(train_samples, rows), carray(wheelset_samples, (rows, 4))),

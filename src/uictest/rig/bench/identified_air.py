@@ -17,6 +17,7 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import move_valve
 from uictest.rig.model.start import start_module
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
+from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
 from uictest.scenario import Case
 from uictest.units import BAR
 
@@ -158,10 +159,12 @@ class _ModelledPressure:
         car: Any = np.zeros(1, CAR)[0]
         wheelset: Any = np.zeros(1, WHEELSET)[0]
         computed = np.empty(len(channels["time"]))
+        inputs = assemble(_with_unknowns(self._case, unknowns))
         _compiled()(
             car,
             wheelset,
-            assemble(_with_unknowns(self._case, unknowns)).parameters,
+            inputs.parameters,
+            inputs.wheelset_parameters[0],
             channels["tank"],
             channels["line"],
             channels["command"].astype(np.int64),
@@ -197,9 +200,17 @@ def _compiled() -> Callable[..., None]:
 
 
 def _follow(
-    car: Car, wheelset: Wheelset, p: Parameters, tank: Any, line: Any, commands: Any, computed: Any
+    car: Car,
+    wheelset: Wheelset,
+    p: Parameters,
+    own: WheelsetParameters,
+    tank: Any,
+    line: Any,
+    commands: Any,
+    computed: Any,
 ) -> None:
     """Follow a record sample by sample and fill ``computed`` with gauge pressures, Pa."""
+    copy_wheelset_parameters(wheelset, own)
     start_module(wheelset, 0.0, p)
     wheelset.pressure_reading = tank[0]
     computed[0] = tank[0]
@@ -209,7 +220,7 @@ def _follow(
             wheelset.valve_command = commands[n]
             command_valve(wheelset, p)
         car.substep = float(within)
-        move_valve(wheelset, car, p)
+        move_valve(wheelset, car)
         wheelset.pressure_reading = tank[n]
         follow_tank(wheelset, line[n] + p.atmospheric_pressure, p)
         computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure

@@ -11,9 +11,13 @@ from uictest.rig.bench.step import run_bench_test
 from uictest.rig.bench.trace import BENCH_SAMPLE
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 _NAME = "uictest_bench"
-_ARGUMENTS = (CAR, WHEELSET, WHEELSET, PARAMETERS, "f8", "f8", "i8", BENCH_SAMPLE, int, int)
+_ARGUMENTS = (
+    *(CAR, WHEELSET, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS),
+    *("f8", "f8", "i8", BENCH_SAMPLE, int, int),
+)
 _COUNT = len(SETTINGS)
 
 
@@ -34,6 +38,7 @@ def run_compiled(
         address(rig.modules, WHEELSET, (MODULES,)),
         address(rig.computed, WHEELSET, (_COUNT,)),
         address(rig.settings, PARAMETERS, (_COUNT,)),
+        address(rig.wheelset_parameters, WHEELSET_PARAMETERS),
         address(rig.loadcell_errors, "f8", (LOADCELLS,)),
         address(demanded_pressures, "f8", (len(trace) - 1,)),
         address(valve_commands, "i8", (len(valve_commands),)),
@@ -54,6 +59,7 @@ def _compile() -> Any:
         modules: Any,
         computed: Any,
         settings: Any,
+        wheelset_parameters: Any,
         loadcell_errors: Any,
         pressures: Any,
         commands: Any,
@@ -66,6 +72,7 @@ def _compile() -> Any:
             carray(modules, MODULES),
             carray(computed, _COUNT),
             carray(settings, _COUNT),
+            carray(wheelset_parameters, 1)[0],
             carray(loadcell_errors, LOADCELLS),
         )
         entry(rig, carray(pressures, rows - 1), carray(commands, cycles), carray(trace, rows))

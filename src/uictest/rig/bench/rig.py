@@ -9,6 +9,7 @@ from uictest.rig.assembly import assemble
 from uictest.rig.bench.inputs import Clock
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
+from uictest.rig.model.wheelset_parameters import WheelsetParameters
 from uictest.scenario import COMPENSATION_SETTINGS, Case
 
 SETTINGS = tuple(COMPENSATION_SETTINGS)
@@ -26,6 +27,7 @@ class BenchRig(NamedTuple):
         modules: with caliper, and without.
         computed: a module for each setting, which computes the force of the second module under it.
         settings: as many parameter records that differ in the setting of the compensation alone.
+        wheelset_parameters: those of wheelset 1, whose module is on the bench.
         loadcell_errors: momentary errors of the three loadcells, N.
     """
 
@@ -33,6 +35,7 @@ class BenchRig(NamedTuple):
     modules: Sequence[Wheelset]
     computed: Sequence[Wheelset]
     settings: Sequence[Parameters]
+    wheelset_parameters: WheelsetParameters
     loadcell_errors: MutableSequence[float]
 
 
@@ -44,17 +47,19 @@ def clock_of(case: Case) -> Clock:
 
 def bench_rig(case: Case) -> BenchRig:
     """Return the rig of a case, its state zeroed."""
+    inputs = assemble(case)
     car: Any = np.zeros(1, CAR)[0]
     modules: Any = np.zeros(MODULES, WHEELSET)
     computed: Any = np.zeros(len(SETTINGS), WHEELSET)
     loadcell_errors: Any = np.zeros(LOADCELLS)
-    return BenchRig(car, modules, computed, _settings(case), loadcell_errors)
+    own = inputs.wheelset_parameters[0]
+    return BenchRig(car, modules, computed, _settings(inputs.parameters), own, loadcell_errors)
 
 
-def _settings(case: Case) -> Any:
+def _settings(parameters: Any) -> Any:
     """Return the parameters once for each setting of the compensation; the valves obey the commands."""
     settings: Any = np.zeros(len(SETTINGS), PARAMETERS)
-    settings[:] = assemble(case).parameters
+    settings[:] = parameters
     settings["wsp_active"] = 1
     uses = COMPENSATION_SETTINGS.values()
     settings["uses_hysteresis"] = [setting.hysteresis for setting in uses]

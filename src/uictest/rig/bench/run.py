@@ -20,7 +20,8 @@ def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_co
     """Apply an input to the rig of a case, without its vehicle and controller, and record every step.
 
     Args:
-        case: where brake system, caliper, compensation, sensors and seed come from.
+        case: where brake system, caliper, compensation, sensors and seed come from; the module is that of
+            wheelset 1.
         applied: demanded pressures and valve commands; see :mod:`uictest.rig.bench.inputs`.
         run: :func:`uictest.rig.bench.step.run_bench_test`, plain or compiled.
 

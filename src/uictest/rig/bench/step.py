@@ -20,6 +20,7 @@ from uictest.rig.model.cycle import (
 from uictest.rig.model.module_air import follow_tank, read_line_pressure
 from uictest.rig.model.pneumatics import follow_demanded_pressure, step_tank
 from uictest.rig.model.start import start_module, start_supply
+from uictest.rig.model.wheelset_parameters import copy_wheelset_parameters
 
 _LOADCELL = 8
 """Noise channel of the first loadcell, behind those that a stop uses."""
@@ -51,8 +52,10 @@ def start_bench(rig: BenchRig) -> None:
     p = rig.settings[0]
     start_supply(rig.car, p)
     for i in range(MODULES):
+        copy_wheelset_parameters(rig.modules[i], rig.wheelset_parameters)
         start_module(rig.modules[i], 1.0 - i, p)
     for i in range(len(SETTINGS)):
+        copy_wheelset_parameters(rig.computed[i], rig.wheelset_parameters)
         start_module(rig.computed[i], 0.0, rig.settings[i])
 
 
@@ -65,8 +68,8 @@ def start_bench_cycle(rig: BenchRig, cycle: int, valve_command: int) -> None:
         module.valve_command = valve_command
         command_valve(module, p)
     read_line_sensor(rig.car, p, cycle)
-    share = p.loadcell_noise / sqrt(LOADCELLS)
     caliper = rig.modules[0]
+    share = caliper.loadcell_noise / sqrt(LOADCELLS)
     caliper.loadcell_error = 0.0
     for k in range(LOADCELLS):
         rig.loadcell_errors[k] = share * sensor_noise(p, cycle, _LOADCELL + k)

@@ -71,9 +71,9 @@ def _sample_forces(row: BenchSample, rig: BenchRig, p: Parameters) -> None:
     caliper = rig.modules[0]
     row.stroke_1 = caliper.stroke
     row.caliper_force_1 = caliper.caliper_force
-    row.loadcell_1 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[0], rig.loadcell_errors[0], p)
-    row.loadcell_2 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[1], rig.loadcell_errors[1], p)
-    row.loadcell_3 = _loadcell(caliper.caliper_force * LOADCELL_SHARES[2], rig.loadcell_errors[2], p)
+    row.loadcell_1 = _loadcell(caliper, 0, rig, p)
+    row.loadcell_2 = _loadcell(caliper, 1, rig, p)
+    row.loadcell_3 = _loadcell(caliper, 2, rig, p)
     row.clamping_force_1 = row.loadcell_1 + row.loadcell_2 + row.loadcell_3
     row.computed_force_1 = caliper.computed_force
     row.computed_force_none_2 = rig.computed[NONE].computed_force
@@ -87,8 +87,8 @@ def _measured_pressure(module: Wheelset, p: Parameters) -> float:
     gauge = module.pressure - p.atmospheric_pressure
     return analogue_reading(
         gauge,
-        p.pressure_gain_error,
-        p.pressure_offset,
+        module.pressure_gain_error,
+        module.pressure_offset,
         module.pressure_error,
         p.pressure_range,
         p.pressure_resolution,
@@ -96,13 +96,13 @@ def _measured_pressure(module: Wheelset, p: Parameters) -> float:
     )
 
 
-def _loadcell(force: float, error: float, p: Parameters) -> float:
+def _loadcell(caliper: Wheelset, place: int, rig: BenchRig, p: Parameters) -> float:
     """Return the reading of one of three loadcells; they share offset and noise of the force channel."""
     return analogue_reading(
-        force,
-        p.loadcell_gain_error,
-        p.loadcell_offset / LOADCELLS,
-        error,
+        caliper.caliper_force * LOADCELL_SHARES[place],
+        caliper.loadcell_gain_error,
+        caliper.loadcell_offset / LOADCELLS,
+        rig.loadcell_errors[place],
         p.loadcell_range,
         p.loadcell_resolution,
         p.loadcell_steps,

@@ -8,7 +8,12 @@ from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 
 
 def stored_energy(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
-    """Kinetic energy, energy of the springs and of the height gained on the gradient, J."""
+    """Kinetic energy, energy of the springs and of the height gained on the gradient, J.
+
+    Within a step a force is constant and does its work with the mean of the speeds at both ends, while
+    positions advance with the speed at the end. The places that belong to that work lie half a step behind,
+    and with them springs and gradient give back what was put in.
+    """
     energy: float = _frame_energy(car, p.body_mass, p.body_inertia, p)
     for j in range(2):
         bogie = bogies[j]
@@ -21,33 +26,50 @@ def stored_energy(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
 
 def _frame_energy(frame: Frame, mass: float, inertia: float, p: Parameters) -> float:
     motion = kinetic_energy(mass, frame.speed) + kinetic_energy(mass, frame.vertical_speed)
-    height: float = p.gradient * frame.position
+    height: float = p.gradient * _behind(frame.position, frame.speed, p)
     return motion + kinetic_energy(inertia, frame.pitch_rate) + mass * float(p.gravity) * height
 
 
 def _secondary_energy(car: Car, bogie: Bogie, p: Parameters) -> float:
-    rise = vertical(car.height, car.pitch, bogie.ahead) - bogie.height
+    rise = _height(car, bogie.ahead, p) - _height(bogie, 0.0, p)
     energy = spring_energy(p.secondary_vertical_stiffness, rise)
     energy += spring_energy(p.secondary_longitudinal_stiffness, _shift(car, bogie, p.secondary_height, p))
     return energy + spring_energy(p.link_stiffness, _shift(car, bogie, p.link_height, p))
 
 
 def _shift(car: Car, bogie: Bogie, height: float, p: Parameters) -> float:
-    return longitudinal(car.position, car.pitch, height - p.body_height) - longitudinal(
-        bogie.position, bogie.pitch, height - p.bogie_height
+    return _place(car, height - p.body_height, p) - _place(bogie, height - p.bogie_height, p)
+
+
+def _place(frame: Frame, above: float, p: Parameters) -> float:
+    position, pitch = _behind(frame.position, frame.speed, p), _behind(frame.pitch, frame.pitch_rate, p)
+    return longitudinal(position, pitch, above)
+
+
+def _height(frame: Frame, ahead: float, p: Parameters) -> float:
+    height, pitch = (
+        _behind(frame.height, frame.vertical_speed, p),
+        _behind(frame.pitch, frame.pitch_rate, p),
     )
+    return vertical(height, pitch, ahead)
+
+
+def _behind(position: float, speed: float, p: Parameters) -> float:
+    """Position, height or pitch half a step ago."""
+    return position - 0.5 * float(p.step) * speed
 
 
 def _wheelset_energy(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> float:
-    shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, p.wheel_radius - p.bogie_height)
-    rise = vertical(bogie.height, bogie.pitch, wheelset.ahead)
+    position = _behind(wheelset.position, wheelset.speed, p)
+    shift = position - _place(bogie, wheelset.wheel_radius - p.bogie_height, p)
+    rise = _height(bogie, wheelset.ahead, p)
     springs = spring_energy(p.primary_longitudinal_stiffness, shift) + spring_energy(
         p.primary_vertical_stiffness, rise
     )
     motion: float = kinetic_energy(p.wheelset_mass, wheelset.speed) + kinetic_energy(
         p.wheelset_inertia, wheelset.rotation
     )
-    height: float = p.gradient * wheelset.position
+    height: float = p.gradient * position
     return springs + motion + float(p.wheelset_mass * p.gravity) * height
 
 

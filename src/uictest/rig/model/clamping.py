@@ -27,8 +27,8 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
     _step_caliper(wheelset, gauge, p)
     reading = analogue_reading(
         gauge,
-        p.pressure_gain_error,
-        p.pressure_offset,
+        wheelset.pressure_gain_error,
+        wheelset.pressure_offset,
         wheelset.pressure_error,
         p.pressure_range,
         p.pressure_resolution,
@@ -39,8 +39,8 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
     _step_hysteresis(wheelset, p)
     loadcells = analogue_reading(
         wheelset.caliper_force,
-        p.loadcell_gain_error,
-        p.loadcell_offset,
+        wheelset.loadcell_gain_error,
+        wheelset.loadcell_offset,
         wheelset.loadcell_error,
         p.loadcell_range,
         p.loadcell_resolution,
@@ -55,15 +55,15 @@ def _step_caliper(wheelset: Wheelset, gauge: float, p: Parameters) -> None:
         gauge,
         p.piston_area,
         p.preload,
-        p.coulomb_friction,
+        wheelset.coulomb_friction,
         p.clearance,
         p.piston_damping,
         p.contact_damping,
-        p.squeezing_stiffness,
-        p.releasing_stiffness,
+        wheelset.squeezing_stiffness,
+        wheelset.releasing_stiffness,
         p.free_compliance,
-        p.squeezing_compliance,
-        p.releasing_compliance,
+        wheelset.squeezing_compliance,
+        wheelset.releasing_compliance,
     )
     wheelset.stroke_change = stroke - wheelset.stroke
     wheelset.stroke = stroke

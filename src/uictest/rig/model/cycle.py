@@ -20,14 +20,16 @@ from uictest.physics import (
     threefry,
 )
 from uictest.rig.model.controller import decide
+from uictest.rig.model.disc_brake import set_pad_friction
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 
-_CHANNELS = 16
+CHANNELS = 16
 """Noise channels set aside for each wheelset."""
-_SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
-_LINE = 4 * _CHANNELS
+SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
+"""Noise channels of a wheelset's sensors."""
+_LINE = 4 * CHANNELS
 """Noise channel of the brake line's pressure sensor, behind those of the wheelsets."""
 
 
@@ -41,7 +43,7 @@ def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
-    """Look up the friction under each wheelset and let the controller decide from the sensor readings.
+    """Look up the friction under each wheelset and of its pads; let the controller decide from the readings.
 
     Args:
         car: car record.
@@ -54,6 +56,7 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
         wheelset = wheelsets[i]
         along = interpolated(car.position - wheelset.behind, rail[PLACES], rail[FRICTIONS], p.friction_points)
         wheelset.friction = along * factor
+    set_pad_friction(wheelsets, p)
     decide(car, wheelsets, p)
 
 
@@ -69,28 +72,33 @@ def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> No
 
 def read_module_sensors(wheelset: Wheelset, p: Parameters, cycle: int, number: int) -> None:
     """Read the speed sensor and draw the momentary errors of the pressure sensor and the loadcells."""
-    channel = number * _CHANNELS
-    wheelset.pressure_error = p.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
-    wheelset.loadcell_error = p.loadcell_noise * sensor_noise(p, cycle, channel + _LOADCELL)
+    channel = number * CHANNELS
+    wheelset.pressure_error = wheelset.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
+    wheelset.loadcell_error = wheelset.loadcell_noise * sensor_noise(p, cycle, channel + _LOADCELL)
     wheelset.measured_speed = speed_reading(
-        wheelset.rotation * p.wheel_radius,
-        p.tooth_pitch,
-        p.timer_resolution,
+        wheelset.rotation * wheelset.configured_radius,
+        wheelset.tooth_pitch,
+        wheelset.timer_resolution,
         p.cycle_time,
-        p.slowest_measured_speed,
-        p.speed_noise * sensor_noise(p, cycle, channel + _SPEED),
+        wheelset.slowest_measured_speed,
+        wheelset.speed_noise * sensor_noise(p, cycle, channel + SPEED) + wheelset.speed_gain_error,
     )
 
 
 def read_line_sensor(car: Car, p: Parameters, cycle: int) -> None:
     """Draw the momentary error of the brake line's pressure sensor."""
-    car.line_pressure_error = p.pressure_noise * sensor_noise(p, cycle, _LINE)
+    car.line_pressure_error = p.line_sensor_noise * sensor_noise(p, cycle, _LINE)
 
 
 def sensor_noise(p: Parameters, cycle: int, channel: int) -> float:
     """Number of mean 0 and variance 1 for one cycle and one noise channel."""
-    word_0, word_1 = threefry(p.seed, p.case_key, cycle, channel)
+    word_0, word_1 = noise_words(p, cycle, channel)
     return bell(word_0, word_1)
+
+
+def noise_words(p: Parameters, cycle: int, channel: int) -> tuple[int, int]:
+    """Two words of random bits for one cycle and one noise channel."""
+    return threefry(p.seed, p.case_key, cycle, channel)
 
 
 def command_valve(wheelset: Wheelset, p: Parameters) -> None:
@@ -99,8 +107,8 @@ def command_valve(wheelset: Wheelset, p: Parameters) -> None:
     register = remember(wheelset.command_register, command)
     wheelset.valve_command = command
     wheelset.command_register = register
-    before = command_before(register, p.valve_delay_cycles + 1)
-    after = command_before(register, p.valve_delay_cycles)
+    before = command_before(register, wheelset.valve_delay_cycles + 1)
+    after = command_before(register, wheelset.valve_delay_cycles)
     filling_cycles = select(command == FILL, wheelset.filling_cycles + 1, 0)
     wheelset.fill_before = select(before == FILL, 1.0, 0.0)
     wheelset.fill_after = select(after == FILL, 1.0, 0.0)

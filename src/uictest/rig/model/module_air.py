@@ -32,8 +32,8 @@ def read_line_pressure(car: Car, p: Parameters) -> float:
     """Return the absolute pressure of the brake line in Pa, as its sensor reads it."""
     gauge = analogue_reading(
         car.line_pressure - p.atmospheric_pressure,
-        p.pressure_gain_error,
-        p.pressure_offset,
+        p.line_sensor_gain_error,
+        p.line_sensor_offset,
         car.line_pressure_error,
         p.pressure_range,
         p.pressure_resolution,

@@ -1,13 +1,20 @@
-"""Parameters: the numbers that a case fixes, each declared once.
+"""Parameters: the numbers that a case fixes, each declared once; those of a wheelset stand apart.
 
 :func:`~uictest.record.from_scenario` names the key of the scenario whose value the field holds; what is
-:func:`~uictest.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. SI units; pressures are
-absolute unless named gauge. The order of fields carries no meaning.
+:func:`~uictest.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. What may differ from
+wheelset to wheelset is in :mod:`uictest.rig.model.wheelset_parameters`. SI units; pressures are absolute
+unless named gauge. The order of fields carries no meaning.
 """
+
+from collections.abc import MutableSequence
+from typing import Annotated
 
 from uictest.controllers import CONTROLLERS, ControllerCycle
 from uictest.measures import MeasureDefinition
+from uictest.physics import MOST_PAD_POINTS
 from uictest.record import derived, from_scenario, layout_of
+
+PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 
 
 def inverse(value: float) -> float:
@@ -21,7 +28,7 @@ def of_both_sides(value: float) -> float:
 
 
 class Parameters(ControllerCycle, MeasureDefinition):
-    """Everything that a case fixes, but for the parameters of its controller."""
+    """What a case fixes for all wheelsets, but for the parameters of its controller."""
 
     # time
     step: float = from_scenario("simulation.time_step")  # base step, s
@@ -64,12 +71,7 @@ class Parameters(ControllerCycle, MeasureDefinition):
     critical_ratio: float = derived()  # this and the next two: physics.flow.orifice_law
     subsonic_scale: float = derived()
     laminar_slope: float = derived()
-    # WSP valve and tanks
-    fill_conductance: float = from_scenario("brake.system.wsp_valve.fill_conductance")  # m3/(s Pa)
-    vent_conductance: float = from_scenario("brake.system.wsp_valve.vent_conductance")  # m3/(s Pa)
-    valve_travel_per_step: float = derived()  # share of full opening
-    valve_delay_cycles: int = derived()  # whole controller cycles of the switching delay
-    valve_delay_steps: float = derived()  # and the steps that remain of it
+    # tanks
     tank_volume: float = from_scenario("brake.system.tank.volume")  # module without a caliper, m3
     tank_exchange: float = derived()  # heat conductance to its wall times the step, J/K
     caliper_tank_volume: float = derived()  # module with a caliper, piston at rest, m3
@@ -77,15 +79,10 @@ class Parameters(ControllerCycle, MeasureDefinition):
     # caliper
     piston_area: float = from_scenario("rig.caliper.piston_area")  # m2
     preload: float = from_scenario("rig.caliper.preload")  # N
-    coulomb_friction: float = from_scenario("rig.caliper.coulomb_friction")  # N
     clearance: float = from_scenario("rig.caliper.clearance")  # m
-    piston_damping: float = derived()  # this and the next six: physics.caliper.stiffnesses
+    piston_damping: float = derived()  # this and the next two: physics.caliper.stiffnesses
     contact_damping: float = derived()
-    squeezing_stiffness: float = derived()
-    releasing_stiffness: float = derived()
     free_compliance: float = derived()
-    squeezing_compliance: float = derived()
-    releasing_compliance: float = derived()
     contact_stiffness: float = from_scenario("rig.caliper.contact_stiffness")  # N/m
     lever_ratio: float = from_scenario("rig.caliper.lever_ratio")
     # compensation: coefficients of the cylinder's transfer function at this step
@@ -124,8 +121,43 @@ class Parameters(ControllerCycle, MeasureDefinition):
     # disc brake
     calipers_per_wheelset: float = from_scenario("brake.system.disc.calipers_per_wheelset")
     pads_per_caliper: float = from_scenario("brake.system.disc.pads_per_caliper")
-    pad_friction: float = from_scenario("brake.system.disc.pad_friction")
     disc_radius: float = from_scenario("brake.system.disc.mean_radius")  # m
+    # factors of the pad friction over m/s, N and K: tables, and physics.pad_friction.quotient_factor
+    varies_pad_friction: float = derived()  # 0 or 1
+    pad_speeds: PadTable = derived()
+    pad_speed_factors: PadTable = derived()
+    pad_speed_points: int = derived()
+    pad_speed_numerator: float = derived()
+    pad_speed_denominator: float = derived()
+    pad_speed_scale: float = derived()
+    pad_forces: PadTable = derived()
+    pad_force_factors: PadTable = derived()
+    pad_force_points: int = derived()
+    pad_force_numerator: float = derived()
+    pad_force_denominator: float = derived()
+    pad_force_scale: float = derived()
+    pad_temperatures: PadTable = derived()
+    pad_temperature_factors: PadTable = derived()
+    pad_temperature_points: int = derived()
+    # temperature of the discs of a wheelset in a controller cycle: physics.disc_temperature
+    models_disc_temperature: float = derived()  # 0 or 1; where 0, all of the following but one are zero
+    initial_disc_temperature: float = derived()  # K
+    disc_heat_capacity: float = derived()  # J/K
+    disc_warming: float = derived()  # of the bulk, K/J
+    disc_relaxation: float = derived()  # of the bulk to the air's temperature, share
+    disc_held_rise: float = derived()  # of the modes that are not followed, K/J
+    disc_rise_1: float = derived()  # of the modes of the temperature profile, K/J
+    disc_rise_2: float = derived()
+    disc_rise_3: float = derived()
+    disc_rise_4: float = derived()
+    disc_rise_5: float = derived()
+    disc_rise_6: float = derived()
+    disc_relaxation_1: float = derived()  # of these modes, share
+    disc_relaxation_2: float = derived()
+    disc_relaxation_3: float = derived()
+    disc_relaxation_4: float = derived()
+    disc_relaxation_5: float = derived()
+    disc_relaxation_6: float = derived()
     # car body and bogies
     body_mass: float = from_scenario("vehicle.body.mass")  # kg
     body_inertia: float = from_scenario("vehicle.body.pitch_inertia")  # kg m2
@@ -142,12 +174,9 @@ class Parameters(ControllerCycle, MeasureDefinition):
     # wheelset
     wheelset_mass: float = from_scenario("vehicle.wheelset.mass")  # kg
     wheelset_inertia: float = from_scenario("vehicle.wheelset.rotational_inertia")  # kg m2
-    wheel_radius: float = from_scenario("vehicle.wheelset.radius")  # m
     mass_response: float = derived()  # step over wheelset mass, s/kg
     inertia_response: float = derived()  # step over wheelset inertia, s/(kg m2)
     inertia_stiffness: float = derived()  # its inverse
-    slip_response: float = derived()  # change of slip speed in a step per creep force, m/(s N)
-    slip_stiffness: float = derived()  # its inverse
     # suspensions: primary per wheelset, secondary per bogie, N/m and N s/m
     primary_longitudinal_stiffness: float = from_scenario(
         "vehicle.primary.longitudinal_stiffness", of_both_sides
@@ -184,21 +213,22 @@ class Parameters(ControllerCycle, MeasureDefinition):
     load_scale: float = from_scenario("rail.condition.contact.reference_wheel_load", inverse)  # 1/N
     friction_points: int = derived()  # points of the friction along the track
     friction_times: int = derived()  # points of its factor over time
-    # sensors
-    tooth_pitch: float = derived()  # at the tread, m
-    timer_resolution: float = from_scenario("rig.sensors.speed.timer_resolution")  # s
-    slowest_measured_speed: float = from_scenario("rig.sensors.speed.minimum_speed")  # m/s
-    speed_noise: float = from_scenario("rig.sensors.speed.noise")  # share of the reading
+    # rail cleaned by sliding: physics.rail_cleaning
+    cleans_rail: float = derived()  # 0 or 1
+    cleaning_response: float = derived()  # cleaned share per energy per metre of track, m/J
+    cleaning_decay: float = derived()  # 1/m
+    recovered_friction: float = derived()
+    carry_over: float = derived()
+    rail_points_per_metre: float = derived()  # grid of rig.model.rail_memory, 1/m
+    uses_pole_wheels: float = derived()  # 0 or 1: a wheelset has a sensor of rig.model.pole_wheel
+    # sensors: what all of a kind share, and the errors of the one of the brake line
     pressure_range: float = from_scenario("rig.sensors.pressure.range")  # Pa
-    pressure_gain_error: float = from_scenario("rig.sensors.pressure.gain_error")
-    pressure_offset: float = from_scenario("rig.sensors.pressure.offset")  # Pa
-    pressure_noise: float = from_scenario("rig.sensors.pressure.noise")  # Pa
+    line_sensor_gain_error: float = from_scenario("rig.sensors.pressure.gain_error")
+    line_sensor_offset: float = from_scenario("rig.sensors.pressure.offset")  # Pa
+    line_sensor_noise: float = from_scenario("rig.sensors.pressure.noise")  # Pa
     pressure_resolution: float = from_scenario("rig.sensors.pressure.resolution")  # Pa
     pressure_steps: float = from_scenario("rig.sensors.pressure.resolution", inverse)  # per Pa
     loadcell_range: float = from_scenario("rig.sensors.loadcell.range")  # N
-    loadcell_gain_error: float = from_scenario("rig.sensors.loadcell.gain_error")
-    loadcell_offset: float = from_scenario("rig.sensors.loadcell.offset")  # N
-    loadcell_noise: float = from_scenario("rig.sensors.loadcell.noise")  # N
     loadcell_resolution: float = from_scenario("rig.sensors.loadcell.resolution")  # N
     loadcell_steps: float = from_scenario("rig.sensors.loadcell.resolution", inverse)  # per N
 

@@ -122,24 +122,24 @@ def _fill_line(
     car.line_heat += p.line_exchange * (p.air_temperature - car.line_temperature)
 
 
-def move_valve(wheelset: Wheelset, car: Car, p: Parameters) -> None:
+def move_valve(wheelset: Wheelset, car: Car) -> None:
     """Let the WSP valve of one module travel towards what it is commanded."""
-    switched = car.substep >= p.valve_delay_steps
+    switched = car.substep >= wheelset.valve_delay_steps
     fill_target = select(switched, wheelset.fill_after, wheelset.fill_before)
     vent_target = select(switched, wheelset.vent_after, wheelset.vent_before)
-    wheelset.fill_opening = travel(wheelset.fill_opening, fill_target, p.valve_travel_per_step)
-    wheelset.vent_opening = travel(wheelset.vent_opening, vent_target, p.valve_travel_per_step)
+    wheelset.fill_opening = travel(wheelset.fill_opening, fill_target, wheelset.valve_travel_per_step)
+    wheelset.vent_opening = travel(wheelset.vent_opening, vent_target, wheelset.valve_travel_per_step)
 
 
 def _step_valve(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, float]:
     """Move the WSP valve of one module; return the air that it lets into the tank and out of it, kg."""
-    move_valve(wheelset, car, p)
+    move_valve(wheelset, car)
     drawn = p.step * _orifice(
         car.line_pressure,
         wheelset.pressure,
         car.line_coldness,
         wheelset.air_coldness,
-        p.fill_conductance * wheelset.fill_opening,
+        wheelset.fill_conductance * wheelset.fill_opening,
         p,
     )
     vented = p.step * _orifice(
@@ -147,7 +147,7 @@ def _step_valve(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, flo
         p.atmospheric_pressure,
         wheelset.air_coldness,
         p.air_coldness,
-        p.vent_conductance * wheelset.vent_opening,
+        wheelset.vent_conductance * wheelset.vent_opening,
         p,
     )
     return drawn, vented

@@ -83,7 +83,7 @@ def _couple_longitudinally(
 
 def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -> None:
     """Add the forces of a primary suspension to the bogie; find the wheelset's load, thrust and torque."""
-    above = p.wheel_radius - p.bogie_height
+    above = wheelset.wheel_radius - p.bogie_height
     shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, above)
     rate = wheelset.speed - longitudinal(bogie.speed, bogie.pitch_rate, above)
     pull = suspension_force(p.primary_longitudinal_stiffness, p.primary_longitudinal_damping, shift, rate)
@@ -98,8 +98,12 @@ def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -
     )
     wheelset.thrust = -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
     wheelset.wheel_load = maximum(fma(-0.5, lift, p.static_wheel_load), LOWEST_LOAD * p.reference_load)
-    wheelset.torque = torque(
-        wheelset.clamping_force, p.calipers_per_wheelset, p.pads_per_caliper, p.pad_friction, p.disc_radius
+    wheelset.torque = wheelset.brake_force * torque(
+        wheelset.clamping_force,
+        p.calipers_per_wheelset,
+        p.pads_per_caliper,
+        wheelset.pad_friction,
+        p.disc_radius,
     )
 
 
@@ -110,16 +114,16 @@ def bracket_slip(wheelset: Wheelset, p: Parameters) -> None:
     """
     load_ratio = minimum(wheelset.wheel_load * p.load_scale, HIGHEST_LOAD)
     wheelset.contact_stiffness = contact_stiffness(p.creep_stiffness, load_ratio)
-    slip = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
+    slip = fma(-wheelset.wheel_radius, wheelset.rotation, wheelset.speed)
     braking = turning_direction(wheelset.rotation, wheelset.speed) * wheelset.torque
     pushed = fma(p.mass_response, wheelset.thrust, slip)
-    free_slip = fma(p.inertia_response * p.wheel_radius, braking, pushed)
+    free_slip = fma(p.inertia_response * wheelset.wheel_radius, braking, pushed)
     direction = select(free_slip < 0.0, -1.0, 1.0)
     wheelset.slip_direction = direction
     wheelset.free_slip = direction * free_slip
     wheelset.highest_slip = wheelset.free_slip
     wheelset.lowest_slip = lowest_slip(
-        wheelset.free_slip, p.slip_response, wheelset.wheel_load, wheelset.friction
+        wheelset.free_slip, wheelset.slip_response, wheelset.wheel_load, wheelset.friction
     )
     wheelset.slip_estimate = maximum(direction * slip, 0.0)
 
@@ -174,7 +178,7 @@ def refine_slip(wheelset: Wheelset, p: Parameters) -> float:
         wheelset.lowest_slip,
         wheelset.highest_slip,
         wheelset.free_slip,
-        p.slip_response,
+        wheelset.slip_response,
         force,
         slope,
     )
@@ -193,23 +197,27 @@ def step_wheelset(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
     rotation = wheelset.rotation
     direction = turning_direction(rotation, speed)
     slip_change = wheelset.free_slip - wheelset.slip_estimate
-    turning_creep = wheelset.slip_direction * slip_change * p.slip_stiffness
-    moment = fma(p.wheel_radius, turning_creep, -direction * wheelset.torque)
+    turning_creep = wheelset.slip_direction * slip_change * wheelset.slip_stiffness
+    moment = fma(wheelset.wheel_radius, turning_creep, -direction * wheelset.torque)
     turned = fma(p.inertia_response, moment, rotation)
     locked = turned * direction <= 0.0
     free_speed = fma(p.mass_response, wheelset.thrust, speed)
     sliding_creep = locked_force(speed, free_speed, wheelset.sliding_force, p.mass_response)
-    holding = fma(p.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
+    holding = fma(wheelset.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
     creep = select(locked, sliding_creep, turning_creep)
     braking = select(locked, holding, direction * wheelset.torque)
     wheelset.creep_force = creep
     wheelset.speed = fma(-p.mass_response, creep, free_speed)
     wheelset.rotation = select(locked, 0.0, turned)
     wheelset.position += p.step * wheelset.speed
-    wheelset.slip_speed = fma(-p.wheel_radius, wheelset.rotation, wheelset.speed)
+    wheelset.slip_speed = fma(-wheelset.wheel_radius, wheelset.rotation, wheelset.speed)
     turning = 0.5 * (rotation + wheelset.rotation)
-    wheelset.brake_heat += p.step * braking * (turning + bogie.pitch_rate)
-    wheelset.contact_loss += p.step * creep * (0.5 * (speed + wheelset.speed) - p.wheel_radius * turning)
+    wheelset.angle += p.step * turning
+    wheelset.braking = braking
+    wheelset.disc_rotation = turning + bogie.pitch_rate
+    wheelset.contact_loss += (
+        p.step * creep * (0.5 * (speed + wheelset.speed) - wheelset.wheel_radius * turning)
+    )
     bogie.moment -= braking
 
 
@@ -220,10 +228,17 @@ def step_frame(
     drag = resistance + gradient_force(mass, p.gradient, p.gravity)
     frame.speed += mass_response * (frame.longitudinal_force - drag)
     frame.vertical_speed += mass_response * frame.vertical_force
-    frame.pitch_rate += pitch_response * frame.moment
+    frame.pitch_change = pitch_response * frame.moment
+    frame.pitch_rate += frame.pitch_change
     frame.position += p.step * frame.speed
     frame.height += p.step * frame.vertical_speed
     frame.pitch += p.step * frame.pitch_rate
+
+
+def heat_disc(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
+    """Add the work of the pads, which pitch with the bogie: known once its pitch rate has been advanced."""
+    rubbing = fma(0.5, bogie.pitch_change, wheelset.disc_rotation)
+    wheelset.brake_heat += p.step * wheelset.braking * rubbing
 
 
 def step_body(car: Car, p: Parameters) -> None:

@@ -5,14 +5,22 @@ from collections.abc import Sequence
 from uictest.physics import select
 from uictest.rig.model.balance import stored_air, stored_air_energy, stored_energy
 from uictest.rig.model.controller import begin
+from uictest.rig.model.disc_brake import start_disc
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Wheelset
+from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
 
 LONG_AGO = 1_000_000
 """Cycles of uninterrupted filling that stand for "the WSP has not acted yet"."""
 
 
-def start(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+def start(
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    wheelset_parameters: Sequence[WheelsetParameters],
+) -> None:
     """Set the state of zeroed records for a stop from ``p.initial_speed``."""
     car.speed = p.initial_speed
     start_supply(car, p)
@@ -22,7 +30,9 @@ def start(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: P
     for i in range(4):
         side = 1.0 - 2.0 * (i % 2)
         bogie = bogies[i // 2]
+        copy_wheelset_parameters(wheelsets[i], wheelset_parameters[i])
         _start_wheelset(wheelsets[i], p)
+        start_disc(wheelsets[i], p)
         start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
@@ -44,7 +54,7 @@ def start_supply(car: Car, p: Parameters) -> None:
 
 def _start_wheelset(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.speed = p.initial_speed
-    wheelset.rotation = p.initial_speed / p.wheel_radius
+    wheelset.rotation = p.initial_speed / wheelset.wheel_radius
     wheelset.wheel_load = p.static_wheel_load
 
 

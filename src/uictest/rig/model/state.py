@@ -5,6 +5,7 @@ SI units; pressures are absolute unless named gauge. The order of fields carries
 
 from uictest.controllers import CONTROLLERS, ControlledWheelset, TrainMemory
 from uictest.record import Record, layout_of
+from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 
 class Frame(Record):
@@ -16,6 +17,7 @@ class Frame(Record):
     vertical_speed: float  # m/s
     pitch: float  # rad
     pitch_rate: float  # rad/s
+    pitch_change: float  # of the pitch rate within the last step, rad/s
     longitudinal_force: float  # N
     vertical_force: float  # N
     moment: float  # N m
@@ -62,7 +64,7 @@ class Bogie(Frame):
     ahead: float  # of the car body's centre, m
 
 
-class Wheelset(ControlledWheelset):
+class Wheelset(ControlledWheelset, WheelsetParameters):
     """State of one wheelset and its module; four of them, numbered from the leading end."""
 
     has_caliper: float  # 1 when its module has a real caliper, 0 when it is a tank
@@ -109,13 +111,28 @@ class Wheelset(ControlledWheelset):
     modelled_growth: float  # of that volume within the last step
     pressure_ratio: float  # modelled pressure over that of the tank, absolute
     computed_force: float
+    # speed sensor that counts teeth, rig.model.pole_wheel
+    counted_teeth: float  # by the sensor, those of the gaps left out
+    tooth_time: float  # when the last of them passed, s
+    tooth_rate: float  # teeth per s at the last reading
+    tooth_speed: float  # of the last whole teeth, m/s
     # sensors, held for a controller cycle
     pressure_error: float  # momentary noise, Pa
     loadcell_error: float  # N
     # brake and rail
     clamping_force: float  # as the vehicle simulation receives it
     torque: float
+    pad_friction: float  # held for a controller cycle
+    disc_temperature: float  # of the discs' bulk, K
+    disc_surface_temperature: float  # K
+    disc_mode_1: float  # modes of the temperature across the ring, at the surface, K
+    disc_mode_2: float
+    disc_mode_3: float
+    disc_mode_4: float
+    disc_mode_5: float
+    disc_mode_6: float
     friction: float
+    cleaned_share: float  # of the rail under the wheelset and behind it
     wheel_load: float
     thrust: float  # of suspension and gradient on the wheelset
     contact_stiffness: float
@@ -140,10 +157,15 @@ class Wheelset(ControlledWheelset):
     position: float
     speed: float
     rotation: float
+    angle: float  # turned since the brake command, rad
     slip_speed: float
+    braking: float  # torque that the brake transmits, against a positive rotation, N m
+    disc_rotation: float  # mean over the step, against the bogie at its beginning, rad/s
     # ledgers
     brake_heat: float  # J
     contact_loss: float  # J
+    disc_heat: float  # of brake_heat, what has warmed the modelled discs, J
+    disc_cooling: float  # from the discs to the air, J
 
 
 CAR = layout_of(Car, *(controller.train_memory for controller in CONTROLLERS.values()))

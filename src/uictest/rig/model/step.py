@@ -12,6 +12,7 @@ from uictest.rig.model.running_gear import (
     couple_wheelset,
     find_friction_limit,
     find_stress_gradient,
+    heat_disc,
     refine_slip,
     step_body,
     step_frame,
@@ -56,6 +57,10 @@ def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
     step_wheelset(wheelsets[3], trailing, p)
     step_frame(leading, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
     step_frame(trailing, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
+    heat_disc(wheelsets[0], leading, p)
+    heat_disc(wheelsets[1], leading, p)
+    heat_disc(wheelsets[2], trailing, p)
+    heat_disc(wheelsets[3], trailing, p)
     step_body(car, p)
 
 

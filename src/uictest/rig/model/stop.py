@@ -19,12 +19,18 @@ from uictest.measures import (
 from uictest.physics import select
 from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.pole_wheel import read_pole_wheels
+from uictest.rig.model.rail_memory import RailMemory, clean_rail, forget_rail
 from uictest.rig.model.start import start
 from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.step import step
 from uictest.rig.model.trace import Trace, sample
+from uictest.rig.model.wheelset_parameters import WheelsetParameters
+
+NAN = float("nan")
 
 
 def run_stop(
@@ -32,7 +38,9 @@ def run_stop(
     bogies: Sequence[Bogie],
     wheelsets: Sequence[Wheelset],
     p: Parameters,
+    wheelset_parameters: Sequence[WheelsetParameters],
     rail: Any,
+    memory: RailMemory,
     measures: StopMeasures,
     wheelset_measures: Sequence[WheelsetMeasures],
     trace: Trace,
@@ -44,14 +52,20 @@ def run_stop(
     finished, so that a stop runs the same steps alone or beside others. ``trace`` has a row for every
     ``steps_per_sample`` steps; with 0 nothing is recorded. Recording reads the state and never changes it.
     """
-    start(car, bogies, wheelsets, p)
+    start(car, bogies, wheelsets, p, wheelset_parameters)
     begin_stop_measures(car, measures, wheelset_measures, p)
     begin_tables(measures, wheelset_measures)
+    if p.cleans_rail > 0.0:
+        forget_rail(memory)
     rows = 0
     steps = 0
     while car.stopped == 0.0 and car.cycle < p.cycles:
         read_sensors(car, wheelsets, p)
+        if p.uses_pole_wheels > 0.0:
+            read_pole_wheels(car, wheelsets, p)
         start_cycle(car, wheelsets, p, rail)
+        if p.cleans_rail > 0.0:
+            clean_rail(car, wheelsets, p, memory)
         command_valves(car, wheelsets, p)
         if steps_per_sample > 0 and rows == 0:
             sample(trace, 0, car, wheelsets, p)
@@ -64,6 +78,8 @@ def run_stop(
             if steps_per_sample > 0 and steps % steps_per_sample == 0:
                 sample(trace, rows, car, wheelsets, p)
                 rows += 1
+        if p.models_disc_temperature > 0.0:
+            warm_discs(wheelsets, p)
         observe_cycle(car, wheelsets, measures, wheelset_measures, p)
         keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
     close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
@@ -108,9 +124,10 @@ def observe_cycle(
             i + 1,
             time,
             speed,
-            wheelset.rotation * p.wheel_radius,
+            wheelset.rotation * wheelset.wheel_radius,
             select(stands, observed.venting, wheelset.venting),
             select(stands, 0.0, wheelset.clamping_force),
+            wheelset.disc_surface_temperature,
         )
     observe_train(measures, p, time, position, speed, car.reservoir_pressure - p.atmospheric_pressure)
     note_standstill(measures, stands, time, position)
@@ -144,3 +161,5 @@ def close_stop_measures(
     measures.air_energy_residual = air_energy_residual(car, wheelsets, p)
     for i in range(4):
         wheelset_measures[i].air_vented = wheelsets[i].vented_air
+        if p.models_disc_temperature == 0.0:
+            wheelset_measures[i].maximum_disc_temperature = NAN

@@ -28,6 +28,7 @@ class WheelsetSample(Record):
     slide: float = channel("1")  # 0 while the train runs no faster than SLIDE_SPEED
     adhesion: float = channel("1")
     friction: float = channel("1")  # initial friction coefficient under the wheelset
+    cleaned_share: float = channel("1")  # of the rail under the wheelset and behind it
     wheel_load: float = channel("N")  # of one wheel
     valve_command: float = channel("1")  # 0 fill, 1 hold, 2 vent
     tank_pressure: float = channel("Pa")
@@ -37,12 +38,17 @@ class WheelsetSample(Record):
     computed_force: float = channel("N")
     clamping_force: float = channel("N")  # as the vehicle received it
     brake_torque: float = channel("N m")
+    pad_friction: float = channel("1")
+    disc_temperature: float = channel("K")  # of the bulk
+    disc_surface_temperature: float = channel("K")
 
 
 CAR_CHANNELS = units_of(TrainSample)
 """Channels of the train and their units."""
 WHEELSET_CHANNELS = units_of(WheelsetSample)
 """Channels of each wheelset and their units."""
+DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
+"""Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
 TRAIN_SAMPLE = layout_of(TrainSample)
 """Layout of :class:`TrainSample`."""
 WHEELSET_SAMPLE = layout_of(WheelsetSample)
@@ -77,12 +83,13 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
 
 
 def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Parameters) -> None:
-    wheel_speed = wheelset.rotation * p.wheel_radius
+    wheel_speed = wheelset.rotation * wheelset.wheel_radius
     row.wheel_speed = wheel_speed
     row.measured_speed = wheelset.measured_speed
     row.slide = (car.speed - wheel_speed) / car.speed if car.speed > SLIDE_SPEED else 0.0
     row.adhesion = 0.5 * wheelset.creep_force / wheelset.wheel_load
     row.friction = wheelset.friction
+    row.cleaned_share = wheelset.cleaned_share
     row.wheel_load = wheelset.wheel_load
     row.valve_command = wheelset.valve_command
     row.tank_pressure = wheelset.pressure - p.atmospheric_pressure
@@ -92,3 +99,6 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     row.computed_force = wheelset.computed_force
     row.clamping_force = wheelset.clamping_force
     row.brake_torque = wheelset.torque
+    row.pad_friction = wheelset.pad_friction
+    row.disc_temperature = wheelset.disc_temperature
+    row.disc_surface_temperature = wheelset.disc_surface_temperature

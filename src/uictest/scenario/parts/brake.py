@@ -17,6 +17,7 @@ FilmCoefficient = Annotated[
 ]
 Surface = Annotated[Quantity, of_kind("area", at_least="0 m2", at_most="100 m2")]
 Ratio = Annotated[Quantity, of_kind("number", at_least="0.01", below="1")]
+PadFriction = Annotated[Quantity, of_kind("number", at_least="0.01", at_most="1")]
 
 
 class Position(Section):
@@ -101,6 +102,29 @@ class CaliperTank(Section):
     film_coefficient: FilmCoefficient = Field(description="Heat flow from the balls to the air.")
 
 
+class DiscRing(Section):
+    """The ring of a disc under one pad face: a slab with its back insulated, or half of one heated twice."""
+
+    area: Annotated[Quantity, of_kind("area", at_least="10 cm2", at_most="2 m2")] = Field(
+        description="Area of the ring that one pad sweeps."
+    )
+    thickness: Annotated[Quantity, of_kind("length", at_least="1 mm", at_most="20 cm")] = Field(
+        description="Thickness of the ring that the heat of one pad face goes into."
+    )
+    conductivity: Annotated[
+        Quantity, of_kind("thermal conductivity", at_least="1 W/(m K)", at_most="500 W/(m K)")
+    ] = Field(description="Thermal conductivity of the ring.")
+    density: Annotated[Quantity, of_kind("density", at_least="1000 kg/m3", at_most="20000 kg/m3")] = Field(
+        description="Density of the ring."
+    )
+    specific_heat: Annotated[
+        Quantity, of_kind("specific heat", at_least="100 J/(kg K)", at_most="2000 J/(kg K)")
+    ] = Field(description="Specific heat capacity of the ring.")
+    film_coefficient: Annotated[
+        Quantity, of_kind("film coefficient", at_least="0 W/(m2 K)", at_most="1000 W/(m2 K)")
+    ] = Field(description="Heat flow from the ring to the air, per area of the ring.")
+
+
 class Disc(Section):
     """The disc brake of one wheelset."""
 
@@ -113,8 +137,11 @@ class Disc(Section):
     pads_per_caliper: Annotated[Quantity, of_kind("count", at_least="1", at_most="4")] = Field(
         description="Friction faces per caliper."
     )
-    pad_friction: Annotated[Quantity, of_kind("number", at_least="0.01", at_most="1")] = Field(
-        description="Friction coefficient between pad and disc."
+    pad_friction: PadFriction = Field(
+        description="Friction coefficient between pad and disc, where the factors of `brake.pad` are 1."
+    )
+    thermal: DiscRing | None = Field(
+        default=None, description="What the temperature of the disc is modelled with."
     )
 
 
@@ -150,7 +177,7 @@ class BrakeSystem(Part):
     compressor: Compressor = Field(description="The compressor with its pressure governor.")
     relay_valve: RelayValve = Field(description="The relay valve of the brake operating unit.")
     brake_line: BrakeLine = Field(description="The pipe from the relay valve to the WSP valves.")
-    wsp_valve: WspValve = Field(description="One WSP valve; all four are alike.")
+    wsp_valve: WspValve = Field(description="One WSP valve; vehicle.wheelsets says where one differs.")
     critical_pressure_ratio: Ratio = Field(
         description="Critical pressure ratio b of every orifice (ISO 6358)."
     )

@@ -35,7 +35,7 @@ class FrictionProfile(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield points out of order."""
-        yield from _out_of_order([point.position for point in self.points], "position")
+        yield from out_of_order([point.position for point in self.points], "position")
 
 
 class FactorPoint(Model):
@@ -60,10 +60,11 @@ class FactorProfile(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield points out of order."""
-        yield from _out_of_order([point.time for point in self.points], "time")
+        yield from out_of_order([point.time for point in self.points], "time")
 
 
-def _out_of_order(values: Sequence[Quantity], name: str) -> Iterator[Inconsistency]:
+def out_of_order(values: Sequence[Quantity], name: str) -> Iterator[Inconsistency]:
+    """Yield the points of a profile whose ``name`` does not exceed that of the point before."""
     for index, (before, after) in enumerate(pairwise(values), start=1):
         if after <= before:
             yield Inconsistency(

@@ -28,6 +28,23 @@ class Contact(Section):
     )
 
 
+class Cleaning(Section):
+    """How sliding cleans the rail, for itself and for the wheelsets that follow."""
+
+    energy: Annotated[Quantity, of_kind("energy per length", at_least="1 J/m", at_most="1e9 J/m")] = Field(
+        description="Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail."
+    )
+    recovered_friction: Friction = Field(
+        description="Initial friction coefficient of a clean rail; where the rail is better, nothing changes."
+    )
+    reach: Annotated[Quantity, of_kind("length", at_least="1 mm", at_most="100 m")] = Field(
+        description="Length of track over which the cleaned share follows the contact loss."
+    )
+    carry_over: Annotated[Quantity, of_kind("number", at_least="0", at_most="1")] = Field(
+        description="Part of what a wheelset has cleaned that the next one finds at the same place."
+    )
+
+
 class RailCondition(Part):
     """A condition of the rail surface."""
 
@@ -44,6 +61,9 @@ class RailCondition(Part):
     reduction_adhesion: Share = Field(description="kA: reduction of the creep slope in the area of adhesion.")
     reduction_slip: Share = Field(description="kS: reduction of the creep slope in the area of slip.")
     contact: Contact = Field(description="The contact of one wheel.")
+    cleaning: Cleaning | None = Field(
+        default=None, description="How sliding cleans the rail; it does not if left out."
+    )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Part, Quantity, Section, of_kind
+from uictest.scenario.yaml import Part, Quantity, Section, default, of_kind
 
 ErrorShare = Annotated[Quantity, of_kind("share", at_least="-50 %", at_most="50 %")]
 NoiseShare = Annotated[Quantity, of_kind("share", at_least="0 %", at_most="50 %")]
@@ -16,13 +16,29 @@ class SpeedSensor(Section):
     teeth: Annotated[Quantity, of_kind("count", at_least="1", at_most="1000")] = Field(
         description="Teeth of the wheel."
     )
-    timer_resolution: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 ms")] = Field(
+    timer_resolution: Annotated[Quantity, of_kind("time", at_least="1e-6 ms", at_most="10 ms")] = Field(
         description="Resolution of the timer between teeth."
     )
-    minimum_speed: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
+    minimum_speed: Annotated[Quantity, of_kind("speed", at_least="0.01 km/h", at_most="50 km/h")] = Field(
         description="Wheel speed below which the sensor reads zero."
     )
     noise: NoiseShare = Field(description="Standard deviation of the noise as a share of the reading.")
+    gain_error: ErrorShare = Field(
+        default=default("0 %", "share"), description="Error in proportion to the reading."
+    )
+    method: Literal["momentary", "whole-teeth"] = Field(
+        default="momentary",
+        description="momentary: the speed at the instant of reading; whole-teeth: that of the last whole"
+        " teeth, which is older the slower the wheel turns.",
+    )
+    eccentricity: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="50 %")] = Field(
+        default=default("0 %", "share"),
+        description="Error once per turn: largest deviation as a share of the reading.",
+    )
+    missing_teeth: Annotated[Quantity, of_kind("count", at_least="0", at_most="100")] = Field(
+        default=default("0", "count"),
+        description="Teeth missing in one gap of the wheel; only with method whole-teeth.",
+    )
 
 
 class PressureSensor(Section):

@@ -10,7 +10,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
+from uictest.scenario.parts.wheelsets import ALIKE, Radius, Wheelsets
+from uictest.scenario.yaml import Inconsistency, Key, Part, Quantity, Section, of_kind
 
 Height = Annotated[Quantity, of_kind("length", at_least="1 cm", at_most="5 m")]
 Stiffness = Annotated[Quantity, of_kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
@@ -56,9 +57,7 @@ class Wheelset(Section):
     rotational_inertia: Annotated[Quantity, of_kind("inertia", at_least="1 kg m2", at_most="1e4 kg m2")] = (
         Field(description="Moment of inertia about the axle.")
     )
-    radius: Annotated[Quantity, of_kind("length", above="0.1 m", at_most="1 m")] = Field(
-        description="Rolling radius."
-    )
+    radius: Radius = Field(description="Rolling radius.")
 
 
 class PrimarySuspension(Section):
@@ -115,11 +114,21 @@ class Vehicle(Part):
     half_pivot_distance: Annotated[Quantity, of_kind("length", above="0.5 m", at_most="20 m")] = Field(
         description="Half the distance between the bogie pivots."
     )
-    wheelset: Wheelset = Field(description="One wheelset; all four are alike.")
+    wheelset: Wheelset = Field(description="One wheelset; `wheelsets` says where one differs.")
+    wheelsets: Wheelsets = Field(
+        default_factory=lambda: dict(ALIKE),
+        description="What single wheelsets have of their own, by their number from the leading end.",
+    )
     primary: PrimarySuspension = Field(description="Primary suspension, per axle box.")
     secondary: SecondarySuspension = Field(description="Secondary suspension, per side of a bogie.")
     traction_link: TractionLink = Field(description="Traction rod between bogie and body, one per bogie.")
     running_resistance: RunningResistance = Field(description="Running resistance of the whole car.")
+
+    @property
+    def wheel_radii(self) -> tuple[float, ...]:
+        """Rolling radius of each wheelset, m."""
+        own = (each.wheel_radius for each in self.wheelsets.values())
+        return tuple(self.wheelset.radius if radius is None else radius for radius in own)
 
     @property
     def total_mass(self) -> float:
@@ -129,23 +138,31 @@ class Vehicle(Part):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield impossible vehicles: wheels or bogies that overlap, more inertia than the mass allows."""
         yield from super().inconsistencies()
-        if self.bogie.half_wheelbase <= self.wheelset.radius:
-            yield Inconsistency(
-                ("bogie", "half_wheelbase"),
-                "the wheels of a bogie overlap: half_wheelbase must exceed wheelset.radius",
-            )
-        if self.half_pivot_distance <= self.bogie.half_wheelbase + self.wheelset.radius:
-            yield Inconsistency(
-                ("half_pivot_distance",),
-                "the bogies overlap: it must exceed bogie.half_wheelbase + wheelset.radius",
-            )
-        if self.wheelset.rotational_inertia > self.wheelset.mass * self.wheelset.radius**2:
-            yield Inconsistency(
-                ("wheelset", "rotational_inertia"),
-                "no wheelset of this mass and radius has this inertia",
-                f"at most mass x radius2 = {self.wheelset.mass * self.wheelset.radius**2:.4g} kg m2",
-            )
+        yield from self._impossible_wheels(self.wheelset.radius, ("wheelset", "radius"))
+        for number, own in self.wheelsets.items():
+            if own.wheel_radius is not None:
+                yield from self._impossible_wheels(own.wheel_radius, ("wheelsets", number, "wheel_radius"))
         yield from self._springs_too_soft()
+
+    def _impossible_wheels(self, radius: float, place: Key) -> Iterator[Inconsistency]:
+        """Yield wheels of a radius, given at a key, that overlap or have too much inertia."""
+        name, regular = ".".join(map(str, place)), place[0] == "wheelset"
+        if self.bogie.half_wheelbase <= radius:
+            yield Inconsistency(
+                ("bogie", "half_wheelbase") if regular else place,
+                f"the wheels of a bogie overlap: half_wheelbase must exceed {name}",
+            )
+        if self.half_pivot_distance <= self.bogie.half_wheelbase + radius:
+            yield Inconsistency(
+                ("half_pivot_distance",) if regular else place,
+                f"the bogies overlap: it must exceed bogie.half_wheelbase + {name}",
+            )
+        if self.wheelset.rotational_inertia > self.wheelset.mass * radius**2:
+            yield Inconsistency(
+                ("wheelset", "rotational_inertia") if regular else place,
+                "no wheelset of this mass and radius has this inertia",
+                f"at most mass x radius2 = {self.wheelset.mass * radius**2:.4g} kg m2",
+            )
 
     def _springs_too_soft(self) -> Iterator[Inconsistency]:
         """Yield springs on which the car would oscillate more slowly than any real car."""

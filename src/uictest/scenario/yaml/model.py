@@ -117,7 +117,7 @@ class Part(Model):
         return self._original
 
     def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
-        """A copy that knows the part at the root of `extends`."""
+        """Return a copy that knows the part it is based on."""
         part = self.model_copy()
         part._based_on, part._original = based_on, original
         return part

@@ -15,6 +15,7 @@ from uictest.evaluation import JUDGED_KEYS
 from uictest.rig import (
     ASSIGNMENTS,
     FRICTION_KEYS,
+    WHEELSET_ASSIGNMENTS,
     Assignment,
     assemble,
     assigned,
@@ -30,6 +31,8 @@ _CACHE_SIZE: Final = 1_000
 """Results of one function that are cached from block to block: listed values recur, drawn ones do not."""
 Settings = Mapping[str, Sequence[ParameterValue]]
 """The values of each case of a block, by key."""
+FieldValues = Mapping[str, float | list[float]]
+"""Fields of the parameters -> what they are set to, a list for a table."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,7 @@ class CaseBlock:
     ids: list[str]
     settings: Settings
     parameters: NDArray[Any]
+    wheelset_parameters: NDArray[Any]
     rail: NDArray[np.float64]
     controllers: list[Controller]
     judged_as: list[Scenario]
@@ -98,11 +102,10 @@ class BlockAssembler:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        self._record = assemble(plan.base).parameters
-        self._parameters = [
-            CachedFunction(_values_or_reason(assignments), keys)
-            for keys, assignments in _by_swept_keys(plan.keys).items()
-        ]
+        inputs = assemble(plan.base)
+        self._record, self._wheelset_records = inputs.parameters, inputs.wheelset_parameters
+        self._parameters = _setters(plan.keys, ASSIGNMENTS)
+        self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
         self._controllers = CachedFunction(controller_of, _related_keys(plan.keys, ("controller.algorithm",)))
         self._rail = CachedFunction(friction_laws, _related_keys(plan.keys, FRICTION_KEYS))
         self._judged = CachedFunction(_scenario_itself, _related_keys(plan.keys, JUDGED_KEYS))
@@ -120,11 +123,18 @@ class BlockAssembler:
         parameters = np.repeat(self._record[None], indices.size)
         for values in self._parameters:
             rejections = _fill(parameters, values.per_case(variants), rejections)
+        wheelsets = np.repeat(self._wheelset_records[None], indices.size, axis=0)
+        for place, setters in enumerate(self._wheelset_parameters):
+            for values in setters:
+                rejections = _fill(wheelsets[:, place], values.per_case(variants), rejections)
         parameters["case_key"] = [zlib.crc32(name.encode()) for name in ids]
         rail = _stacked(self._rail.per_case(variants))
         controllers = self._controllers.per_case(variants)
         judged_as = self._judged.per_case(variants)
-        return CaseBlock(indices, ids, settings, parameters, rail, controllers, judged_as, rejections)
+        return CaseBlock(
+            *(indices, ids, settings, parameters, wheelsets, rail),
+            *(controllers, judged_as, rejections),
+        )
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
@@ -142,23 +152,27 @@ def _related(one: str, other: str) -> bool:
     return one == other or one.startswith(f"{other}.") or other.startswith(f"{one}.")
 
 
-def _by_swept_keys(swept: Iterable[str]) -> dict[tuple[str, ...], list[Assignment]]:
-    """Group what sets parameters by the swept keys that it depends on, leaving out what depends on none."""
+def _setters(swept: Iterable[str], assignments: Iterable[Assignment]) -> list[CachedFunction]:
+    """Group assignments by the swept keys that they depend on, leaving out those that depend on none."""
     groups: dict[tuple[str, ...], list[Assignment]] = {}
-    for assignment in ASSIGNMENTS:
+    for assignment in assignments:
         if keys := _related_keys(swept, assignment.keys):
             groups.setdefault(keys, []).append(assignment)
-    return groups
+    return [CachedFunction(_values_or_reason(group), keys) for keys, group in groups.items()]
 
 
-def _values_or_reason(assignments: Sequence[Assignment]) -> Callable[[Scenario], dict[str, float] | str]:
-    def fields_or_reason(scenario: Scenario) -> dict[str, float] | str:
+def _values_or_reason(assignments: Sequence[Assignment]) -> Callable[[Scenario], FieldValues | str]:
+    def fields_or_reason(scenario: Scenario) -> FieldValues | str:
         try:
-            return {name: float(value) for name, value in assigned(assignments, scenario).items()}
+            return {name: _numbers(value) for name, value in assigned(assignments, scenario).items()}
         except (ValueError, ArithmeticError) as error:
             return f"{type(error).__name__}: {error}"
 
     return fields_or_reason
+
+
+def _numbers(value: float | list[float]) -> float | list[float]:
+    return value if isinstance(value, list) else float(value)
 
 
 def _rejection_of(keys: Iterable[str]) -> Callable[[Scenario], str]:
@@ -176,7 +190,7 @@ def _scenario_itself(scenario: Scenario) -> Scenario:
 
 
 def _fill(
-    parameters: NDArray[Any], results: Sequence[dict[str, float] | str], rejections: Sequence[str]
+    parameters: NDArray[Any], results: Sequence[FieldValues | str], rejections: Sequence[str]
 ) -> list[str]:
     """Write the fields of a group into the records, and return the rejections including its own."""
     reasons = [

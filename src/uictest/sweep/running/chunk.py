@@ -50,7 +50,7 @@ class ChunkRunner:
         """Compile the rig before several threads need it at once."""
         block = self.assembler.block(np.zeros(1, np.int64))
         block.parameters["cycles"] = 1
-        self.simulate(block.parameters, block.rail, block.controllers)
+        self.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
 
     def results(self, block: CaseBlock) -> list[CaseResult]:
         """Return the results of a block; an error in a case is its result."""
@@ -59,7 +59,8 @@ class ChunkRunner:
             return self._judge(block, [], _no_measures())
         try:
             controllers = [block.controllers[place] for place in places]
-            measures = self.simulate(block.parameters[places], block.rail[places], controllers)
+            own = block.wheelset_parameters[places]
+            measures = self.simulate(block.parameters[places], own, block.rail[places], controllers)
         except Exception as error:
             return self._run_one_by_one(block, error)
         return self._judge(block, places, measures)
@@ -118,6 +119,7 @@ def _single(block: CaseBlock, place: int) -> CaseBlock:
         [block.ids[place]],
         {key: [values[place]] for key, values in block.settings.items()},
         block.parameters[at],
+        block.wheelset_parameters[at],
         block.rail[at],
         [block.controllers[place]],
         [block.judged_as[place]],

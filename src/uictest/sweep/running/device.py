@@ -13,8 +13,11 @@ from uictest.controllers import Controller
 
 Device = Literal["cpu", "cuda"]
 Measures = tuple[NDArray[Any], NDArray[Any]]
-Simulate = Callable[[NDArray[Any], NDArray[np.float64], Sequence[Controller]], Measures]
-"""Simulates cases: records, friction laws and controllers to measures, shapes (cases,) and (cases, 4)."""
+Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64], Sequence[Controller]], Measures]
+"""Simulates cases: records, those of wheelsets, friction laws and controllers to measures.
+
+Their shapes are (cases,) and (cases, 4).
+"""
 
 
 class NoDeviceError(Exception):

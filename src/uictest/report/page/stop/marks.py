@@ -34,6 +34,7 @@ DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, PlotTrace], Iterator[Mar
         "valve_actuations": wheelset_marks.vented,
         "air_vented": wheelset_marks.vented,
         "maximum_clamping_force": wheelset_marks.maximum_clamping_force,
+        "maximum_disc_temperature": wheelset_marks.maximum_disc_temperature,
     }
 )
 """Measure -> how a criterion that bounds it is drawn; a criterion of another measure is only listed."""

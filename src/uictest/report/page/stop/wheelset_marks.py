@@ -26,6 +26,12 @@ def maximum_clamping_force(verdict: evaluation.Verdict, trace: PlotTrace) -> Ite
     yield from _largest(verdict, trace, "force")
 
 
+def maximum_disc_temperature(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
+    """Yield the bounds and, unless it passed, the highest temperature of each wheelset's discs."""
+    yield from limit_marks(verdict, "temperature")
+    yield from _largest(verdict, trace, "temperature")
+
+
 def locked(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:
     """Yield when each wheelset was locked."""
     yield from _intervals(verdict, "locked", _moments(verdict, trace).intervals)

@@ -330,6 +330,8 @@
   const WHEELSET_ROWS = [
     ["wheel_speed", "speed, km/h", 1], ["slide", "slide, %", 1], ["tank_pressure", "tank, bar", 2],
     ["cylinder_pressure", "cylinder, bar", 2], ["clamping_force", "force, kN", 2], ["adhesion", "adhesion", 3],
+    ["friction", "friction met", 3], ["cleaned_share", "cleaned share", 2],
+    ["disc_surface_temperature", "disc surface, °C", 0], ["disc_temperature", "disc, °C", 0],
   ];
   const TRAIN_ROWS = [
     ["speed", "train, km/h", 1], ["reference_speed", "reference, km/h", 1], ["distance", "distance, m", 1],

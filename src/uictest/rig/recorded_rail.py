@@ -1,0 +1,95 @@
+"""The rail that the wheelsets of a recorded stop met, by the formulae and the code of the rig."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.rig.assembly import ASSIGNMENTS, assigned
+from uictest.rig.backends.compiled import OPTIONS, callback, compiled_operations, compiler, translate
+from uictest.rig.backends.machine_code import address, native_function
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail_under_record import MET_RAIL, RECORDED_MOTION, follow_record
+from uictest.rig.model.state import CAR, WHEELSET
+from uictest.scenario import Scenario
+
+Array = NDArray[np.float64]
+_WHEELSETS = 4
+_NAME = "uictest_recorded_rail"
+_ARGUMENTS = (CAR, WHEELSET, PARAMETERS, RAIL_MEMORY, RECORDED_MOTION, MET_RAIL, int)
+
+
+class RecordedRail:
+    """The rail under the wheelsets of a recorded stop, for any friction as found and any cleaning.
+
+    Args:
+        scenario: creep law, contact, and reach and carry-over of the cleaning. It must clean the rail.
+        time: of the samples, s, shape (n,).
+        speed: of the train, m/s, > 0, shape (n,).
+        place: of the wheelsets on the track, m from where the first was at the brake command, shape (4, n).
+        load: of one wheel, N, shape (4, n).
+
+    """
+
+    def __init__(self, scenario: Scenario, time: Array, speed: Array, place: Array, load: Array) -> None:
+        self._parameters = np.zeros(1, PARAMETERS)[0]
+        for name, value in assigned(ASSIGNMENTS, scenario).items():
+            self._parameters[name] = value
+        self._behind = place[0, 0] - place[:, 0]
+        self._motion = np.zeros((len(time), _WHEELSETS), RECORDED_MOTION)
+        self._motion["duration"] = np.diff(time, prepend=time[0])[:, None]
+        self._motion["speed"] = speed[:, None]
+        self._motion["position"] = place[0][:, None]
+        self._motion["load"] = load.T
+
+    def met(self, found: Array, slip: Array, energy: float, recovered_friction: float) -> tuple[Array, Array]:
+        """Return the friction under each wheelset and the cleaned share of the rail, both of shape (4, n).
+
+        The first call on a machine compiles it, within seconds.
+
+        Args:
+            found: initial friction coefficient of the rail that nothing has cleaned, shape (4, n).
+            slip: slip speeds, m/s, shape (4, n).
+            energy: Wc, J/m.
+            recovered_friction: mur.
+        """
+        self._parameters.cleaning_response = 1.0 / energy
+        self._parameters.recovered_friction = recovered_friction
+        self._motion["found"] = found.T
+        self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
+        met = np.zeros(self._motion.shape, MET_RAIL)
+        wheelsets = np.zeros(_WHEELSETS, WHEELSET)
+        wheelsets["behind"] = self._behind
+        wheelsets["friction"] = found[:, 0]
+        car, memory, rows = np.zeros(1, CAR)[0], np.zeros(1, RAIL_MEMORY)[0], len(met)
+        native_function(_NAME, _compile, len(_ARGUMENTS))(
+            address(car, CAR),
+            address(wheelsets, WHEELSET, (_WHEELSETS,)),
+            address(self._parameters, PARAMETERS),
+            address(memory, RAIL_MEMORY),
+            address(self._motion, RECORDED_MOTION, (rows, _WHEELSETS)),
+            address(met, MET_RAIL, (rows, _WHEELSETS)),
+            rows,
+        )
+        return met["friction"].T, met["cleaned_share"].T
+
+
+def _compile() -> Any:
+    """Return the walk over the rail compiled by numba, as a function of addresses and their length."""
+    numba = compiler()
+    carray = numba.carray
+    entry = translate(follow_record, numba.njit(**OPTIONS), compiled_operations())
+
+    def on_addresses(car: Any, wheelsets: Any, p: Any, memory: Any, motion: Any, met: Any, rows: int) -> int:
+        entry(
+            carray(car, 1)[0],
+            carray(wheelsets, _WHEELSETS),
+            carray(p, 1)[0],
+            carray(memory, 1)[0],
+            carray(motion, (rows, _WHEELSETS)),
+            carray(met, (rows, _WHEELSETS)),
+        )
+        return 0
+
+    return callback(on_addresses, *_ARGUMENTS)

@@ -1,0 +1,138 @@
+"""Energy and recovered friction found again in stops that the rig simulated, or said not to be there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from uictest.field_data import stated_case
+from uictest.fitting import CleaningFit, FitError, fit_cleaning, fit_stop
+from uictest.scenario import Scenario
+
+Make = Callable[..., Any]
+
+
+def cleaning(energy: float, recovered: float) -> str:
+    return (
+        f"rail.cleaning={{energy: {energy:g} J/m, recovered_friction: {recovered}, reach: 0.5 m,"
+        " carry_over: 0.5}"
+    )
+
+
+@pytest.fixture
+def library() -> Scenario:
+    """A scenario with the library's cleaning, which is not that of the recorded stops."""
+    return stated_case("guess", 80.0 / 3.6, ["rail.condition=wet-cleaning"]).scenario
+
+
+@pytest.fixture
+def stop(recorded_stop: Make) -> Make:
+    def make(speed: float, mu: float, seed: int, cleans: str, **facts: Any) -> Any:
+        rig = facts.pop("rig", "rig.topology=one-caliper")
+        return recorded_stop(speed, str(mu), seed, settings=(cleans, rig), **facts)[1]
+
+    return make
+
+
+def errors(fit: CleaningFit, energy: float, recovered: float) -> list[float]:
+    """Errors of energy and recovered friction over their half widths."""
+    e = fit.estimate
+    assert e.standing == "found", str(e)
+    return [
+        abs(e.energy - energy) / e.energy_half_width,
+        abs(e.recovered_friction - recovered) / e.recovered_half_width,
+    ]
+
+
+@pytest.mark.parametrize("topology", ["one-caliper", "four-caliper"])
+@pytest.mark.parametrize("friction", [0.07, 0.1])
+def test_stops_with_deep_slides_tell_both_within_their_confidence(
+    stop: Make, library: Scenario, friction: float, topology: str
+) -> None:
+    recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}")
+    fit = fit_cleaning([recorded], library)
+    assert fit.determined
+    assert max(errors(fit, 8000.0, 0.22)) < 1.5
+    assert fit.estimate.energy_half_width < 0.2 * fit.estimate.energy
+    assert fit.stops[0].friction[0].value == pytest.approx(friction, rel=0.02)
+    assert float(fit.in_force.energy) == pytest.approx(fit.estimate.energy, rel=1e-3)
+
+
+def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop: Make, library: Scenario) -> None:
+    recorded = stop(120.0, 0.05, 1, cleaning(5000.0, 0.3), without=("clamping_force",))
+    fit = fit_cleaning([recorded], library)
+    assert fit.estimate.standing == "not told apart"
+    assert fit.stops[0].friction[0].value == pytest.approx(0.05, rel=0.1)
+
+
+def test_two_stops_tell_what_neither_does_alone(stop: Make, library: Scenario) -> None:
+    """While hardly any of the rail is clean only (mur - mu0) / Wc shows; of two mu0 that is enough."""
+    numbers = cleaning(30e3, 0.28)
+    both = [stop(80.0, 0.07, 1, numbers), stop(80.0, 0.12, 2, numbers)]
+    for each in both:
+        alone = fit_cleaning([each], library)
+        assert alone.estimate.standing == "not told apart"
+        assert not alone.determined
+        assert "cannot be told apart" in str(alone.estimate)
+        # With the recovered friction known, the energy is too, and so is the rail as found.
+        assert float(alone.in_force.recovered_friction) == 0.28
+        assert float(alone.in_force.energy) == pytest.approx(30e3, rel=0.1)
+    together = fit_cleaning(both, library)
+    assert together.determined
+    assert max(errors(together, 30e3, 0.28)) < 1.5
+    assert [fit.friction[0].value for fit in together.stops] == pytest.approx([0.07, 0.12], rel=0.02)
+
+
+@pytest.mark.parametrize("wsp", ["active", "bypassed"])
+def test_cleaning_is_not_found_where_there_was_none(recorded_stop: Make, library: Scenario, wsp: str) -> None:
+    _, recorded = recorded_stop(80.0, "0.07", 3, wsp=wsp)
+    fit = fit_cleaning([recorded], library)
+    assert fit.estimate.standing == "not seen"
+    assert not fit.determined
+    assert "cleaning is not seen" in str(fit.estimate)
+    assert fit.estimate.energy > 1e5
+    assert float(fit.in_force.energy) == pytest.approx(fit.estimate.energy, rel=1e-3)
+    assert fit.stops[0].friction[0].value == pytest.approx(0.07, rel=0.03)
+
+
+def test_a_stop_with_hardly_any_sliding_tells_nothing(stop: Make, library: Scenario) -> None:
+    fit = fit_cleaning([stop(60.0, 0.3, 1, cleaning(8000.0, 0.4))], library)
+    assert fit.estimate.standing == "nothing slid"
+    assert not fit.determined
+    assert "no wheelset slid" in str(fit.estimate)
+    assert fit.stops[0].friction[0].standing == "at least"
+
+
+def test_a_scenario_that_does_not_clean_is_told_the_librarys_values(recorded_stop: Make) -> None:
+    case, recorded = recorded_stop(60.0, "0.07")
+    with pytest.raises(FitError, match=r"rail\.cleaning: \{energy: 5300 J/m, recovered_friction: 0\.28,"):
+        fit_cleaning([recorded], case.scenario)
+
+
+def test_which_of_several_recordings_lacks_something_is_told(stop: Make, library: Scenario) -> None:
+    good = stop(60.0, 0.07, 1, cleaning(8000.0, 0.22))
+    bad = stop(60.0, 0.07, 1, cleaning(8000.0, 0.22), without=("wheel_speed_2",))
+    with pytest.raises(FitError, match=r"recording 2: .*wheel_speed_2"):
+        fit_cleaning([good, bad], library)
+
+
+def test_stated_cleaning_is_not_counted_twice(recorded_stop: Make) -> None:
+    """Without a fit of the cleaning, the friction is that of the rail as found."""
+    case, recorded = recorded_stop(80.0, "0.07", 1, settings=(cleaning(8000.0, 0.22),))
+    plain = stated_case("plain", 80.0 / 3.6, ["rail.condition=wet"]).scenario
+    assert fit_stop(recorded, case.scenario).friction[0].value == pytest.approx(0.07, rel=0.04)
+    assert fit_stop(recorded, plain).friction[0].value > 0.09
+
+
+@pytest.mark.slow
+def test_the_stated_confidence_covers(stop: Make, library: Scenario) -> None:
+    """Of 95 % intervals of two correlated numbers from 20 records, at least 18 pairs hold both."""
+    cases = [(80.0, 0.07), (120.0, 0.09), (80.0, 0.1), (120.0, 0.05)]
+    inside = 0
+    for seed in range(20):
+        speed, friction = cases[seed % len(cases)]
+        fit = fit_cleaning([stop(speed, friction, seed, cleaning(8000.0, 0.22))], library)
+        inside += max(errors(fit, 8000.0, 0.22)) < 1.0
+    assert inside >= 18

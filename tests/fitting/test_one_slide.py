@@ -1,0 +1,71 @@
+"""A stop that slides at one energy per metre: its rail is equally clean everywhere, as if found so."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.field_data import stated_case
+from uictest.fitting.balances import Balances, windows_of
+from uictest.fitting.cleaned_stop import CleanedStop
+from uictest.fitting.cleaning import find_cleaning
+from uictest.fitting.creep import wheelset_creep
+from uictest.fitting.rail_under_stop import RailUnderStop
+from uictest.fitting.samples import StopSamples
+from uictest.fitting.stretches import Stretches
+from uictest.scenario import Scenario
+from uictest.units import STANDARD_GRAVITY
+
+ENERGY, FRICTION, CLEAN = 8000.0, 0.07, 0.22
+LOSS = 2000.0
+"""J/m"""
+
+
+def steady_slide(scenario: Scenario) -> StopSamples:
+    """Samples of a stop whose four wheelsets lose as much per metre as long as it lasts."""
+    friction = FRICTION - np.expm1(-LOSS / ENERGY) * (CLEAN - FRICTION)
+    vehicle, rail = scenario.vehicle, scenario.rail.condition
+    load = np.array([vehicle.total_mass * STANDARD_GRAVITY / 8.0])
+    speeds, slips, forces, step = [30.0], [], [], 0.01
+    while speeds[-1] > 10.0:
+        speed, slip = np.array(speeds[-1:]), np.array(slips[-1:] or [6.0])
+        for _ in range(30):
+            force = wheelset_creep(slip, speed, load, np.array([friction]), rail)
+            slip = 0.5 * (slip + LOSS * speed / force)
+        slips.append(slip[0])
+        forces.append(force[0])
+        speeds.append(speeds[-1] - step * 4.0 * force[0] / vehicle.total_mass)
+    return samples(scenario, np.array(speeds[:-1]), np.array(slips), np.array(forces), step)
+
+
+def samples(
+    scenario: Scenario,
+    speed: NDArray[np.float64],
+    slip: NDArray[np.float64],
+    force: NDArray[np.float64],
+    step: float,
+) -> StopSamples:
+    four, n = np.ones((4, 1)), len(speed)
+    dice = np.random.default_rng(1)
+    wheelset, time = scenario.vehicle.wheelset, step * np.arange(n)
+    wheels = four * (speed - slip)
+    turning = wheelset.rotational_inertia / wheelset.radius * np.gradient(wheels, time, axis=1)
+    torque = wheelset.radius * four * force - turning
+    place = np.cumsum(speed) * step - np.array([[0.0], [2.5], [17.5], [20.0]])
+    load = scenario.vehicle.total_mass * STANDARD_GRAVITY / 8.0 * np.ones((4, n))
+    sliding = np.ones((4, 1), bool) & (time > 1.0)
+    noisy = torque * (1.0 + 0.01 * dice.normal(size=torque.shape))
+    return StopSamples(
+        time, speed, wheels, speed - wheels, place, load, noisy, sliding, np.zeros((4, n), bool)
+    )
+
+
+def test_one_level_of_energy_does_not_tell_both_numbers() -> None:
+    cleaning = f"{{energy: {ENERGY} J/m, recovered_friction: {CLEAN}, reach: 0.5 m, carry_over: 0}}"
+    settings = ["rail.condition=wet", f"rail.friction={FRICTION}", f"rail.cleaning={cleaning}"]
+    scenario = stated_case("one", 30.0, settings).scenario
+    recorded = steady_slide(scenario)
+    stop = CleanedStop(RailUnderStop(Stretches(Balances(recorded, windows_of(recorded), scenario), ())))
+    estimate = find_cleaning([stop], ENERGY, CLEAN).cleaning
+    assert estimate.standing == "not seen"
+    assert estimate.energy < ENERGY

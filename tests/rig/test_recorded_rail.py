@@ -1,0 +1,65 @@
+"""The rail under a recorded stop against the rail that the rig itself has stepped."""
+
+import numpy as np
+import pytest
+
+from uictest.field_data import stated_case
+from uictest.rig import RecordedRail, simulate
+
+_CLEANING = "{energy: 8000 J/m, recovered_friction: 0.22, reach: 0.5 m, carry_over: 0.7}"
+
+
+@pytest.mark.parametrize("wsp", ["active", "bypassed"])
+def test_exact_records_give_the_shares_of_the_rig(wsp: str) -> None:
+    """Slips averaged over a cycle, in a law that is not linear: the shares differ by 2 % of a clean rail."""
+    settings = ["rail.condition=wet", "rail.friction=0.07", f"rail.cleaning={_CLEANING}", f"rig.wsp={wsp}"]
+    case = stated_case("stop", 80.0 / 3.6, settings)
+    recording = simulate(case, record_every=0.01).recording
+    assert recording is not None
+    moving = np.asarray(recording["speed"]) > 0.5
+
+    def channel(name: str) -> np.ndarray:
+        return np.array([np.asarray(recording[f"{name}_{n}"])[moving] for n in (1, 2, 3, 4)])
+
+    time, speed = (np.asarray(recording[name])[moving] for name in ("time", "speed"))
+    vehicle = case.scenario.vehicle
+    base, pivots = 2.0 * vehicle.bogie.half_wheelbase, 2.0 * vehicle.half_pivot_distance
+    place = np.asarray(recording["distance"])[moving] - np.array([[0.0], [base], [pivots], [pivots + base]])
+    rail = RecordedRail(case.scenario, time, speed, place, channel("wheel_load"))
+    found = np.full(place.shape, 0.07)
+    friction, share = rail.met(found, speed - channel("wheel_speed"), 8000.0, 0.22)
+    np.testing.assert_allclose(friction, 0.07 + share * 0.15, rtol=1e-12)
+    recorded = channel("cleaned_share")
+    assert recorded.max() > 0.3
+    # A row of the recording shows what was computed at the beginning of its cycle.
+    difference = share[:, :-1] - recorded[:, 1:]
+    assert np.abs(difference).max() < 0.03
+    assert np.abs(difference).mean() < 0.003
+
+
+def test_a_rail_that_nothing_cleans_is_as_it_was_found() -> None:
+    case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
+    time = np.linspace(0.0, 2.0, 201)
+    place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
+    full = np.ones_like(place)
+    rail = RecordedRail(case.scenario, time, 20.0 * np.ones_like(time), place, 5.5e4 * full)
+    friction, share = rail.met(0.1 * full, 2.0 * full, np.inf, 0.28)
+    np.testing.assert_array_equal(friction, 0.1)
+    np.testing.assert_array_equal(share, 0.0)
+
+
+def test_a_constant_slide_settles_at_the_share_of_its_loss() -> None:
+    """1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it."""
+    case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
+    time = np.linspace(0.0, 5.0, 501)
+    place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
+    full = np.ones_like(place)
+    rail = RecordedRail(case.scenario, time, 20.0 * np.ones_like(time), place, 5.5e4 * full)
+    # The rail is better than a clean one, so that the friction stays as it is: the loss is the creep law's.
+    _, share = rail.met(0.1 * full, 2.0 * full, 5000.0, 0.1)
+    own = share[0, -1]
+    loss = -5000.0 * np.log1p(-own)
+    limit = 2.0 * 5.5e4 * 0.1 * (0.6 * np.exp(-0.2 * 2.0) + 0.4) * 0.1
+    assert 0.8 * limit < loss < limit
+    behind = 1.0 - (1.0 - own) * (1.0 - 0.5 * own)
+    assert share[1, -1] == pytest.approx(behind, rel=1e-9)

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import pytest
+
+from uictest.studies import StopRunner, slip_brake_tests
+from uictest.studies.slip_brake_tests import CLEANED, CONTROLLERS, Map, slip_tests
+
+SMALL, DEEP = CONTROLLERS
+
+
+@pytest.fixture(name="tests", scope="module")
+def _tests(stop_runner: StopRunner) -> Map:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(slip_brake_tests, "FRICTIONS", (0.05, 0.08, 0.10))
+        patch.setattr(slip_brake_tests, "ENERGIES", ("none", CLEANED))
+        patch.setattr(slip_brake_tests, "SEEDS", range(2))
+        return slip_tests(stop_runner)
+
+
+def test_the_map_has_every_point_once(tests: Map) -> None:
+    assert list(tests) == [
+        (name, energy, friction)
+        for name in CONTROLLERS
+        for energy in ("none", CLEANED)
+        for friction in (0.05, 0.08, 0.10)
+    ]
+    assert all((test.controller, test.energy, test.friction) == key for key, test in tests.items())
+
+
+def test_on_a_rail_that_is_not_cleaned_the_slip_brake_test_counts(tests: Map) -> None:
+    """The deeper the slides, the longer the stop. At 0.10 the small slides lie at the limit of 35 %."""
+    assert tests[SMALL, "none", 0.05].counts
+    for friction in (0.05, 0.08, 0.10):
+        small, deep = (tests[name, "none", friction] for name in CONTROLLERS)
+        assert deep.counts
+        assert deep.distance > 1.05 * small.distance
+
+
+def test_cleaning_takes_the_deep_slides_from_the_default_controller(tests: Map) -> None:
+    cleaned = tests[SMALL, CLEANED, 0.05]
+    assert cleaned.slide < 35.0
+    assert cleaned.wheelsets == 0
+    assert not cleaned.counts
+
+
+def test_a_controller_with_deep_slides_meets_both_limits_and_stops_earlier(tests: Map) -> None:
+    small, deep = (tests[name, CLEANED, 0.05] for name in CONTROLLERS)
+    assert deep.counts
+    assert deep.wheelsets == 4
+    assert deep.distance < small.distance
+
+
+def test_a_rail_of_more_friction_is_not_slippery_enough_once_it_is_cleaned(tests: Map) -> None:
+    cleaned = tests[DEEP, CLEANED, 0.10]
+    assert cleaned.initial_adhesion > 0.08
+    assert cleaned.slide > 35.0
+    assert not cleaned.counts
