@@ -9,6 +9,7 @@ from stops import Stop
 
 from uictest.physics import arithmetic
 from uictest.rig.backends.compiled import translate, with_controller
+from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -45,14 +46,15 @@ def opened(record: Any) -> SimpleNamespace:
 
 def rolling(stop: Stop) -> Rig:
     """Return the rig at the brake command, its valves filling."""
-    parameters, wheelset_parameters, rail, controller = stop
+    parameters, wheelset_parameters, rail = stop.parameters, stop.wheelset_parameters, stop.rail
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
-    with_own = with_controller(controller, _unchanged, {})
+    with_own = with_controller(stop.controller, _unchanged, {})
     translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters, wheelset_parameters)
     read_sensors(car[0], wheelsets, parameters)
     translate(start_cycle, _unchanged, with_own)(car[0], wheelsets, parameters, rail)
+    translate(decide, _unchanged, with_own)(car[0], wheelsets, parameters)
     command_valves(car[0], wheelsets, parameters)
     return Rig(
         opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]

@@ -39,8 +39,8 @@ class Stop:
         rail = self.inputs.rail.copy()
         if friction is not None:
             rail[FRICTIONS] = friction
-        controller = self.inputs.controller
-        return run_to_end(compiled_stop(controller), StopInputs(record, rail, controller))
+        changed_inputs = self.inputs._replace(parameters=record, rail=rail)
+        return run_to_end(compiled_stop(self.inputs.controller), changed_inputs)
 
 
 def stop(file: str, selected: str) -> Stop:

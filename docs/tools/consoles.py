@@ -2,7 +2,7 @@
 
 A block marked ``console`` shows what a pipe gets, one marked ``console terminal`` what a terminal of 100
 columns shows. All blocks of a page are run one after the other in one folder that holds the shipped scenarios
-and every YAML block of the page that names its file.
+and every YAML or Python block of the page that names its file.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def refreshed(page: str, folder: Path) -> str:
 def prepare(page: str, folder: Path) -> None:
     """Put the shipped scenarios and the files that the page shows into ``folder``."""
     shutil.copytree(REPOSITORY / "scenarios", folder / "scenarios", dirs_exist_ok=True)
-    for block in blocks(page, "yaml"):
+    for block in (*blocks(page, "yaml"), *blocks(page, "python")):
         if block.file_name is not None:
             target = folder / block.file_name
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -10,7 +10,7 @@ _FENCED = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<text>.*?)^```$", re.MULTILINE 
 _GENERATED = re.compile(
     r"(?P<begin><!-- generated: (?P<what>[^>]*?) -->\n)(?P<text>.*?)(?P<end><!-- end -->)", re.DOTALL
 )
-_FILE_NAME = re.compile(r"# (\S+\.ya?ml)\n")
+_FILE_NAME = re.compile(r"# (\S+\.(?:ya?ml|py))\n")
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Block:
 
     @property
     def file_name(self) -> str | None:
-        """The file that the block shows, as its first line says: ``# name.yaml``."""
+        """The file that the block shows, as its first line says: ``# name.yaml`` or ``# name.py``."""
         match = _FILE_NAME.match(self.text)
         return match[1] if match else None
 

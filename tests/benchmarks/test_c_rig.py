@@ -99,7 +99,7 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
     from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 
     stop = short_stop("dry-120")
-    parameters, own, rail, _ = stop
+    parameters, own, rail, *_ = stop
     parameters.uses_cylinder_dynamics = 0.0
     scalar = run_to_end(c_stop(), stop)
     stops = np.repeat(parameters.reshape(1), 11).view(parameters.dtype)

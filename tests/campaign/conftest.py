@@ -17,7 +17,8 @@ def make_case() -> MakeCase:
     """A case as far as a campaign looks at it."""
 
     def make(case_id: str, *tags: str, file: str = "a.yaml", expect: str = "pass") -> Any:
-        scenario = SimpleNamespace(tags=tags, expect=expect)
+        controller = SimpleNamespace(program=None)
+        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller)
         return SimpleNamespace(id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={})
 
     return make

@@ -34,7 +34,7 @@ def test_results_come_in_the_order_of_the_cases(
 ) -> None:
     cases = [make_case(f"case-{number}") for number in range(30)]
 
-    def uneven(case: Any, wish: RecordingRequest) -> CaseRun:
+    def uneven(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
         time.sleep(0.004 if case.id.endswith("0") else 0.0)
         return CaseRun(_result(case))
 
@@ -49,7 +49,7 @@ def test_results_come_in_the_order_of_the_cases(
 def test_what_maxfail_leaves_does_not_depend_on_the_number_of_threads(
     make_case: MakeCase, examined_by: Callable[[Examine], None], jobs: int
 ) -> None:
-    examined_by(lambda case, wish: CaseRun(_result(case)))
+    examined_by(lambda case, wish, run: CaseRun(_result(case)))
     cases = [make_case(str(number), *(["fail"] if number % 3 == 2 else [])) for number in range(20)]
     assert _ids(run_cases(cases, jobs=jobs, maxfail=2)) == ["0", "1", "2", "3", "4", "5"]
 
@@ -57,7 +57,7 @@ def test_what_maxfail_leaves_does_not_depend_on_the_number_of_threads(
 def test_an_expected_failure_does_not_count(
     make_case: MakeCase, examined_by: Callable[[Examine], None]
 ) -> None:
-    examined_by(lambda case, wish: CaseRun(_result(case)))
+    examined_by(lambda case, wish, run: CaseRun(_result(case)))
     cases = [make_case(str(number), "fail", expect="fail") for number in range(3)]
     assert len(run_cases(cases, maxfail=1).results) == 3
 
@@ -67,7 +67,7 @@ def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(
 ) -> None:
     released = threading.Event()
 
-    def examine(case: Any, wish: RecordingRequest) -> CaseRun:
+    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
         if case.id == "long":
             released.wait(60.0)
         return CaseRun(_result(case))
@@ -90,7 +90,7 @@ def test_an_error_of_the_caller_goes_on(make_case: MakeCase, examined_by: Callab
     def full(examined: CaseRun) -> None:
         raise OSError("No space left on device")
 
-    examined_by(lambda case, wish: CaseRun(_result(case)))
+    examined_by(lambda case, wish, run: CaseRun(_result(case)))
     with pytest.raises(OSError, match="No space left"):
         run_cases([make_case("first"), make_case("second")], on_result=full)
 
@@ -100,7 +100,7 @@ def test_few_cases_are_examined_ahead_of_the_one_awaited(
 ) -> None:
     started: list[str] = []
 
-    def examine(case: Any, wish: RecordingRequest) -> CaseRun:
+    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
         started.append(case.id)
         return CaseRun(error_result(case, "made up"))
 

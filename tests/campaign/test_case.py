@@ -9,6 +9,7 @@ import pytest
 import uictest.evaluation
 import uictest.rig
 from uictest.campaign import RecordingRequest, run_case
+from uictest.controllers import ControllerError
 from uictest.evaluation import CaseResult
 
 MakeCase = Callable[..., Any]
@@ -21,12 +22,17 @@ class Rig:
         self.outcome = outcome
         self.asked: list[float | None] = []
 
-    def simulate(self, case: Any, record_every: float | None = None) -> Any:
+    def simulate(self, case: Any, record_every: float | None, run: object) -> Any:
         self.asked.append(record_every)
         recording = None if record_every is None else f"every {record_every} s"
-        return SimpleNamespace(measures=None, wheelset_measures=None, recording=recording)
+        made_up = {"measures": None, "wheelset_measures": None, "response_times": None}
+        return SimpleNamespace(
+            **made_up, recording=recording, controller_version="wsp 1.2.0", case_sha256="ab" * 32
+        )
 
-    def evaluate(self, case: Any, measures: Any, wheelsets: Any, duration: float) -> CaseResult:
+    def evaluate(
+        self, case: Any, measures: Any, wheelsets: Any, duration: float, response_times: object
+    ) -> CaseResult:
         return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)  # type: ignore[arg-type]
 
 
@@ -65,10 +71,45 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
     assert examined.result.outcome == outcome
 
 
+@pytest.mark.parametrize(("outcome", "recording"), [("pass", None), ("fail", "every 0.02 s")])
+def test_a_stop_with_a_controller_from_outside_is_never_repeated(
+    make_case: MakeCase, make_rig: Callable[[str], Rig], outcome: str, recording: str | None
+) -> None:
+    """It may answer differently another time, and the recording would be of another stop."""
+    rig, case = make_rig(outcome), make_case("dry")
+    case.scenario.controller.program = object()
+    examined = run_case(case, RecordingRequest("failed", every=0.02))
+    assert (rig.asked, examined.recording) == ([0.02], recording)
+
+
+def test_a_result_says_which_controller_answered_in_which_stop(
+    make_case: MakeCase, make_rig: Callable[[str], Rig]
+) -> None:
+    make_rig("pass")
+    result = run_case(make_case("dry"), RecordingRequest("none")).result
+    assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
+
+
+def test_a_stop_in_which_the_controller_failed_is_named_as_well(
+    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A log of the controller has it, too, and is looked at first."""
+
+    def crash(case: Any, record_every: float | None, run: object) -> Any:
+        raise ControllerError("step failed: no memory (cycle 7)")
+
+    make_rig("pass")
+    monkeypatch.setattr(uictest.rig, "simulate", crash)
+    monkeypatch.setattr(uictest.rig, "sha256_of_case", lambda case: "ab" * 32)
+    result = run_case(make_case("dry"), RecordingRequest("none")).result
+    assert (result.outcome, result.reason) == ("error", "controller: step failed: no memory (cycle 7)")
+    assert (result.controller_version, result.case_sha256) == ("", "ab" * 32)
+
+
 def test_a_crash_of_one_case_is_its_result(
     make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def crash(case: Any, record_every: float | None = None) -> Any:
+    def crash(case: Any, record_every: float | None, run: object) -> Any:
         raise ZeroDivisionError("no wheel load")
 
     make_rig("pass")

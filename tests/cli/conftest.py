@@ -125,7 +125,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Let stops come out as their tags say (`fail`, `invalid`, `error`, else `pass`); the ids as examined."""
     examined: list[str] = []
 
-    def examine(case: Any, wish: RecordingRequest) -> CaseRun:
+    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
         examined.append(case.id)
         if "error" in case.scenario.tags:
             return CaseRun(error_result(case, "ZeroDivisionError: no wheel load"))

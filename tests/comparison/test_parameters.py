@@ -4,6 +4,8 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 from uictest.comparison import (
     ParameterChange,
     ParameterOfRun,
@@ -72,3 +74,30 @@ def test_a_run_of_before_parameters_were_kept_is_compared_and_named(make_run: Ma
     found = compared(make_run, None, controller(3))
     assert (found.agrees, found.parameters) == (True, [])
     assert any("first run does not hold its parameters" in note for note in found.notes)
+
+
+def told_by(make_run: MakeRun, version: str, stated: str = "") -> RunContent:
+    facts = {"library": "wsp.so"} | ({"version": stated} if stated else {})
+    rows = tuple(Parameter(f"controller.{key}", text, "", text, "user") for key, text in facts.items())
+    run = run_with(make_run(), EffectivePart("controller", "controller", "wsp", None, rows))
+    return dataclasses.replace(
+        run, results=[dataclasses.replace(result, controller_version=version) for result in run.results]
+    )
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "changes"),
+    [
+        (("1.2",), ("1.3",), ["controller.version: 1.2 -> 1.3"]),
+        (("1.2",), ("1.2",), []),
+        (("1.2",), ("",), []),  # the second stop ended in an error
+        (("1.2",), ("1.3", "1.3"), ["controller.version: 1.2 -> 1.3"]),
+        (("1.2", "1.2"), ("1.3", "1.2"), ["controller.told_version: none -> 1.3"]),
+    ],
+)
+def test_another_version_that_a_controller_tells_is_named(
+    make_run: MakeRun, first: tuple[str, ...], second: tuple[str, ...], changes: list[str]
+) -> None:
+    found = compare_runs(told_by(make_run, *first), told_by(make_run, *second), Tolerances())
+    assert found.agrees
+    assert [change_text(change) for change in found.parameters] == changes

@@ -75,6 +75,16 @@ def test_the_document_is_json_that_any_reader_takes(results) -> None:
     assert document["cases"][2]["measures"] is None
 
 
+def test_which_controller_answered_in_which_stop_is_there_only_where_it_is_known(results) -> None:
+    told = dataclasses.replace(results[0], controller_version="wsp 1.2", case_sha256="ab" * 32)
+    document = json.loads(to_json(result_document([told, *results[1:]])))
+    first, *others = document["cases"]
+    assert list(first) == [*CASE, "controller_version", "case_sha256"]
+    assert [list(case) for case in others] == [CASE, CASE]
+    back, *_ = results_of(document)
+    assert (back.controller_version, back.case_sha256) == ("wsp 1.2", "ab" * 32)
+
+
 def test_results_come_back_from_their_document(results) -> None:
     back = results_of(json.loads(to_json(result_document(results))))
     assert cases_document(back) == cases_document(results)

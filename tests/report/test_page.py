@@ -69,9 +69,20 @@ def test_a_drawn_case_can_be_read_without_javascript(drawn: str) -> None:
         assert title in page.text
     for title in ("Speed over distance", "Clamping force over tank pressure", "Adhesion over slide"):
         assert title in page.text
-    (vents,) = (a["d"] for tag, a in page.elements if tag == "path" and a.get("class") == "vent")
-    assert vents is not None
-    assert vents.count("z") == 4
+    titles = [drawn.index(f'class="plot-{key}"') for key in ("speed", "valves", "slide")]
+    assert titles == sorted(titles)
+
+
+@pytest.mark.parametrize("magnet", ["hold", "vent"])
+def test_each_wheelset_has_a_lane_for_each_magnet_of_its_valve(drawn: str, magnet: str) -> None:
+    """The valves of the drawn case vent, with both magnets, in one stretch."""
+    page = Page(drawn)
+    assert {f"{n} {magnet}" for n in (1, 2, 3, 4)} <= set(page.text.split("\n"))
+    for n in (1, 2, 3, 4):
+        kind = f"magnet {magnet} role-wheelset-{n}"
+        (bars,) = (a["d"] for tag, a in page.elements if tag == "path" and a.get("class") == kind)
+        assert bars is not None
+        assert bars.count("z") == 1
 
 
 def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn: str) -> None:

@@ -146,8 +146,9 @@ def _drawn_bars(browser: Any, kind: str) -> int:
     """Return how many bars of a kind are painted: each has an edge of its own."""
     script = """
       const plot = document.querySelector('details.stop[open] .panels-plot');
-      const trace = plot.calcdata.find(([point]) => point.trace.name === arguments[0])[0].trace;
-      return document.querySelectorAll(`.panels-plot .trace${trace.uid} .js-line`).length;
+      return plot.calcdata.map(([point]) => point.trace).filter((trace) => trace.name === arguments[0])
+        .map((trace) => document.querySelectorAll(`.panels-plot .trace${trace.uid} .js-line`).length)
+        .reduce((sum, count) => sum + count, 0);
     """
     return int(_run(browser, script, kind))
 

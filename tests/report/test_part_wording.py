@@ -55,6 +55,65 @@ def test_what_a_users_own_file_has_instead_is_not_called_the_librarys() -> None:
     ]
 
 
+def test_a_controller_from_outside_is_told_by_its_program() -> None:
+    facts = {
+        "parameters.gain": "2",
+        "python": "wsp.py",
+        "class": "Wsp",
+        "version": "1.2.0",
+        "sha256": "ab" * 32,
+    }
+    parameters = (Parameter(f"controller.{key}", text, "", text, "user") for key, text in facts.items())
+    part = EffectivePart("controller", "controller", "Wsp", None, tuple(parameters))
+    told = "version 1.2.0, python wsp.py, SHA-256 abababababab"
+    assert part_sentences({"controller": part}) == {"controller": f"Wsp, {told}, with gain 2"}
+    assert changed_parameters({"controller": part}) == [f"controller Wsp ({told})"]
+    at_socket = dataclasses.replace(
+        part, name="tcp://rig:1", parameters=(Parameter("controller.connect", "tcp://rig:1", "", "", "user"),)
+    )
+    assert part_sentences({"controller": at_socket}) == {"controller": "tcp://rig:1, connect tcp://rig:1"}
+
+
+LIBRARY = EffectivePart(
+    "controller",
+    "controller",
+    "wsp",
+    None,
+    (Parameter("controller.library", "wsp.so", "", "wsp.so", "user"),),
+)
+
+
+def test_the_version_that_a_controller_tells_is_shown_case_by_case(make_result: MakeResult) -> None:
+    parts = {"controller": LIBRARY}
+    told = [("one", "1.2"), ("two", "1.3"), ("failed", "")]
+    results = [make_result(id=name, parts=parts, controller_version=text) for name, text in told]
+    assert list(part_lines(results)) == [
+        "part controller (in one): wsp, version 1.2, library wsp.so",
+        "part controller (in two): wsp, version 1.3, library wsp.so",
+        "part controller (in failed): wsp, library wsp.so",
+    ]
+    (suite,) = ElementTree.fromstring(junit_xml(results)).iter("testsuite")
+    properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
+    assert properties["controller.version"] == "1.2, 1.3"
+    assert [each.text for each in suite.iter("system-out")] == [
+        "changed parameters: controller wsp (version 1.2, library wsp.so)",
+        "changed parameters: controller wsp (version 1.3, library wsp.so)",
+        "changed parameters: controller wsp (library wsp.so)",
+    ]
+
+
+def test_a_version_that_contradicts_the_stated_one_stands_beside_it() -> None:
+    version = Parameter("controller.version", "1.1", "", "1.1", "user")
+    stated = dataclasses.replace(LIBRARY, parameters=(*LIBRARY.parameters, version))
+    for told, sentence in {"1.1": "version 1.1", "": "version 1.1"}.items():
+        assert part_sentences({"controller": stated}, told) == {
+            "controller": f"wsp, {sentence}, library wsp.so"
+        }
+    assert part_sentences({"controller": stated}, "1.2") == {
+        "controller": "wsp, version 1.1 (the program says 1.2), library wsp.so"
+    }
+
+
 def test_a_users_part_is_not_taken_for_the_librarys_of_the_same_name() -> None:
     own = dataclasses.replace(PLAIN, based_on=None)
     assert part_sentences({"controller": own}) == {"controller": "threshold, own part"}

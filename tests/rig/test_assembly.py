@@ -20,7 +20,7 @@ def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: 
     from uictest.rig.assembly import assemble
 
     for case in scenarios:
-        parameters, wheelset_parameters, rail, _ = assemble(case)
+        parameters, wheelset_parameters, rail, *_ = assemble(case)
         assert all(np.isfinite(parameters[name]).all() for name in PARAMETERS.names or ())
         assert all(np.isfinite(wheelset_parameters[name]).all() for name in WHEELSET_PARAMETERS.names)
         assert np.isfinite(rail).all()
@@ -214,3 +214,28 @@ def test_cases_of_one_scenario_draw_different_noise(scenarios: Any) -> None:
 
     keys = [int(assemble(case)[0].case_key) for case in scenarios]
     assert len(set(keys)) == len(keys)
+
+
+SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', parameters: {lower_slide: %s}}"
+
+
+def test_the_digest_of_a_case_names_what_decides_its_stop(rig: Any) -> None:
+    from uictest.rig.assembly import assemble
+
+    def digest(*overrides: str, lower_slide: float = 0.08) -> str:
+        config = assemble(rig.case(SOCKET % lower_slide, *overrides)).config
+        assert config is not None
+        return str(config.case_sha256)
+
+    own = digest()
+    assert len(bytes.fromhex(own)) == 32
+    assert digest("title=Another title", "expect=fail", "criteria=uictest-stop") == own
+    assert digest("controller.connect=tcp://127.0.0.1:5026", "controller.time_limit=2 s") == own
+    others = {
+        digest(lower_slide=0.09),
+        digest("initial_speed=81 km/h"),
+        digest("rail.friction=0.09"),
+        digest("vehicle.wheelsets.2.wheel_radius=0.42 m"),
+        digest("seed=1"),
+    }
+    assert len(others | {own}) == 6

@@ -1,11 +1,13 @@
 """Every shipped case, simulated."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.rig import SimulatedStop, is_compiled, simulate
+from uictest.scenario import load
 
 
 @pytest.fixture(name="stops", scope="module")
@@ -81,6 +83,30 @@ def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
 
 def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop], scenarios: Any) -> None:
     assert is_compiled(scenarios)
+
+
+def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig: Any, tmp_path: Path) -> None:
+    """All 32 bits of it; a reference speed that the controller does not give is NaN."""
+    (tmp_path / "wsp.py").write_text(
+        "from uictest.controllers import Outputs\n"
+        "class Wsp:\n"
+        "    def __init__(self, config): pass\n"
+        "    def reset(self): pass\n"
+        "    def step(self, inputs):\n"
+        "        return Outputs([0] * 4, [0] * 4, diagnosis=2**32 - 1 - inputs.cycle)\n"
+    )
+    scenario = tmp_path / "stop.yaml"
+    scenario.write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
+        "controller: {python: wsp.py, class: Wsp}\n"
+    )
+    own, outside = (simulate(case, record_every=0.1).recording for case in (rig.case(), *load([scenario])))
+    assert own is not None
+    assert outside is not None
+    assert outside.channels.keys() - own.channels.keys() == {"diagnosis"}
+    cycles = np.maximum(np.rint(outside["time"] / 0.01) - 1, 0)
+    np.testing.assert_array_equal(outside["diagnosis"], 2**32 - 1 - cycles)
+    assert np.isnan(outside["reference_speed"]).all()
 
 
 def test_temperatures_are_recorded_only_where_they_are_modelled(rig: Any) -> None:

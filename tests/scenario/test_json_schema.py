@@ -92,6 +92,11 @@ def test_shipped_scenarios_are_valid(path: Path, validator: Draft7Validator) -> 
         {"vehicle": {"extends": "crh380a", "body": {"mass": "40 t"}}},
         {"vehicle": {"extends": "crh380a", "body": {"mass": {"value": "40 t", "source": "crh380a"}}}},
         {"controller": {"extends": "threshold", "cycle_time": "20 ms"}},
+        {"controller": {"python": "wsp.py", "class": "Wsp", "parameters": {"a": [1, {"b": True}]}}},
+        {"controller": {"extends": "mine.yaml", "parameters": {"a": 1}, "version": "2.1"}},
+        {"controller": {"library": "libwsp.so", "time_limit": "50 ms", "cycle_time": "5 ms"}},
+        {"controller": {"fmu": "wsp.fmu", "variables": {"hold": "ev_%d"}}},
+        {"controller": {"connect": "tcp://127.0.0.1:5025"}},
         {"rail": {"friction": {"points": [{"position": "0 m", "friction": 0.1}]}}},
         {"criteria": [{"extends": "uictest-stop"}, "uictest-stop"]},
         {"rig": {"compensation_model": {"extends": "six-inch", "cylinder": {"denominator": [-0.5, 0, 0]}}}},
@@ -117,6 +122,11 @@ def test_what_the_loader_accepts_is_valid(more: dict[str, Any], validator: Draft
         {"matrix": {"seed": []}},
         {"vehicle": {"extends": "crh380a", "body": {"mas": "40 t"}}},
         {"controller": {"extends": "threshold", "cycle_tim": "20 ms"}},
+        {"controller": {"pyton": "wsp.py", "class": "Wsp"}},
+        {"controller": {"python": "wsp.py"}},
+        {"controller": {"python": "wsp.py", "class": "Wsp", "library": "libwsp.so"}},
+        {"controller": {"connect": "127.0.0.1:5025"}},
+        {"controller": {"library": "libwsp.so", "parameters": {"a": None}}},
     ],
 )
 def test_what_the_loader_refuses_is_mostly_invalid(wrong: dict[str, Any], validator: Draft7Validator) -> None:

@@ -265,7 +265,7 @@ PARTS: list[Row] = [
     (
         "no algorithm",
         HEAD + "controller: {cycle_time: 10 ms}\n",
-        *(4, 13, "controller.algorithm", "missing key 'algorithm'", "slip-band, threshold"),
+        *(4, 13, "controller", "no controller is named", "write `extends: threshold`"),
     ),
     (
         "half a tooth",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,7 +13,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.controllers import Controller
+from uictest import rig
+from uictest.controllers import HEADER, Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.friction_law import FRICTIONS
 from uictest.sweep import ChunkRunner, Plan, load_sweep
@@ -28,6 +32,8 @@ grid:
   rail.friction: [0.08, 0.10, 0.12]
   brake.command: [80 %, 100 %]
 """
+SLIP_BAND = Path(__file__).parent / "controllers"
+"""A controller from outside with the commands of the built-in slip-band."""
 Load = Callable[..., Plan]
 
 
@@ -78,4 +84,22 @@ def formula(
 @pytest.fixture
 def made_up() -> Callable[[Plan], ChunkRunner]:
     """A runner whose stops are the formula."""
-    return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan)
+    return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> str:
+    """The controller slip-band as a shared library beside the sweep, as a scenario names it."""
+    compiler = shutil.which(os.environ.get("CC", "gcc"))
+    if compiler is None:
+        pytest.skip("no C compiler")
+    options = ["-O2", "-ffp-contract=off", "-fPIC", "-shared", f"-I{HEADER.parent}"]
+    subprocess.run([compiler, *options, "-o", tmp_path / "libband.so", SLIP_BAND / "slip_band.c"], check=True)
+    return "libband.so"
+
+
+@pytest.fixture
+def python_file(tmp_path: Path) -> str:
+    """The controller slip-band as a class in a file beside the sweep, as a scenario names it."""
+    shutil.copy(SLIP_BAND / "slip_band.py", tmp_path)
+    return "slip_band.py, class: SlipBand"

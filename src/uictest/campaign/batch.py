@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
-from uictest import evaluation, scenario
+from uictest import controllers, evaluation, rig, scenario
 from uictest.campaign.case import CaseRun, RecordingRequest, run_case
 from uictest.campaign.parts import PartsOfCases, with_parts
 from uictest.campaign.threaded_map import ThreadedMap
@@ -26,6 +26,8 @@ def run_cases(
     recording: RecordingRequest | None = None,
     maxfail: int | None = None,
     parts: PartsOfCases | None = None,
+    in_process: bool = False,
+    real_time: bool = False,
     on_result: Callable[[CaseRun], None] = lambda case_run: None,
 ) -> BatchResult:
     """Run the cases on `jobs` threads, and return the results in the order of the cases.
@@ -39,6 +41,8 @@ def run_cases(
         maxfail: number of missed cases after which no further case is reported, so that the results do not
             depend on `jobs`.
         parts: effective parts by case id, which are added to the results.
+        in_process: whether controllers from outside run in this process, which they can then crash.
+        real_time: whether their cycles are paced by the clock; all must be programs at a socket.
         on_result: called in this thread, once per case, in the order of the cases.
     """
     batch = BatchResult()
@@ -49,15 +53,24 @@ def run_cases(
         batch.results.append(case_run.result)
         on_result(case_run)
 
-    case_runs = ThreadedMap(lambda case: run_case(case, request), cases, jobs=jobs)
-    try:
-        with case_runs:
-            _report_until(maxfail, case_runs, report)
-    except KeyboardInterrupt:
-        batch.interrupted = True
-        for case_run in case_runs.finished():
-            report(case_run)
+    with rig.Workers() as workers:
+        run = _runner(workers, in_process=in_process, real_time=real_time)
+        case_runs = ThreadedMap(lambda case: run_case(case, request, run), cases, jobs=jobs)
+        try:
+            with case_runs:
+                _report_until(maxfail, case_runs, report)
+        except KeyboardInterrupt:
+            batch.interrupted = True
+            # Before the child processes end: their stops would come out as errors.
+            for case_run in case_runs.finished():
+                report(case_run)
+            controllers.interrupt_turns()
     return batch
+
+
+def _runner(workers: rig.Workers, *, in_process: bool, real_time: bool) -> rig.RunInputs:
+    run: rig.RunInputs = rig.run_in_process if in_process else workers.run
+    return rig.in_real_time(run) if real_time else run
 
 
 def _report_until(

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Literal
 
 from uictest import evaluation, rig, scenario
+from uictest.controllers import ControllerError
 from uictest.recording import Recording
 
 
@@ -32,28 +33,42 @@ class CaseRun:
     traceback: str = ""
 
 
-def run_case(case: scenario.Case, request: RecordingRequest) -> CaseRun:
-    """Simulate and judge one case. An exception becomes a result with the outcome `error`."""
+def run_case(case: scenario.Case, request: RecordingRequest, run: rig.RunInputs | None = None) -> CaseRun:
+    """Simulate and judge one case. An exception becomes a result with the outcome `error`.
+
+    `run` runs the stop, see :func:`uictest.rig.simulate`.
+    """
     started = perf_counter()
     try:
-        return _simulate_and_judge(case, request, started)
+        return _simulate_and_judge(case, request, started, run)
     except Exception as error:
         result = evaluation.error_result(case, _reason(error), perf_counter() - started)
+        if isinstance(error, ControllerError):
+            result = replace(result, case_sha256=rig.sha256_of_case(case))
         return CaseRun(result, traceback=traceback.format_exc())
 
 
-def _simulate_and_judge(case: scenario.Case, request: RecordingRequest, started: float) -> CaseRun:
-    stop: rig.SimulatedStop = rig.simulate(
-        case, record_every=request.every if request.cases == "all" else None
-    )
+def _simulate_and_judge(
+    case: scenario.Case, request: RecordingRequest, started: float, run: rig.RunInputs | None
+) -> CaseRun:
+    # A controller from outside may answer differently when its stop is repeated.
+    from_outside = case.scenario.controller.program is not None
+    at_once = request.cases == "all" or (request.cases == "failed" and from_outside)
+    stop: rig.SimulatedStop = rig.simulate(case, request.every if at_once else None, run)
     result = evaluation.evaluate_simulated(
-        case, stop.measures, stop.wheelset_measures, perf_counter() - started
+        *(case, stop.measures, stop.wheelset_measures, perf_counter() - started),
+        response_times=stop.response_times,
     )
-    if request.cases == "failed" and not result.met:
+    result = replace(result, controller_version=stop.controller_version, case_sha256=stop.case_sha256)
+    if not request.wants(result):
+        return CaseRun(result)
+    if not at_once:
         # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
-        stop = rig.simulate(case, record_every=request.every)
+        stop = rig.simulate(case, request.every, run)
     return CaseRun(result, stop.recording)
 
 
 def _reason(error: Exception) -> str:
+    if isinstance(error, ControllerError):
+        return f"controller: {error}"
     return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__

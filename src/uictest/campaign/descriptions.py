@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from uictest import report
-from uictest.scenario import Case, Scenario, is_changed, yaml
+from uictest.scenario import Case, ExternalController, Scenario, is_changed, yaml
 
 
 def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
@@ -25,15 +25,15 @@ def _settings(scenario: Scenario) -> dict[str, str]:
         "initial speed": scenario.initial_speed.text,
         "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command.text}",
         "rail": f"{_named(rail.condition)}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
-        "WSP": f"{rig.wsp}, controller {_named(scenario.controller)}",
+        "WSP": f"{rig.wsp}, controller {_controller(scenario)}",
         "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",
         "criteria": ", ".join(profile.name for profile in scenario.criteria),
     }
 
 
 def _named(part: yaml.Part) -> str:
-    """Return the name of a part, and whether it differs from the library part of that name."""
-    return f"{part.name} (changed)" if is_changed(part) else part.name
+    """Return the name of a part, and whether it differs from the part that it extends."""
+    return f"{part.label} (changed)" if is_changed(part) else part.label
 
 
 def _friction(scenario: Scenario) -> str:
@@ -43,3 +43,12 @@ def _friction(scenario: Scenario) -> str:
     else:
         text = getattr(rail.friction, "text", "along the track")
     return text if rail.friction_over_time is None else f"{text}, changing with time"
+
+
+def _controller(scenario: Scenario) -> str:
+    """Return the name of the controller; of one from outside, its version and what is loaded, too."""
+    controller = scenario.controller
+    if not isinstance(controller, ExternalController):
+        return _named(controller)
+    version = f" {controller.version}" if controller.version else ""
+    return f"{_named(controller)}{version} ({controller.kind} {controller.reference})"

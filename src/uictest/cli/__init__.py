@@ -1,6 +1,7 @@
 """The command line."""
 
 # An interrupt while this module is loaded still shows Python's traceback, so it imports little.
+import atexit
 import gc
 import os
 import sys
@@ -24,7 +25,9 @@ def main() -> None:
     except KeyboardInterrupt:
         # A second interrupt, while the first was being handled.
         code = 2
-    # Everything is written by now, and tearing down numba takes longer than a stop.
+    # Everything is written by now, and tearing down numba takes longer than a stop. Temporary files, such as
+    # those of an FMU in this process, are removed.
+    atexit._run_exitfuncs()
     os._exit(code)
 
 

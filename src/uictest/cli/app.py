@@ -10,8 +10,10 @@ from uictest import __version__
 from uictest.cli.commands.bench import bench
 from uictest.cli.commands.check import check
 from uictest.cli.commands.compare import compare
+from uictest.cli.commands.controller import controller
 from uictest.cli.commands.evaluate import evaluate
 from uictest.cli.commands.export import export
+from uictest.cli.commands.export_rig import export_rig
 from uictest.cli.commands.fit import fit
 from uictest.cli.commands.identify import identify
 from uictest.cli.commands.init import init
@@ -48,6 +50,7 @@ for _name, _function in (
     ("list", list_cases),
     ("evaluate", evaluate),
     ("export", export),
+    ("export-rig", export_rig),
     ("fit", fit),
     ("bench", bench),
     ("reproduce", reproduce),
@@ -66,7 +69,7 @@ def _show_help_alone(context: typer.Context) -> None:
         raise typer.Exit(ExitCode.USAGE)
 
 
-for _name, _group in (("identify", identify), ("library", library)):
+for _name, _group in (("identify", identify), ("library", library), ("controller", controller)):
     _group.callback(invoke_without_command=True)(_show_help_alone)
     app.add_typer(_group, name=_name, short_help=_group.info.help)
 

@@ -98,6 +98,20 @@ Overrides = Annotated[
 Seed = Annotated[
     int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise in every case.")
 ]
+InProcess = Annotated[
+    bool,
+    typer.Option(
+        "--in-process",
+        help="Run controllers from outside in this process: faster, but a crash or a hang ends everything.",
+    ),
+]
+RealTime = Annotated[
+    bool,
+    typer.Option(
+        "--real-time",
+        help="Pace controllers at a socket by the clock; a missed deadline makes a stop invalid.",
+    ),
+]
 Trusted = Annotated[
     list[Path] | None,
     typer.Option(

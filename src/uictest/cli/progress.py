@@ -62,3 +62,9 @@ def announce_compilation(*, warm: bool, quiet: bool = False) -> None:
     """Announce that the rig is compiled, unless the cache has it (`warm`) or the command is `quiet`."""
     if not (warm or quiet):
         message("uictest: compiling the rig (once per installation, ten to forty seconds)...")
+
+
+def announce_in_process(*, foreign: bool, quiet: bool = False) -> None:
+    """Announce that foreign controllers, if there are any (`foreign`), can crash this process."""
+    if foreign and not quiet:
+        message("uictest: --in-process: controllers from outside are not isolated, a crash ends everything")

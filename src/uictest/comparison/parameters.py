@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from uictest import evaluation
@@ -64,33 +64,47 @@ def parameter_changes(
     cases: dict[Change, list[str]] = {}
     for first, second in pairs:
         if first.parts and second.parts:
-            for change in _changes(first.parts, second.parts):
+            for change in _changes(first, second):
                 cases.setdefault(change, []).append(first.id)
     return [ParameterChange(*change, tuple(ids)) for change, ids in cases.items()]
 
 
-def _changes(
-    first: Mapping[str, evaluation.EffectivePart], second: Mapping[str, evaluation.EffectivePart]
-) -> Iterator[Change]:
-    for role in dict.fromkeys([*first, *second]):
-        ours, theirs = first.get(role), second.get(role)
-        if ours is None or theirs is None or ours.id != theirs.id:
-            yield from _changes_of_part(role, ours, theirs)
+def _changes(first: evaluation.CaseResult, second: evaluation.CaseResult) -> Iterator[Change]:
+    told = first.controller_version, second.controller_version
+    # A stop that ended in an error tells no version; that is no other version.
+    told = told if all(told) else ("", "")
+    for role in dict.fromkeys([*first.parts, *second.parts]):
+        ours, theirs = first.parts.get(role), second.parts.get(role)
+        if ours is None or theirs is None or ours.id != theirs.id or told[0] != told[1]:
+            yield from _changes_of_part(role, ours, theirs, told)
 
 
 def _changes_of_part(
-    role: str, first: evaluation.EffectivePart | None, second: evaluation.EffectivePart | None
+    role: str,
+    first: evaluation.EffectivePart | None,
+    second: evaluation.EffectivePart | None,
+    told: tuple[str, str],
 ) -> Iterator[Change]:
     names = [None if part is None else ParameterOfRun(part.name, "", part.name) for part in (first, second)]
     if names[0] != names[1]:
         yield role, names[0], names[1]
     if first is None or second is None:
         return
-    ours, theirs = ({each.key: each for each in part.parameters} for part in (first, second))
+    ours, theirs = _parameters(first, told[0]), _parameters(second, told[1])
     for key in dict.fromkeys([*ours, *theirs]):
         one, other = ours.get(key), theirs.get(key)
         if one is None or other is None or (one.value, one.unit) != (other.value, other.unit):
             yield key, _value(one), _value(other)
+
+
+def _parameters(part: evaluation.EffectivePart, told: str) -> dict[str, evaluation.Parameter]:
+    """Return the parameters of a part by key, with the version that its program said of itself."""
+    parameters = {each.key: each for each in part.parameters}
+    if (program := evaluation.program_of(part, told)) is not None:
+        versions = {"version": program.version, "told_version": program.told_version}
+        for key, text in ((f"{part.key}.{name}", text) for name, text in versions.items() if text):
+            parameters[key] = evaluation.Parameter(key, text, "", text, "")
+    return parameters
 
 
 def _value(parameter: evaluation.Parameter | None) -> ParameterOfRun | None:

@@ -1,3 +1,13 @@
+from .adapters.instance import (
+    CalledInstance as CalledInstance,
+    ControllerError as ControllerError,
+    ControllerInstance as ControllerInstance,
+    read_inputs as read_inputs,
+    write_outputs as write_outputs,
+)
+from .adapters.real_time import ResponseTimes as ResponseTimes
+from .adapters.registry import open_controller as open_controller
+from .adapters.turns import interrupt_turns as interrupt_turns
 from .contract import (
     Conflict as Conflict,
     ControlledWheelset as ControlledWheelset,
@@ -7,4 +17,29 @@ from .contract import (
     DeclaredParameter as DeclaredParameter,
     TrainMemory as TrainMemory,
 )
+from .exchange import (
+    CLOSING as CLOSING,
+    EXCHANGE as EXCHANGE,
+    FORBIDDEN_COMMAND as FORBIDDEN_COMMAND,
+    GUARD as GUARD,
+    INPUTS as INPUTS,
+    NO_FAILURE as NO_FAILURE,
+    NO_MAGNET_STATE as NO_MAGNET_STATE,
+    NOT_CALLED as NOT_CALLED,
+    OPENING as OPENING,
+    OUTPUTS as OUTPUTS,
+    OUTPUTS_AT as OUTPUTS_AT,
+    STEP_FAILED as STEP_FAILED,
+    STEPPING as STEPPING,
+    WROTE_BEYOND as WROTE_BEYOND,
+)
+from .installed import installed_names as installed_names, installed_version as installed_version
+from .interface import (
+    Config as Config,
+    Inputs as Inputs,
+    Outputs as Outputs,
+    PythonController as PythonController,
+)
+from .program import HEADER as HEADER, ControllerProgram as ControllerProgram, Kind as Kind
 from .registry import CONTROLLERS as CONTROLLERS, DEFAULT as DEFAULT
+from .version import LONGEST_VERSION as LONGEST_VERSION, shown_version as shown_version

@@ -111,7 +111,7 @@ class Controller:
     """
 
     name: str
-    parameters: type[ControllerParameters]
+    parameters: type[ControllerCycle]
     train_memory: type[TrainMemory]
     wheelset_memory: type[ControlledWheelset]
     begin: Callable[[Any, Any, float], None]

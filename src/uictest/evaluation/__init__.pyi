@@ -28,6 +28,7 @@ from .parameters import (
     parts_of as parts_of,
     parts_table as parts_table,
 )
+from .program import Program as Program, program_in as program_in, program_of as program_of
 from .result import (
     CaseResult as CaseResult,
     NamedParts as NamedParts,

@@ -7,8 +7,10 @@ from collections.abc import Container, Iterator, Mapping
 from typing import Final
 
 from uictest import scenario
+from uictest.controllers import ResponseTimes
 from uictest.evaluation.coverage import Coverage
 from uictest.evaluation.judgement import judge
+from uictest.evaluation.real_time import missed_deadlines
 from uictest.evaluation.result import CaseResult, outcome_of
 from uictest.measures import (
     MEASURES,
@@ -57,6 +59,7 @@ def evaluate(
     *,
     explain: bool = True,
     coverage: Coverage | None = None,
+    response_times: ResponseTimes | None = None,
 ) -> CaseResult:
     """Return the judged result of a case whose stop was simulated or recorded.
 
@@ -67,9 +70,11 @@ def evaluate(
         duration: wall clock the simulation took, s.
         explain: as for :func:`judge`.
         coverage: as for :func:`judge`.
+        response_times: of the controller in a stop that was paced by the clock.
 
     """
     verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
+    verdicts = [*verdicts, *missed_deadlines(response_times)]
     outcome, reason = outcome_of(verdicts)
     of_stop = stop_column_values(measures, _column_definition(case.scenario))
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
@@ -86,6 +91,7 @@ def evaluate(
         criteria=tuple(verdicts),
         measures=of_stop,
         wheelsets=tuple(of_wheelsets),
+        response_times=response_times,
         duration=duration,
     )
 
@@ -97,6 +103,7 @@ def evaluate_simulated(
     duration: float = 0.0,
     *,
     explain: bool = True,
+    response_times: ResponseTimes | None = None,
 ) -> CaseResult:
     """Return the judged result of a simulated case, outcome `error` where a measure is not finite.
 
@@ -105,7 +112,9 @@ def evaluate_simulated(
     not_finite = list(_not_finite(measures, wheelset_measures))
     if not_finite:
         return error_result(case, _why_not_finite(measures, not_finite), duration)
-    return evaluate(case, measures, wheelset_measures, duration, explain=explain)
+    return evaluate(
+        case, measures, wheelset_measures, duration, explain=explain, response_times=response_times
+    )
 
 
 def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:

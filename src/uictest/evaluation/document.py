@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Final
 
-from pydantic import ConfigDict, TypeAdapter
+from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
 from uictest.evaluation.json_form import from_json_form, json_form, required, to_json_form
 from uictest.evaluation.parameters import EffectivePart, parts_document, parts_of
@@ -16,9 +16,24 @@ from uictest.evaluation.result import CaseResult
 SCHEMA = "uictest/result/1"
 
 
+_OF_SOME: Final = ("response_times", "controller_version", "case_sha256")
+"""Fields that the form of a result has only where there is something in them."""
+
+
+def _without_empty(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = write(result)
+    return {name: value for name, value in form.items() if value or name not in _OF_SOME}
+
+
 # In code these three default to those of a case that was not simulated.
 _CASES: Final = TypeAdapter(
-    list[Annotated[CaseResult, required("criteria", "measures", "wheelsets")]],
+    list[
+        Annotated[
+            CaseResult,
+            required("criteria", "measures", "wheelsets"),
+            WrapSerializer(_without_empty),
+        ]
+    ],
     config=ConfigDict(extra="forbid", defer_build=True),
 )
 

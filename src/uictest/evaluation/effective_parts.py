@@ -79,7 +79,7 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
     removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
     used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
-    return EffectivePart(kind, key, part.name, part.based_on, parameters, removed, sources)
+    return EffectivePart(kind, key, part.label, part.based_on, parameters, removed, sources)
 
 
 def _overridden(scenario: Scenario) -> Key:

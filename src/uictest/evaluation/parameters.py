@@ -68,7 +68,7 @@ class EffectivePart:
     Args:
         kind: controller, vehicle, ...; `scenario`, `scenario.brake`, ... for what the scenario says itself.
         key: where it stands in the scenario.
-        name: what its file calls it.
+        name: what its file calls it; of a controller from outside, its class, file or address without one.
         based_on: name of the library part at the root of `extends`, or of the file there; None where it
             extends nothing.
         parameters: all of them, in the order of the model.

@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
+from uictest.controllers import ResponseTimes
 from uictest.evaluation.json_form import json_form
 from uictest.evaluation.parameters import EffectivePart
 from uictest.evaluation.verdict import Layer, Status, Verdict, relative_margin
@@ -70,8 +71,11 @@ class CaseResult:
 
     `reason` says why the outcome is what it is. `measures` is None and `wheelsets` empty when the simulation
     failed. `parts` maps a role (`controller`, ...) to the part that the case was run with; it is empty where
-    an earlier version wrote the result. `duration` (seconds of wall clock) is for progress and JUnit only,
-    never part of the document: a result must not depend on the machine.
+    an earlier version wrote the result. `response_times` are those of a controller in a stop that was paced
+    by the clock. `controller_version` is what a controller from outside said of itself in this stop, and
+    `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`. The
+    document has these three only where there is something in them. `duration` (seconds of wall clock) is for
+    progress and JUnit only, never part of the document: a result must not depend on the machine.
     """
 
     id: str
@@ -84,6 +88,9 @@ class CaseResult:
     measures: CaseMeasures | None = None
     wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
     parts: NamedParts = field(default_factory=dict)
+    response_times: ResponseTimes | None = None
+    controller_version: str = ""
+    case_sha256: str = ""
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property

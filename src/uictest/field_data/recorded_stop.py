@@ -12,6 +12,7 @@ import numpy as np
 from uictest.field_data.channel_map import ChannelMap, Preparation
 from uictest.field_data.channels import CHANNEL_UNITS
 from uictest.field_data.defect import Defect
+from uictest.field_data.magnets import with_valve_commands
 from uictest.field_data.raw_channels import Array, RawChannel, select_channels
 from uictest.field_data.sensor_defects import analogue_defects, speed_defects
 from uictest.field_data.signals import integrated, low_passed, resampled
@@ -71,7 +72,8 @@ def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
     Raises UnreadableError, MissingExtraError, MapError, UnusableError, OSError.
     """
     contents = read_contents(path, channel_map.dialect)
-    return prepare(select_channels(contents, channel_map), contents.metadata, channel_map.preparation)
+    channels = with_valve_commands(select_channels(contents, channel_map))
+    return prepare(channels, contents.metadata, channel_map.preparation)
 
 
 def digest_of(path: Path) -> str:

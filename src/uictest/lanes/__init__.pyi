@@ -1,4 +1,5 @@
 from .block import block as block
+from .calls import call as call, record_at as record_at
 from .functions import (
     floor as floor,
     fma as fma,
@@ -15,3 +16,4 @@ from .records import (
     vectors as vectors,
 )
 from .stack import align_stack as align_stack
+from .translation import translate as translate

@@ -9,10 +9,13 @@ from typing import Final
 STATES: Final = MappingProxyType(
     {
         "valve_command": MappingProxyType({"fill": 0, "hold": 1, "vent": 2}),
+        "hold_magnet": MappingProxyType({"off": 0, "on": 1}),
+        "vent_magnet": MappingProxyType({"off": 0, "on": 1}),
+        "diagnosis": MappingProxyType({}),
         "brake_command": MappingProxyType({"released": 0, "applied": 1}),
     }
 )
-"""Kind of state -> names of its states and the numbers that stand for them."""
+"""Kind of state -> names of its states and the numbers that stand for them; bits have no names."""
 
 _WHEELSET_SUFFIX: Final = re.compile(r"_[1-4]$")
 

@@ -8,39 +8,52 @@ from uictest import evaluation
 from uictest.report.escaping import printable
 
 _PATHS = (".yaml", ".yml")
+_DIGITS = 12
+"""Hexadecimal digits of a SHA-256 in a sentence; the parameters of the part have all of them."""
 
 
-def part_sentence(part: evaluation.EffectivePart, setting: str = "") -> str:
+def part_sentence(part: evaluation.EffectivePart, setting: str = "", told: str = "") -> str:
     """Return name, setting and changes: `threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)`.
 
     A part whose root is not in the library is marked as an own part, because it may have the name of a
-    library part. A section of a scenario has no name; its text is empty if it changes nothing.
+    library part; a controller from outside is told by its program, and its parameters follow; `told` is the
+    version that it said of itself in a stop. A section of a scenario has no name; its text is empty if it
+    changes nothing.
     """
     changes = "; ".join(_changes(part, part.key if part.name else ""))
-    texts = (part.name, _own_root(part), setting, changes and f"changed: {changes}")
+    texts = (part.name, _own_root(part, told), setting, _given(part), changes and f"changed: {changes}")
     return printable(", ".join(text for text in texts if text))
 
 
-def part_sentences(parts: Mapping[str, evaluation.EffectivePart]) -> dict[str, str]:
-    """Return the sentence of each part of a case by role; that of the compensation names its setting, too."""
+def part_sentences(parts: Mapping[str, evaluation.EffectivePart], told: str = "") -> dict[str, str]:
+    """Return the sentence of each part of a case by role; that of the compensation names its setting, too.
+
+    `told` as for :func:`part_sentence`.
+    """
     settings = {"compensation": _setting(parts)} if "compensation" in parts else {}
-    sentences = {role: part_sentence(part, settings.get(role, "")) for role, part in parts.items()}
+    sentences = {role: part_sentence(part, settings.get(role, ""), told) for role, part in parts.items()}
     return {role: sentence for role, sentence in sentences.items() if sentence}
 
 
 def changed_parameters(
-    parts: Mapping[str, evaluation.EffectivePart], varied: Collection[str] = ()
+    parts: Mapping[str, evaluation.EffectivePart], varied: Collection[str] = (), told: str = ""
 ) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
     Values of the scenario itself are compared with its defaults. The keys of `varied` are left out.
+    `told` as for :func:`part_sentence`.
     """
-    return [printable(change) for part in parts.values() for change in _differences(part, varied)]
+    return [printable(change) for part in parts.values() for change in _differences(part, varied, told)]
+
+
+def changes_of(result: evaluation.CaseResult) -> list[str]:
+    """Return what differs from the library in a case, as :func:`changed_parameters` does."""
+    return changed_parameters(result.parts, told=result.controller_version)
 
 
 def changes_line(result: evaluation.CaseResult) -> list[str]:
     """Return one line with the changed parameters of a case, none where nothing differs."""
-    changed = changed_parameters(result.parts)
+    changed = changes_of(result)
     return [f"changed parameters: {'; '.join(changed)}"] if changed else []
 
 
@@ -51,16 +64,35 @@ def base_word(part: evaluation.EffectivePart) -> str:
     return part.based_on if part.based_on.endswith(_PATHS) else "library"
 
 
-def _own_root(part: evaluation.EffectivePart) -> str:
-    """Return that a part is the user's own, and its root file if it has one; empty for a library part."""
+def program_sentence(program: evaluation.Program) -> str:
+    """Return what a controller from outside is: `version 1.2.0, python my_wsp.py, SHA-256 8ef1fb87eb73`."""
+    told = program.told_version and f" (the program says {program.told_version})"
+    version = program.version and f"version {program.version}{told}"
+    digest = program.sha256 and f"SHA-256 {program.sha256[:_DIGITS]}"
+    return ", ".join(text for text in (version, f"{program.kind} {program.source}", digest) if text)
+
+
+def _own_root(part: evaluation.EffectivePart, told: str) -> str:
+    """Return that a part is the user's own, and its root file or program; empty for a library part."""
     if not part.name or base_word(part) == "library":
         return ""
+    if (program := evaluation.program_of(part, told)) is not None:
+        return program_sentence(program)
     return f"own part based on {part.based_on}" if part.based_on else "own part"
 
 
-def _differences(part: evaluation.EffectivePart, varied: Collection[str]) -> Iterator[str]:
+def _given(part: evaluation.EffectivePart) -> str:
+    """Return the parameters that a controller from outside is given, but for those that were changed."""
+    above = f"{part.key}.parameters."
+    given = [each for each in part.parameters if each.key.startswith(above) and not each.differs]
+    if not given or evaluation.program_of(part) is None:
+        return ""
+    return "with " + "; ".join(f"{each.key.removeprefix(above)} {each.written}" for each in given)
+
+
+def _differences(part: evaluation.EffectivePart, varied: Collection[str], told: str) -> Iterator[str]:
     # A profile has no key; every verdict shows its limits.
-    if part.key and part.key not in varied and (own := _own_root(part)):
+    if part.key and part.key not in varied and (own := _own_root(part, told)):
         yield f"{part.key} {part.name} ({own})"
     yield from _changes(part, "", varied)
 

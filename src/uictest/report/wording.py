@@ -86,6 +86,19 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
             yield printable(f"{verdict.id}: {sensitivity}")
 
 
+def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
+    """Return how the controller answered in a stop that was paced by the clock, nothing for others."""
+    times = result.response_times
+    if times is None:
+        return []
+    seconds = times.cycle_time_s, times.longest_answer_s, times.start_jitter_s
+    cycle, longest, jitter = (f"{1e3 * time:.3g} ms" for time in seconds)
+    missed = f"{times.missed_deadlines} of {counted(times.answers, 'answer')}"
+    answers = f"{missed} after the end of their cycle of {cycle}"
+    worst = f"longest answer {longest} (cycle {times.longest_answer_cycle})"
+    return [f"in real time: {answers}, {worst}, start of a cycle at most {jitter} late"]
+
+
 def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     for verdict in result.criteria:
         undecided = verdict.status == "inconclusive" and result.outcome == "inconclusive"

@@ -1,14 +1,17 @@
 """From a case, as a user wrote it, to the numbers that the rig steps."""
 
+import hashlib
+import json
 import zlib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import CONTROLLERS, Controller
+from uictest.controllers import CONTROLLERS, Config, Controller, ControllerProgram
 from uictest.record import ScenarioValue, scenario_values
 from uictest.rig.derived_parameters import (
     DERIVED,
@@ -18,6 +21,7 @@ from uictest.rig.derived_parameters import (
 )
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE
+from uictest.rig.model.external_controller import EXTERNAL
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
@@ -32,13 +36,17 @@ class StopInputs(NamedTuple):
         wheelset_parameters: four records of
             :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
         rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
-        controller: the WSP controller.
+        controller: the WSP controller; of one from outside, what stands in its place in the model.
+        program: what is loaded where the controller comes from outside, else None.
+        config: what that controller is given before the stop, else None.
     """
 
     parameters: Any
     wheelset_parameters: Any
     rail: NDArray[np.float64]
     controller: Controller
+    program: ControllerProgram | None = None
+    config: Config | None = None
 
 
 def assemble(case: Case) -> StopInputs:
@@ -49,7 +57,38 @@ def assemble(case: Case) -> StopInputs:
     _fill(record[0], values)
     for place, assignments in enumerate(WHEELSET_ASSIGNMENTS):
         _fill(wheelsets[place], assigned(assignments, case.scenario))
-    return StopInputs(record[0], wheelsets, friction_laws(case.scenario), controller_of(case.scenario))
+    inputs = record[0], wheelsets, friction_laws(case.scenario), controller_of(case.scenario)
+    program = case.scenario.controller.program
+    if program is None:
+        return StopInputs(*inputs)
+    config = controller_config(record[0], wheelsets, program)
+    return StopInputs(*inputs, program, replace(config, case_sha256=case_sha256(*inputs[:3], program)))
+
+
+def case_sha256(
+    parameters: Any, wheelset_parameters: Any, rail: NDArray[np.float64], program: ControllerProgram
+) -> str:
+    """Return the SHA-256 that names a stop: of the bytes of the three records that the rig is given, then of
+    the controller's parameters as JSON in UTF-8.
+
+    Stops with the same one are the same stop for a controller, in one version of the package: criteria and
+    texts of the scenario have no part in it, the id of the case has, because sensor noise depends on it.
+    """
+    records = parameters.tobytes(), wheelset_parameters.tobytes(), np.ascontiguousarray(rail).tobytes()
+    return hashlib.sha256(b"".join(records) + program.parameters.encode()).hexdigest()
+
+
+def sha256_of_case(case: Case) -> str:
+    """Return the SHA-256 that a controller from outside is given with a case; empty if it is built in."""
+    config = assemble(case).config
+    return "" if config is None else config.case_sha256
+
+
+def controller_config(parameters: Any, wheelset_parameters: Any, program: ControllerProgram) -> Config:
+    """Return what a controller from outside is given before a stop with these records."""
+    radii = wheelset_parameters["configured_radius"].tolist()
+    cycle_time, initial_speed = float(parameters["cycle_time"]), float(parameters["initial_speed"])
+    return Config(len(radii), cycle_time, initial_speed, tuple(radii), json.loads(program.parameters))
 
 
 def _fill(record: Any, values: Mapping[str, float]) -> None:
@@ -63,7 +102,8 @@ def _fill(record: Any, values: Mapping[str, float]) -> None:
 
 def controller_of(scenario: Scenario) -> Controller:
     """Return the controller of a scenario."""
-    return CONTROLLERS[scenario.controller.algorithm]
+    controller = scenario.controller
+    return EXTERNAL if controller.program is not None else CONTROLLERS[controller.algorithm]
 
 
 def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str, Any]:

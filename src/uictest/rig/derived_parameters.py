@@ -67,8 +67,15 @@ def _topology(p: Parameters, scenario: Scenario) -> None:
 def _command(p: Parameters, scenario: Scenario) -> None:
     position = scenario.brake.system.positions[scenario.brake.position]
     p.commanded_pressure = scenario.brake.command * position.maximum_pressure
+    p.demand_per_pressure = 1.0 / position.maximum_pressure
     p.dead_time = position.dead_time
     p.filling_rate = 1.0 / position.fill_time
+
+
+@_reads()
+def _addresses(p: Parameters, scenario: Scenario) -> None:
+    """No controller from outside is open yet."""
+    p.controller_step = p.controller_handle = p.controller_exchange = 0
 
 
 @_reads("brake.system")

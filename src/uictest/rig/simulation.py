@@ -5,11 +5,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from uictest.controllers import ResponseTimes
 from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.rig.assembly import assemble, controller_of
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
-from uictest.rig.backends.native import compiled_stop, stops_are_compiled
-from uictest.rig.model.trace import CAR_CHANNELS, DISC_CHANNELS, WHEELSET_CHANNELS
+from uictest.rig.backends.finished_stop import FinishedStop
+from uictest.rig.backends.native import stops_are_compiled
+from uictest.rig.external.in_process import RunInputs
+from uictest.rig.external.workers import Workers
+from uictest.rig.model.trace import CAR_CHANNELS, CONTROLLER_CHANNELS, DISC_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario import Case
 
 
@@ -21,26 +24,45 @@ class SimulatedStop:
         measures: record of :data:`uictest.measures.STOP_MEASURES`.
         wheelset_measures: four records of :data:`uictest.measures.WHEELSET_MEASURES`.
         recording: channels over time, if requested.
+        controller_version: what a controller from outside says of itself.
+        response_times: how it answered, where cycles were paced by the clock.
+        case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
     """
 
     measures: Any
     wheelset_measures: Any
     recording: Recording | None = None
+    controller_version: str = ""
+    response_times: ResponseTimes | None = None
+    case_sha256: str = ""
 
 
-def simulate(case: Case, record_every: float | None = None) -> SimulatedStop:
+def simulate(case: Case, record_every: float | None = None, run: RunInputs | None = None) -> SimulatedStop:
     """Simulate a case on the compiled rig; other threads may run meanwhile.
 
     Args:
         case: the case.
         record_every: time between two samples of a recording, s, in whole base steps; None: no recording.
+        run: what runs the stop [default: a child process if the controller comes from outside].
+
+    Raises:
+        ControllerError: when a controller from outside failed.
     """
     inputs = assemble(case)
     step = float(inputs.parameters.step)
     steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
-    finished = run_to_end(compiled_stop(inputs.controller), inputs, steps_per_sample)
-    recording = _recording(case, finished) if steps_per_sample else None
-    return SimulatedStop(finished.measures, finished.wheelset_measures, recording)
+    if run is None:
+        with Workers() as workers:
+            finished = workers.run(inputs, steps_per_sample)
+    else:
+        finished = run(inputs, steps_per_sample)
+    from_outside = inputs.program is not None
+    recording = recording_of_stop(case, finished, from_outside=from_outside) if steps_per_sample else None
+    return SimulatedStop(
+        *(finished.measures, finished.wheelset_measures, recording),
+        *(finished.controller_version, finished.response_times),
+        case_sha256="" if inputs.config is None else inputs.config.case_sha256,
+    )
 
 
 def is_compiled(cases: Iterable[Case]) -> bool:
@@ -48,17 +70,32 @@ def is_compiled(cases: Iterable[Case]) -> bool:
     return stops_are_compiled(controller_of(case.scenario) for case in cases)
 
 
-def _recording(case: Case, finished: FinishedStop) -> Recording:
-    """Return the channels of the train, then those of each wheelset, without what is not modelled."""
+def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool) -> Recording:
+    """Return the channels of the train, then those of each wheelset, without what is not modelled.
+
+    Args:
+        case: the case.
+        finished: its stop, with a trace.
+        from_outside: whether the controller was one from outside, which may have a diagnosis.
+    """
     train, wheelsets = finished.trace
-    modelled = case.scenario.brake.models_disc_temperature
-    recorded = [each for each in WHEELSET_CHANNELS if modelled or each[0] not in DISC_CHANNELS]
-    channels = {name: train[name].copy() for name, _ in CAR_CHANNELS}
-    units = dict(CAR_CHANNELS)
+    of_train, of_wheelsets = _recorded(case, from_outside=from_outside)
+    channels = {name: train[name].copy() for name in of_train}
+    units = dict(of_train)
     for i in range(4):
-        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name, _ in recorded}
-        units |= {f"{name}_{i + 1}": unit for name, unit in recorded}
+        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name in of_wheelsets}
+        units |= {f"{name}_{i + 1}": unit for name, unit in of_wheelsets.items()}
     return Recording(channels, units, _facts(case, finished))
+
+
+def _recorded(case: Case, *, from_outside: bool) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the channels of the train and of a wheelset that mean something in a stop, with their units."""
+    missing_of_train = () if from_outside else CONTROLLER_CHANNELS
+    missing_of_wheelsets = () if case.scenario.brake.models_disc_temperature else DISC_CHANNELS
+    return (
+        {name: unit for name, unit in CAR_CHANNELS if name not in missing_of_train},
+        {name: unit for name, unit in WHEELSET_CHANNELS if name not in missing_of_wheelsets},
+    )
 
 
 def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:

@@ -1,3 +1,4 @@
+from .controller_loading import load_controller as load_controller
 from .discovery import SWEEP_SUFFIXES as SWEEP_SUFFIXES, link_outside as link_outside
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
@@ -6,6 +7,7 @@ from .expansion import (
     distinct as distinct,
     expand as expand,
 )
+from .files import Files as Files, Roots as Roots
 from .identifiers import LONGEST as LONGEST, short_keys as short_keys, value_label as value_label
 from .json_schema import SCHEMA_DRAFT as SCHEMA_DRAFT, as_draft_07 as as_draft_07, json_schema as json_schema
 from .library_parts import (
@@ -26,6 +28,7 @@ from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, Compensation as Compensation
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
+from .parts.external_controller import ExternalController as ExternalController
 from .parts.friction import FrictionProfile as FrictionProfile
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.pad import PadLaw as PadLaw
@@ -36,7 +39,7 @@ from .rail_friction import (
     changed_alone as changed_alone,
     sets_friction as sets_friction,
 )
-from .references import Files as Files, Parts as Parts, Roots as Roots, is_path as is_path
+from .references import Parts as Parts, is_path as is_path
 from .resolution import resolve as resolve
 from .values import (
     DESCRIPTIVE as DESCRIPTIVE,

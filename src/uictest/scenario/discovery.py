@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
-from uictest.scenario.references import KIND_OF_FOLDER, Files, trust_hint
+from uictest.scenario.files import Files, trust_hint
+from uictest.scenario.references import KIND_OF_FOLDER
 from uictest.scenario.yaml import (
     Diagnostic,
     Map,

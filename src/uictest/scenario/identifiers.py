@@ -5,6 +5,7 @@ from pathlib import PurePosixPath
 from typing import Final
 
 from uictest.scenario.expansion import Setting, Variant
+from uictest.scenario.parts.external_controller import PROGRAM_FILES
 from uictest.scenario.references import is_path
 from uictest.scenario.yaml import Map, Scalar
 
@@ -44,6 +45,9 @@ def value_label(setting: Setting) -> str:
 def _name(setting: Setting) -> str:
     node = setting.value.node
     if isinstance(node, Map):
+        program = next((node.get(key) for key in PROGRAM_FILES if key in node.entries), None)
+        if isinstance(program, Scalar):
+            return PurePosixPath(program.text).stem
         node = node.get("name") or node.get("extends") or node
     if not isinstance(node, Scalar):
         return f"value{setting.number}"

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from uictest.scenario.files import Files, Roots
 from uictest.scenario.part_keys import PART_KEYS, PART_KINDS
-from uictest.scenario.references import Files, Parts, Roots, folder_of
+from uictest.scenario.references import Parts, folder_of
 from uictest.scenario.yaml import (
     Document,
     Part,

@@ -7,11 +7,12 @@ from typing import Final
 
 from uictest.scenario.discovery import scenario_trees
 from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
+from uictest.scenario.files import Files, Roots
 from uictest.scenario.identifiers import LONGEST, case_id, short_keys
 from uictest.scenario.model import SCENARIO_SCHEMA, Case
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.rail_friction import changed_alone, overridden_alone
-from uictest.scenario.references import Files, Parts, Roots
+from uictest.scenario.references import Parts
 from uictest.scenario.resolution import resolve
 from uictest.scenario.yaml import (
     Diagnostic,

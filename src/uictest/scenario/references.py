@@ -1,38 +1,36 @@
 """References to parts: a library name, a relative path, or an inline mapping that may extend either."""
 
-import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Final, Self
+from pathlib import PurePosixPath
+from typing import Any, Final
 
 from uictest import library
+from uictest.controllers import installed_names
+from uictest.scenario.files import Files
+from uictest.scenario.program_files import mapping_for, program_files, version_stated_for
 from uictest.scenario.yaml import (
-    COMMAND_LINE,
     LIBRARY,
     Document,
+    Entry,
     Key,
     Map,
     Node,
+    Place,
     Scalar,
     ScenarioErrors,
     describe,
     dotted,
     inherit,
-    is_file,
     models_in,
-    nearest,
     plain,
     quoted,
-    read_file,
-    read_library,
     single_error,
     suggestion,
     validated,
-    visible,
 )
 
+_CONTROLLERS: Final = "controllers"
 KIND_OF_FOLDER: Final = {
     "brakes": "brake",
     "calipers": "caliper",
@@ -48,107 +46,11 @@ KIND_OF_FOLDER: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Roots:
-    """Folders, links resolved, at or below which every file must lie that is read by reference."""
-
-    folders: tuple[Path, ...]
-
-    @classmethod
-    def of(cls, paths: Iterable[Path], trusted: Iterable[Path] = ()) -> Self:
-        """The roots for files and folders that a user named, with the folders that are trusted besides."""
-        named = (path if os.path.isdir(path) else path.parent for path in paths)  # noqa: PTH112 - never raises
-        return cls(tuple(dict.fromkeys(map(real, (*named, Path.cwd(), *trusted)))))
-
-    def with_folder(self, folder: Path) -> "Roots":
-        """The roots and one more."""
-        return Roots((*self.folders, real(folder)))
-
-    def contain(self, path: Path) -> bool:
-        """Whether a path, links resolved, lies at or below one of the roots."""
-        return any(real(path).is_relative_to(folder) for folder in self.folders)
-
-    def around(self, folder: Path) -> Path:
-        """The outermost root that ``folder`` lies in, else the folder itself."""
-        around = (root for root in self.folders if real(folder).is_relative_to(root))
-        return min(around, key=lambda root: len(root.parts), default=real(folder))
-
-
-def real(path: Path) -> Path:
-    """The path with its links resolved, whether it exists or not."""
-    return Path(os.path.realpath(path))
-
-
-@dataclass(frozen=True, slots=True)
 class ResolvedPart:
     """A part and the documents it was made of."""
 
     part: Any
     documents: tuple[Document, ...]
-
-
-class Files:
-    """The files of one load; each is read once."""
-
-    def __init__(self, roots: Roots | None = None) -> None:
-        self._trees: dict[str, Map] = {}
-        self.roots = Roots.of(()) if roots is None else roots
-
-    def at(self, path: Path) -> Map:
-        """The tree of the file at ``path``."""
-        return self._once(str(path), partial(read_file, path))
-
-    def in_library(self, folder: str, name: str) -> Map:
-        """The tree of a library file."""
-        return self._once(f"library:{folder}/{name}", partial(read_library, folder, name))
-
-    def beside(self, reference: Scalar, key: str) -> Map:
-        """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
-        path = self.path_of(reference, key)
-        if not is_file(path):
-            raise single_error(
-                reference.place, f"no such file: {quoted(reference.text)}", key, _nearest_file(path)
-            )
-        return self.at(path)
-
-    def path_of(self, reference: Scalar, key: str) -> Path:
-        """The path that a relative path names, checked only for whether it may be read.
-
-        Raises ScenarioErrors at a reference that leads out of the roots, itself or by a link. A path on the
-        command line is an argument like any other: its folder becomes a root.
-        """
-        name = reference.text
-        if Path(name).is_absolute() or PureWindowsPath(name).is_absolute():
-            hint = "write it relative to the file that names it, so that it holds on every machine"
-            raise single_error(reference.place, f"{quoted(name)} is an absolute path", key, hint)
-        folder = reference.place.document.folder
-        path = folder / name
-        if reference.place.document.display == COMMAND_LINE:
-            self.roots = self.roots.with_folder(path.parent)
-        elif not self.roots.contain(path):
-            message = f"{quoted(name)} leads out of {visible(str(self.roots.around(folder)))}"
-            raise single_error(reference.place, message, key, trust_hint(path))
-        return path
-
-    def _once(self, name: str, read: Callable[[], Map]) -> Map:
-        if name not in self._trees:
-            self._trees[name] = read()
-        return self._trees[name]
-
-
-def trust_hint(path: Path) -> str:
-    """The hint for a file outside the roots."""
-    folder = visible(str(real(path).parent))
-    return f"add --trust {folder}; without it only the working folder and those of the files given are read"
-
-
-def _nearest_file(path: Path) -> str:
-    try:
-        guess = nearest(path.name, (each.name for each in path.parent.iterdir()))
-    except (OSError, ValueError):
-        return "paths start at the folder of the file that names them"
-    return (
-        f"did you mean {quoted(guess)}?" if guess else "paths start at the folder of the file that names them"
-    )
 
 
 class Parts:
@@ -191,8 +93,18 @@ class Parts:
             return generations[-1]
 
         merged, documents = inherit(tree, fetch, _reject_changed_sources)
-        part = validated(model, plain(merged), merged, key)
-        return ResolvedPart(self._with_origin(part, generations, model), documents)
+        part, programs = self._validated(merged, model, key)
+        return ResolvedPart(self._with_origin(part, generations, model), (*documents, *programs))
+
+    def _validated(self, tree: Map, model: Any, key: Key) -> tuple[Any, tuple[Document, ...]]:
+        """The part that a tree describes, and the files of the programs that it names."""
+        if folder_of(model) != "controllers":
+            return validated(model, plain(tree), tree, key), ()
+        programs = program_files(tree, self._files, dotted(key))
+        version = version_stated_for(tree, programs.values())
+        stated = {"version": version} if version else {}
+        part = validated(model, {**stated, **plain(tree), **programs}, tree, key)
+        return part, tuple(file.document for file in programs.values())
 
     def _with_origin(self, part: Any, generations: Sequence[Map], model: Any) -> Any:
         """Return a part that knows the library part it names or extends, else the file at the root."""
@@ -210,7 +122,7 @@ class Parts:
         """The part that a file at the root of `extends` describes; None where it is not a whole part."""
         if id(root) not in self._originals:
             try:
-                original = validated(model, plain(root), root)
+                original, _ = self._validated(root, model, ())
             except ScenarioErrors:
                 original = None
             self._originals[id(root)] = (root, original)
@@ -220,6 +132,8 @@ class Parts:
         folder = folder_of(model)
         if is_path(reference.text):
             tree = self._files.beside(reference, full_key)
+        elif _is_registered(reference.text, folder):
+            return _registered(reference)
         else:
             _require_known_name(reference, folder, full_key)
             tree = self._files.in_library(folder, reference.text)
@@ -238,11 +152,27 @@ def is_path(reference: str) -> bool:
     return reference.endswith((".yaml", ".yml"))
 
 
+def _is_registered(name: str, folder: str) -> bool:
+    """Return whether a name that is not in the library is that of an installed package's controller."""
+    return folder == _CONTROLLERS and name not in library.names(folder) and name in installed_names()
+
+
+def _registered(reference: Scalar) -> Map:
+    """Return the controller of an installed package as a part; the package is not imported."""
+    name = reference.text
+    place = Place(Document(f"installed:{name}", reference.place.document.folder, ""))
+    texts = {"schema": "uictest/controller/1", "registered": name}
+    return Map({key: Entry(place, Scalar(text, text, place)) for key, text in texts.items()}, place)
+
+
 def _require_known_name(reference: Scalar, folder: str, full_key: str) -> None:
     if reference.text in library.names(folder):
         return
-    hint = suggestion(reference.text, library.names(folder))
-    if "/" in reference.text or "\\" in reference.text:
+    installed = installed_names() if folder == _CONTROLLERS else ()
+    hint = suggestion(reference.text, (*library.names(folder), *installed))
+    if folder == _CONTROLLERS and (mapping := mapping_for(reference.text)):
+        hint = f"write `{mapping}`"
+    elif "/" in reference.text or "\\" in reference.text:
         hint = "a path ends in .yaml; " + hint
     raise single_error(
         reference.place,

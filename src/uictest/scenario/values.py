@@ -5,6 +5,7 @@ from typing import Final
 
 from pydantic import BaseModel
 
+from uictest.scenario.parts.program_file import ProgramFile
 from uictest.scenario.yaml import DEFAULT_SOURCE, SCENARIO_SOURCE, Key, Part, Quantity, Source
 
 Value = Quantity | str | int | float
@@ -22,16 +23,19 @@ DESCRIPTIVE: Final = frozenset(
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
     """Yield every number and setting inside a model, tuple or mapping with its key.
 
-    A criterion is named by its id. Parts inside are skipped, and so are values that are not set.
+    A criterion is named by its id. Parts inside are skipped, and so are values that are not set. Beside the
+    path of a program stands the SHA-256 of its file.
     """
     if isinstance(value, str | int | float):
         yield key, value
+        if isinstance(value, ProgramFile):
+            yield (*key[:-1], "sha256"), value.sha256
     elif isinstance(value, BaseModel):
         if key and isinstance(value, Part):
             return
         for name, inner in value:
             if name not in DESCRIPTIVE:
-                yield from values_in(inner, (*key, name))
+                yield from values_in(inner, (*key, type(value).model_fields[name].alias or name))
     elif isinstance(value, dict):
         for name, inner in value.items():
             yield from values_in(inner, (*key, name))

@@ -1,3 +1,4 @@
+from .plan.controllers import programs_of as programs_of
 from .plan.decimal_quantity import parse_decimal_quantity as parse_decimal_quantity
 from .plan.definition import load_sweep as load_sweep
 from .plan.nominal import drawn_ranges as drawn_ranges
@@ -6,6 +7,7 @@ from .plan.schema import sweep_schema as sweep_schema
 from .running.case_selection import CaseSelection as CaseSelection, select_cases as select_cases
 from .running.chunk import (
     ChunkRunner as ChunkRunner,
+    RunBlock as RunBlock,
     WriteChunk as WriteChunk,
     chunk_runner as chunk_runner,
     run_on_threads as run_on_threads,

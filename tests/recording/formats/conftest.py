@@ -23,8 +23,11 @@ def recording() -> Recording:
         "speed": 20.0 - time,
         "tank_pressure_1": 3.8e5 * np.minimum(time, 1.0),
         "valve_command_1": np.repeat([0.0, 1.0, 2.0, 0.0], 50),
+        "vent_magnet_1": np.repeat([0.0, 0.0, 1.0, 0.0], 50),
+        "diagnosis": np.repeat([0.0, 1.0, 2.0**31, 2.0**32 - 1.0], 50),
     }
     units = {"time": "s", "speed": "m/s", "tank_pressure_1": "Pa", "valve_command_1": "1"}
+    units |= {"vent_magnet_1": "1", "diagnosis": "1"}
     return Recording(channels, units, {"case": "small", "brake_command_time": "0 s"})
 
 

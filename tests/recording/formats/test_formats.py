@@ -40,6 +40,17 @@ def test_what_is_written_is_read(name: str, written: Written, recording: Recordi
 
 
 @pytest.mark.parametrize("name", FORMATS)
+def test_magnets_and_every_bit_of_a_diagnosis_come_back(
+    name: str, written: Written, recording: Recording
+) -> None:
+    [group] = read_here(name, written(name), Dialect()).groups
+    np.testing.assert_array_equal(group.channels["diagnosis"], recording["diagnosis"])
+    magnet = group.channels["vent_magnet_1"]
+    states = np.where(recording["vent_magnet_1"] > 0, "on", "off") if magnet.dtype.kind == "U" else None
+    np.testing.assert_array_equal(magnet, recording["vent_magnet_1"] if states is None else states)
+
+
+@pytest.mark.parametrize("name", FORMATS)
 def test_the_format_is_known_by_the_content(name: str, written: Written) -> None:
     assert format_of(written(name)) == name
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.report.page.stop.bars import state_bars, vents
+from uictest.report.page.stop.bars import magnet_bars, vents
+from uictest.report.traces.quantities import MAGNETS
 from uictest.report.traces.trace import BINS, deceleration, slide, trace_of
 
 MakeRecording = Callable[..., Recording]
@@ -51,16 +52,30 @@ def test_a_peak_of_a_single_sample_is_drawn_at_its_time() -> None:
 def test_every_change_of_a_valve_is_kept_however_long_the_record() -> None:
     time = np.arange(30 * BINS) / 100
     command = np.zeros_like(time)
-    command[100::7], command[101::7] = 2, 1  # a vent of one sample, a hold of one, then fill
+    command[100::7], command[102::7] = 2, 1  # a vent of one sample, a fill, a hold of one, then fill
     trace = trace_of(
         Recording({"time": time, "valve_command_2": command}, {"time": "s", "valve_command_2": "1"})
     )
     expected = len(command[100::7])
     assert len(vents(trace, 2)) == expected
-    bars = state_bars(trace)
-    assert [len(bars[kind]) for kind in ("vent", "hold", "fill")] == pytest.approx([expected] * 3, abs=1)
+    bars = magnet_bars(trace, MAGNETS)
+    assert bars.keys() == {"magnet hold role-wheelset-2", "magnet vent role-wheelset-2"}
+    assert len(bars["magnet vent role-wheelset-2"]) == expected
+    assert len(bars["magnet hold role-wheelset-2"]) == pytest.approx(2 * expected, abs=1)
     assert vents(trace, 2)[0] == (1.0, 1.01, 2)
     assert vents(trace, 1) == []
+
+
+def test_the_hold_magnet_stays_on_while_the_vent_magnet_goes_on_and_off() -> None:
+    time = np.arange(8.0)
+    command = np.array([0, 1, 2, 2, 1, 0, 1, 1])
+    trace = trace_of(
+        Recording({"time": time, "valve_command_3": command}, {"time": "s", "valve_command_3": "1"})
+    )
+    hold, vent = magnet_bars(trace, MAGNETS).values()
+    assert [bar[:2] for bar in hold] == [(1.0, 5.0), (6.0, 7.0)]
+    assert [bar[:2] for bar in vent] == [(2.0, 4.0)]
+    assert 3.0 - hold[0][2] == vent[0][2] - 3.0 > 0.0
 
 
 def test_a_valve_that_was_not_recorded_for_a_while_is_in_no_state_there() -> None:

@@ -80,7 +80,7 @@ def everything(function: Any, inputs: StopInputs, every: int) -> dict[str, bytes
     for samples in trace:
         samples[...] = 0.0
     car, bogies, wheelsets, memory, measures, wheelset_measures = records.values()
-    *numbers, _ = inputs
+    numbers = inputs.parameters, inputs.wheelset_parameters, inputs.rail
     function(car[0], bogies, wheelsets, *numbers, memory[0], measures[0], wheelset_measures, trace, every)
     return {name: record.tobytes() for name, record in records.items()} | {
         "trace": trace.train.tobytes() + trace.wheelsets.tobytes()

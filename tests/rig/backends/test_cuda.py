@@ -31,7 +31,7 @@ from uictest.scenario import load
 
 case = load([Path(sys.argv[1])], sys.argv[2:])[0]
 inputs = assemble(case)
-parameters, wheelset_parameters, rail, controller = inputs
+parameters, wheelset_parameters, rail, controller, *_ = inputs
 parameters["cycles"] = 2
 measures, wheelsets = np.zeros(1, STOP_MEASURES), np.zeros((1, 4), WHEELSET_MEASURES)
 batch = np.array([parameters], dtype=parameters.dtype)

@@ -84,7 +84,7 @@ class Batch:
         self.wheelsets: NDArray[Any] = np.zeros((len(cases), 4), WHEELSET_PARAMETERS)
         self.rail = np.zeros((len(cases), 4, max(case.rail.shape[1] for case in cases)))
         self.controllers = [case.controller for case in cases]
-        for number, (parameters, wheelsets, rail, _) in enumerate(cases):
+        for number, (parameters, wheelsets, rail, *_) in enumerate(cases):
             self.parameters[number] = parameters
             self.wheelsets[number] = wheelsets
             self.rail[number, :, : rail.shape[1]] = rail

@@ -82,7 +82,7 @@ def test_code_of_another_processor_is_not_executed(
     cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begin()
-    monkeypatch.setattr(machine_code, "_inputs", lambda: b"another processor")
+    monkeypatch.setattr(machine_code, "_inputs", lambda target: b"another processor")
     assert not is_kept(NAME)
 
 

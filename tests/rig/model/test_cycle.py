@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 from uictest.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.backends.compiled import translate
-from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.step import step
 
@@ -19,12 +17,13 @@ def scripted(commands: list[int]) -> Any:
     """The cycle with a controller that gives every wheelset the next of these commands, then fills."""
     script = iter(commands)
 
-    def follow(car: Any, wheelsets: Any, p: Any) -> None:
+    def cycle(car: Any, wheelsets: Any, p: Any, rail: Any) -> None:
+        start_cycle(car, wheelsets, p, rail)
         command = next(script, FILL)
         for wheelset in wheelsets:
             wheelset.valve_command = command
 
-    return translate(start_cycle, lambda function: function, {decide: follow})
+    return cycle
 
 
 def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[str, np.ndarray]:

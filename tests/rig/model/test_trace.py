@@ -12,7 +12,7 @@ SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 def test_a_row_holds_every_channel(rig: Any) -> None:
     columns = rig.columns(*SLIDING, every=20)
-    assert len(columns) == 25
+    assert len(columns) == 28
     assert all(np.isfinite(column).all() for column in columns.values())
 
 
@@ -37,6 +37,17 @@ def test_channels_agree_with_each_other(rig: Any) -> None:
     assert np.all(trace["adhesion"] <= trace["friction"] + 1e-9)
     assert set(np.unique(trace["valve_command"])) <= {0.0, 1.0, 2.0}
     assert np.all(np.diff(trace["distance"][moving]) > 0.0)
+
+
+def test_the_magnets_say_what_the_command_says(rig: Any) -> None:
+    """Neither fills, hold alone holds, both vent."""
+    trace = rig.columns(*SLIDING, every=20)
+    magnets = {0.0: (0.0, 0.0), 1.0: (1.0, 0.0), 2.0: (1.0, 1.0)}
+    commands = trace["valve_command"]
+    assert set(np.unique(commands)) == set(magnets)
+    for command, (hold, vent) in magnets.items():
+        assert set(trace["hold_magnet"][commands == command]) == {hold}
+        assert set(trace["vent_magnet"][commands == command]) == {vent}
 
 
 def test_first_sample_is_as_true_as_the_others(rig: Any) -> None:

@@ -71,13 +71,13 @@ sample:
 }
 
 
-def written_out(plan: Plan, index: int) -> Case:
+def written_out(plan: Plan, index: int, *overrides: str) -> Case:
     """The case as `uictest run --set ...` would load it, with the id that it has in the sweep."""
     settings = plan.settings(np.array([index]))
     # A part first, then what lies inside it: an override of a part would take the inside with it.
     keys = sorted(settings, key=lambda key: key.count("."))
     texts = [f"{key}={settings[key][0].text}" for key in keys]
-    case = load_scenarios([Path("stop.yaml")], texts)[0]
+    case = load_scenarios([Path("stop.yaml")], [*overrides, *texts])[0]
     return replace(case, id=plan.ids(np.array([index]))[0])
 
 
@@ -87,7 +87,7 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
     for place in range(plan.size):
-        record, own, rail, controller = assemble(written_out(plan, place))
+        record, own, rail, controller, *_ = assemble(written_out(plan, place))
         assert block.controllers[place] is controller
         assert record.tobytes() == block.parameters[place].tobytes()
         assert own.tobytes() == block.wheelset_parameters[place].tobytes()
@@ -161,7 +161,7 @@ def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
 
     from ..conftest import formula
 
-    record, own, rail, controller = assemble(case)
+    record, own, rail, controller, *_ = assemble(case)
     measures, wheelsets = formula(np.array([record]), own[None], rail[None], [controller])
     read: set[str] = set()
     watched: Any = Watched(case.scenario, "", read)

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest import rig
 from uictest.sweep import CaseSelection, chunk_runner
 
 from ..conftest import Load
@@ -50,7 +51,7 @@ def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: 
     from uictest.sweep.running.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
-    here = chunk_runner(selection.plan)
+    here = chunk_runner(selection.plan, rig.run_block)
     found: dict[int, bytes] = {}
 
     def write_chunk(number: int, content: bytes) -> None:

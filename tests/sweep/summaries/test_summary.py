@@ -15,6 +15,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+from uictest import rig
 from uictest.report import SweepResult, map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
 from uictest.sweep import CaseSelection, ChunkRunner, ChunkStore, Plan, summarize
@@ -61,7 +62,7 @@ def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
     selection = CaseSelection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
     store = ChunkStore(tmp_path / "out")
     store.open({}, restart=True)
-    runner = ChunkRunner(BlockAssembler(selection.plan), unstopped, selection.plan)
+    runner = ChunkRunner(BlockAssembler(selection.plan), unstopped, selection.plan, rig.run_block)
     for number in range(selection.chunks):
         store.write(number, runner.run(selection.chunk(number)))
     result = summarize(selection, store, None, ["braking_distance_m"]).result

@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, strategies as st
 
+from uictest import rig
 from uictest.campaign import RecordingRequest, run_cases
 from uictest.evaluation import cases_document
 from uictest.sweep.running.chunk import chunk_runner
@@ -52,7 +53,7 @@ def test_those_not_met_come_first_then_the_narrowest(
 def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
     plan = load("grid:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
-    runner = chunk_runner(plan)
+    runner = chunk_runner(plan, rig.run_block)
     indices = [3, 0]
     block = runner.assembler.block(np.array(indices))
     by_lanes = runner.results(block)
@@ -65,5 +66,5 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])
 def test_rows_name_the_narrowest_margin(load: Load, column: str) -> None:
-    rows = pq.read_table(io.BytesIO(chunk_runner(load()).run(np.arange(2))))
+    rows = pq.read_table(io.BytesIO(chunk_runner(load(), rig.run_block).run(np.arange(2))))
     assert all(value is not None for value in rows.column(column).to_pylist())

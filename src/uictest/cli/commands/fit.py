@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import field_data, fitting, recording, report, rig, scenario as scenarios
+from uictest import controllers, field_data, fitting, recording, report, rig, scenario as scenarios
 from uictest.cli import options, recordings
 from uictest.cli.cases import load_cases
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
@@ -241,4 +241,7 @@ def _write_scenario(fitted: _FittedStops, name: str, fit: fitting.Fit, folder: P
 
 def _simulated(scenario: Path, trusted: Sequence[Path]) -> rig.SimulatedStop:
     [case] = load_cases([scenario], None, None, trusted)
-    return rig.simulate(case, record_every=_RECORD_EVERY)
+    try:
+        return rig.simulate(case, record_every=_RECORD_EVERY)
+    except controllers.ControllerError as error:
+        raise InvalidInputError(f"uictest: the fitted scenario cannot be simulated: {error}") from error

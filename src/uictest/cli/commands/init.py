@@ -1,4 +1,4 @@
-"""`uictest init`: a first scenario to start from."""
+"""`uictest init`: a first scenario or a first controller to start from."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import recording
+from uictest import recording, templates
 from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity
@@ -38,22 +38,66 @@ expect: pass
 """
 
 
+CONTROLLER = "controller"
+"""What to write instead of a first scenario."""
+
+What = Annotated[
+    Path,
+    typer.Argument(
+        metavar="[DIR | controller]",
+        help="Folder for scenarios/ and schema/; or the word controller, with --python or --c.",
+    ),
+]
+PythonFolder = Annotated[
+    Path | None,
+    typer.Option("--python", metavar="DIR", help="Write a first WSP controller in Python to DIR."),
+]
+CFolder = Annotated[
+    Path | None, typer.Option("--c", metavar="DIR", help="Write a first WSP controller in C to DIR.")
+]
+
+
 def init(
-    folder: Annotated[Path, typer.Argument(help="Folder for scenarios/ and schema/.")] = Path(),
+    what: What = Path(),
+    python: PythonFolder = None,
+    c: CFolder = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing."""
-    texts = {folder / SCENARIO: _FIRST_STOP, folder / SCHEMA: schema_text()}
-    existing = [path for path in texts if path.exists()]
-    if existing:
-        raise InvalidInputError(f"uictest: already there: {', '.join(map(str, existing))}")
-    _write(texts)
-    message(f"uictest: wrote {', '.join(map(str, texts))}")
-    message(f"Run it with 'uictest run {folder / SCENARIO}'.")
+    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing.
+
+    With the word controller: write a first WSP controller, its part and a scenario that runs it.
+    """
+    if what != Path(CONTROLLER):
+        if python is not None or c is not None:
+            raise typer.BadParameter("write `uictest init controller` with --python or --c")
+        _write_new({what / SCENARIO: _FIRST_STOP, what / SCHEMA: schema_text()})
+        message(f"Run it with 'uictest run {what / SCENARIO}'.")
+        return ExitCode.MET
+    if python is not None and c is None:
+        _write_controller(python, "python")
+    elif c is not None and python is None:
+        _write_controller(c, "c", f"make -C {c}")
+    else:
+        raise typer.BadParameter("write `uictest init controller` with either --python DIR or --c DIR")
     return ExitCode.MET
 
 
-def _write(texts: dict[Path, str]) -> None:
+def _write_controller(folder: Path, language: templates.Language, *build: str) -> None:
+    """Write a first controller, and show what to do with it."""
+    _write_new({folder / name: text for name, text in templates.controller_files(language).items()})
+    check, run = (
+        f"uictest controller check {folder / 'my-wsp.yaml'}",
+        f"uictest run {folder / 'slip-120.yaml'}",
+    )
+    message("\n".join(["Next:", *(f"    {each}" for each in (*build, check, run))]))
+
+
+def _write_new(texts: dict[Path, str]) -> None:
+    """Write files. Raises InvalidInputError, and writes none, where one of them exists."""
+    existing = [path for path in texts if path.exists()]
+    if existing:
+        raise InvalidInputError(f"uictest: already there: {', '.join(map(str, existing))}")
     for path, text in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         recording.write_text_atomic(path, text)
+    message(f"uictest: wrote {', '.join(map(str, texts))}")

@@ -63,6 +63,8 @@ def run(
     accept: Accept = False,
     tolerance: options.ToleranceTexts = None,
     durations: Durations = None,
+    in_process: options.InProcess = False,
+    real_time: options.RealTime = False,
     quiet: options.Quiet = False,
     verbosity: options.Verbosity = 0,
     colour: options.Colouring = options.Colour.AUTO,
@@ -75,6 +77,8 @@ def run(
     if not selected:
         message(nothing_selected(cases))
         return ExitCode.NOTHING_SELECTED
+    if real_time:
+        _require_sockets(selected)
     if dry_run:
         data(cases_json(selected) if shown is options.Format.JSON else case_lines(selected))
         return ExitCode.MET
@@ -93,6 +97,8 @@ def run(
         formats=names,
         quiet=quiet,
         verbose=verbosity > 0,
+        in_process=in_process,
+        real_time=real_time,
         baseline=None if accept else accepted,
     )
     done, published = running.run_batch(
@@ -108,6 +114,16 @@ def _selected(
     """Return the cases selected by expression and tag, and by their last run below `last_run`, if given."""
     selected = select_by_options(cases, expression, tag)
     return selected if last_run is None else running.failed_last(selected, last_run)
+
+
+def _require_sockets(cases: Sequence[scenario.Case]) -> None:
+    """Raise typer.BadParameter unless the controllers of all cases are programs at a socket."""
+    for case in cases:
+        program = case.scenario.controller.program
+        if program is None or program.kind != "connect":
+            expected = "expected one with `connect`, a program at a socket"
+            message = f"{case.id} has the controller {case.scenario.controller.name!r}; {expected}"
+            raise typer.BadParameter(message, param_hint="--real-time")
 
 
 def _manifest(

@@ -16,6 +16,7 @@ from uictest.cli.options import (
     ExitFirst,
     Expression,
     Format,
+    InProcess,
     Jobs,
     JUnitFile,
     MaxFail,
@@ -131,10 +132,12 @@ def sweep(
     formats: SweepReports = "csv,html",
     quiet: Quiet = False,
     verbosity: Verbosity = 0,
+    in_process: InProcess = False,
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""
     format_names = report_formats(formats, "--report", report.sweep_format_names())
     plan = sweeping.load_plan(file, overrides, seed, trusted)
+    sweeping.reject_programs_on_gpu(plan, device.value)
     selection = sweeping.selected_cases(plan, expression, device.value)
     if selection.size == 0:
         message(f"uictest: nothing selected among {report.counted(plan.size, 'case')}")
@@ -160,5 +163,6 @@ def sweep(
         junit=junit_file(junit, output / plan.name),
         formats=format_names,
         quiet=quiet,
+        in_process=in_process,
     )
     return sweeping.execute_sweep(run, shown)

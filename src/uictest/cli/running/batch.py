@@ -10,7 +10,7 @@ from time import perf_counter
 
 from uictest import campaign, comparison, recording, report, rig, scenario
 from uictest.cli.output import message
-from uictest.cli.progress import announce_compilation, progress
+from uictest.cli.progress import announce_compilation, announce_in_process, progress
 from uictest.cli.running.display import Display
 from uictest.cli.running.drawing import TraceCollection
 
@@ -30,6 +30,8 @@ class Batch:
     formats: Sequence[str]
     quiet: bool
     verbose: bool
+    in_process: bool = False
+    real_time: bool = False
     baseline: comparison.Baseline | None = None
     """The baseline to compare with, if any."""
 
@@ -52,7 +54,12 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
     started = perf_counter()
     # The folder comes first: if it cannot be written, nothing should be simulated.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
-        drawing = TraceCollection(batch.cases, batch.recording, needed=report.draws_stops(batch.formats))
+        drawing = TraceCollection(
+            batch.cases,
+            batch.recording,
+            needed=report.draws_stops(batch.formats),
+            repeatable=all(case.scenario.controller.program is None for case in batch.cases),
+        )
         done = _simulate(batch, folder.path, display, drawing)
         if not done.results:
             message("uictest: interrupted before the first case was finished; there is nothing to report")
@@ -94,6 +101,8 @@ def _append_step_summary(content: report.RunContent) -> None:
 
 
 def _simulate(batch: Batch, folder: Path, display: Display, drawing: TraceCollection) -> campaign.BatchResult:
+    foreign = any(case.scenario.controller.program for case in batch.cases)
+    announce_in_process(foreign=batch.in_process and foreign, quiet=batch.quiet)
     announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
     with progress(len(batch.cases), quiet=batch.quiet) as advance:
 
@@ -112,6 +121,8 @@ def _simulate(batch: Batch, folder: Path, display: Display, drawing: TraceCollec
             recording=drawing.recording,
             maxfail=batch.maxfail,
             parts=batch.parts,
+            in_process=batch.in_process,
+            real_time=batch.real_time,
             on_result=publish,
         )
 

@@ -15,12 +15,14 @@ class TraceCollection:
 
     A small batch is recorded while it runs. The cases to draw of a large batch are known only at its end:
     they are simulated again, which is cheap compared with the batch. So are those of a batch whose recordings
-    are too coarse for the valves, because a page shows every command.
+    are too coarse for the valves, because a page shows every command. Stops with controllers from outside are
+    not `repeatable`: all are recorded while they run, and the traces of the worst are kept.
     """
 
     cases: Sequence[scenario.Case]
     request: campaign.RecordingRequest
     needed: bool
+    repeatable: bool = True
     traces: dict[str, report.PlotTrace] = field(default_factory=dict)
 
     @property
@@ -35,9 +37,11 @@ class TraceCollection:
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
         """Return the traces; simulate the worst cases of a large batch again."""
+        ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]
+        worst = {result.id: result for result in ranked[: page.DRAWN]}
+        if not self.repeatable:
+            self.traces = {name: trace for name, trace in self.traces.items() if name in worst}
         if self.needed and not self._while_running and not done.interrupted:
-            ranked = [result for result in page.worst_first(done.results) if result.outcome != "error"]
-            worst = {result.id: result for result in ranked[: page.DRAWN]}
             drawn_cases = campaign.by_id(self.cases, frozenset(worst))
             for case, recording in campaign.replay(drawn_cases, every=self._interval, jobs=jobs):
                 self.traces[case.id] = report.trace_of(recording, worst[case.id].criteria)
@@ -45,7 +49,8 @@ class TraceCollection:
 
     @property
     def _while_running(self) -> bool:
-        return self.needed and len(self.cases) <= page.DRAWN and self.request.every <= self._interval
+        small_and_fine = len(self.cases) <= page.DRAWN and self.request.every <= self._interval
+        return self.needed and (small_and_fine or not self.repeatable)
 
     @property
     def _interval(self) -> float:

@@ -4,6 +4,7 @@ from .arguments import (
     load_plan as load_plan,
     map_pair as map_pair,
     measure_names as measure_names,
+    reject_programs_on_gpu as reject_programs_on_gpu,
     selected_cases as selected_cases,
     shard_of as shard_of,
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Literal
 
 import typer
@@ -31,6 +31,15 @@ def selected_cases(
         return sweep.select_cases(plan, expression, device)
     except campaign.ExpressionError as error:
         raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
+
+
+def reject_programs_on_gpu(plan: sweep.Plan, device: Literal["cpu", "cuda"]) -> None:
+    """Raise typer.BadParameter where a GPU would have to run a controller from outside."""
+    program = next(sweep.programs_of(plan), None) if device == "cuda" else None
+    if program is not None:
+        name = PurePath(program.location).name if program.sha256 else program.location
+        message = f"a GPU runs built-in controllers only, not {name}; leave --device out"
+        raise typer.BadParameter(message, param_hint="--device")
 
 
 def shard_of(text: str | None) -> sweep.Shard:

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
-from uictest import report
+from uictest import controllers, report, rig
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Format
 from uictest.cli.output import message
+from uictest.cli.progress import announce_in_process
 from uictest.cli.sweep.display import show_annotations, show_result
 from uictest.cli.sweep.publishing import publish
 from uictest.cli.sweep.run import MaxfailReached, SweepRun, run_missing_chunks
 from uictest.folder_lock import FolderInUseError, FolderLock
 from uictest.report import counted
-from uictest.sweep import ChunkStore
+from uictest.sweep import ChunkStore, programs_of
 
 
 def execute_sweep(run: SweepRun, shown: Format) -> ExitCode:
     """Run a sweep and show its result; return its exit code. Raises InvalidInputError, OSError."""
-    with _locked(run.folder, shared=run.shard.count > 1 and not run.restart):
-        return _run_and_report_end(run, shown)
+    with _locked(run.folder, shared=run.shard.count > 1 and not run.restart), rig.Workers() as workers:
+        foreign = run.in_process and any(programs_of(run.selection.plan))
+        announce_in_process(foreign=foreign, quiet=run.quiet)
+        isolated = run if run.in_process else replace(run, run_block=workers.run_block)
+        return _run_and_report_end(isolated, shown)
 
 
 def _run_and_report_end(run: SweepRun, shown: Format) -> ExitCode:
@@ -34,6 +39,7 @@ def _run_and_report_end(run: SweepRun, shown: Format) -> ExitCode:
         )
         return ExitCode.MISSED
     except KeyboardInterrupt:
+        controllers.interrupt_turns()
         message("uictest: interrupted")
         _report_finished_chunks(store)
         return ExitCode.INTERRUPTED

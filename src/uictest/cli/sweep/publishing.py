@@ -59,7 +59,12 @@ def _run_worst(
     request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
     parts = campaign.parts_of_cases(cases)
     batch = campaign.run_cases(
-        cases, jobs=run.jobs, recording=request, parts=parts, on_result=write_recording
+        cases,
+        jobs=run.jobs,
+        recording=request,
+        parts=parts,
+        in_process=run.in_process,
+        on_result=write_recording,
     )
     if batch.interrupted:
         raise KeyboardInterrupt
@@ -69,8 +74,8 @@ def _run_worst(
 def _frontier(run: SweepRun, summary: sweep.SweepSummary, search: sweep.FrontierSearch) -> report.Frontier:
     if not run.quiet:
         message(f"uictest: searching the frontier along {search.key}")
-    simulate = prepared_runner(run).simulate
+    runner = prepared_runner(run)
     scans = search.run(
-        summary.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, simulate, run.jobs)
+        summary.verdicts, lambda plan, indices: sweep.verdicts_of(plan, indices, runner, run.jobs)
     )
     return report.Frontier(search.key, tuple(scans))

@@ -45,6 +45,9 @@ class SweepRun:
     junit: Path | None = None
     formats: Sequence[str] = ()
     quiet: bool = False
+    in_process: bool = False
+    run_block: sweep.RunBlock = rig.run_block
+    """Simulates blocks with controllers from outside."""
 
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
@@ -144,16 +147,17 @@ def prepared_runner(run: SweepRun) -> ChunkRunner:
     """
     if run.selection.device == "cuda":
         return _runner_on_gpu(run)
-    controller = rig.controller_of(run.selection.plan.base.scenario)
-    announce_compilation(warm=rig.lanes_are_compiled([controller]), quiet=run.quiet)
-    runner = sweep.chunk_runner(run.selection.plan)
+    base = run.selection.plan.base.scenario
+    warm = rig.block_is_compiled([base.controller.program], [rig.controller_of(base)])
+    announce_compilation(warm=warm, quiet=run.quiet)
+    runner = sweep.chunk_runner(run.selection.plan, run.run_block)
     runner.prepare()
     return runner
 
 
 def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
     try:
-        runner = sweep.chunk_runner(run.selection.plan, "cuda")
+        runner = sweep.chunk_runner(run.selection.plan, run.run_block, "cuda")
         runner.prepare()
     except sweep.NoDeviceError as error:
         raise InvalidInputError(

@@ -104,7 +104,7 @@ def _valid(signal: Any) -> Samples:
 
 def _names_of_states(name: str) -> dict[str, object] | None:
     kind = state_kind(name)
-    if kind is None:
+    if kind is None or not STATES[kind]:
         return None
     pairs = enumerate(STATES[kind].items())
     return {

@@ -64,7 +64,7 @@ def _waveform(recording: Recording) -> dict[str, object]:
 
 def _names_of_states(name: str) -> dict[str, object]:
     kind = state_kind(name)
-    if kind is None:
+    if kind is None or not STATES[kind]:
         return {}
     return {"states": ", ".join(f"{number} = {state}" for state, number in STATES[kind].items())}
 

@@ -9,7 +9,7 @@ from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, csv_text
 from uictest.report.format_registry import ReportFormat
-from uictest.report.part_wording import changed_parameters
+from uictest.report.part_wording import changes_of
 from uictest.report.wording import definition_sentence
 
 CHANGED = "changed_parameters"
@@ -54,7 +54,7 @@ def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
     return {
         **parameters,
         **own,
-        CHANGED: "; ".join(changed_parameters(result.parts)),
+        CHANGED: "; ".join(changes_of(result)),
         **(result.measures or {}),
     }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
@@ -12,41 +12,65 @@ from uictest.report.content import RunContent
 from uictest.report.difference import Difference
 from uictest.report.escaping import xml_text
 from uictest.report.format_registry import ReportFormat
+from uictest.report.junit_properties import program_properties
 from uictest.report.part_wording import changes_line
-from uictest.report.wording import DIFFERS
+from uictest.report.wording import DIFFERS, real_time_sentences
 
 
 def junit_xml(results: Sequence[evaluation.CaseResult], baseline: BaselineComparison | None = None) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
 
-    A case that differs from the baseline is a failure, as is a case of the baseline that is missing.
+    A case that differs from the baseline is a failure, as is a case of the baseline that is missing. Cases
+    with a controller from outside have a suite of their own for each such program, whose properties say
+    which it is.
 
-    It keeps to the schema that Jenkins' xUnit plugin checks against, which knows no `file` of a testcase.
+    It keeps to the schema that Jenkins' xUnit plugin checks against: a testcase has neither `file` nor
+    properties there.
     """
     root = ElementTree.Element("testsuites")
-    suite = ElementTree.SubElement(root, "testsuite", name="uictest", tests="0")
     differences = baseline.differences if baseline else {}
+    missing = [
+        _missing_testcase(case_id, scenario, differences[case_id])
+        for case_id, scenario in (baseline.missing if baseline else {}).items()
+    ]
+    own: dict[evaluation.Program | None, list[evaluation.CaseResult]] = {None: []} if missing else {}
     for result in results:
-        suite.append(_testcase(result, differences.get(result.id, ())))
-    for case_id, scenario in (baseline.missing if baseline else {}).items():
-        suite.append(_missing_testcase(case_id, scenario, differences[case_id]))
-    suite.set("tests", str(len(suite)))
-    for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
-        suite.set(name, str(len(suite.findall(f"testcase/{tag}"))))
-    suite.set("time", f"{sum(result.duration for result in results):.3f}")
+        own.setdefault(evaluation.program_in(result.parts), []).append(result)
+    for program, of_program in (own or {None: []}).items():
+        told = dict.fromkeys(result.controller_version for result in of_program)
+        testcases = [_testcase(result, differences.get(result.id, ())) for result in of_program]
+        duration = sum(result.duration for result in of_program)
+        root.append(_testsuite(program, [*testcases, *(missing if program is None else ())], duration, told))
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
+
+
+def _testsuite(
+    program: evaluation.Program | None,
+    testcases: Sequence[ElementTree.Element],
+    duration: float,
+    told: Iterable[str],
+) -> ElementTree.Element:
+    name = "uictest" if program is None else xml_text(f"uictest: {program.name}")
+    suite = ElementTree.Element("testsuite", name=name, tests=str(len(testcases)))
+    if program is not None:
+        suite.append(program_properties(program, told))
+    suite.extend(testcases)
+    for attribute, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
+    suite.set("time", f"{duration:.3f}")
+    return suite
 
 
 def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
     element = _empty_testcase(result.id, result.scenario, result.duration)
     tag = _child_tag(result, differs=bool(differences))
-    changes = changes_line(result)
+    remarks = [*real_time_sentences(result), *changes_line(result)]
     if tag is not None:
         kind = "baseline" if case_word(result, differences) == DIFFERS else ""
-        _add_child(element, tag, [*case_explanation(result, differences), *changes], kind)
-    elif changes:
-        ElementTree.SubElement(element, "system-out").text = xml_text(changes[0])
+        _add_child(element, tag, [*case_explanation(result, differences), *remarks], kind)
+    elif remarks:
+        ElementTree.SubElement(element, "system-out").text = xml_text("\n".join(remarks))
     return element
 
 

@@ -11,7 +11,7 @@ from uictest.report.difference import Difference, side_text, worst_of_wheelsets
 from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
-from uictest.report.part_wording import changed_parameters
+from uictest.report.part_wording import changes_of
 
 _MEASURES = {
     "braking_distance_m": ".1f",
@@ -75,7 +75,7 @@ def _row(content: RunContent, result: evaluation.CaseResult) -> str:
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
     outcome = f"{result.outcome}{recorded}"
-    changed = prose("; ".join(changed_parameters(result.parts)))
+    changed = prose("; ".join(changes_of(result)))
     row_cells = (word if passes else f"**{word}**", code(result.id), outcome, *cells, changed, why)
     return row(row_cells)
 

@@ -13,7 +13,7 @@ from uictest.report.difference import Difference
 from uictest.report.format_registry import ReportFormat
 from uictest.report.formats.csv import CHANGED, criterion_cells
 from uictest.report.manifest import manifest_form
-from uictest.report.part_wording import changed_parameters
+from uictest.report.part_wording import changes_of
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.wording import definition_sentence, result_word
 
@@ -58,7 +58,7 @@ def result_row(result: evaluation.CaseResult) -> Row:
     row |= {"outcome": result.outcome, "expect": result.expect}
     row |= result.measures or {}
     row |= dict(result.parameters)
-    return row | {CHANGED: "; ".join(changed_parameters(result.parts)), "reason": result.reason}
+    return row | {CHANGED: "; ".join(changes_of(result)), "reason": result.reason}
 
 
 def _wheelsets(content: RunContent) -> Iterator[Row]:

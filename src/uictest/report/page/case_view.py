@@ -30,7 +30,7 @@ from uictest.report.traces.quantities import (
     panel_lines,
 )
 from uictest.report.traces.trace import BINS, Curve, PlotTrace
-from uictest.report.wording import failing_first
+from uictest.report.wording import failing_first, real_time_sentences
 
 HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
@@ -99,6 +99,7 @@ def _marked(
 
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
+    yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
     every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
     yield f"Sampled every {every}."
     if trace.interval * BINS < trace.end - trace.start:
@@ -163,7 +164,7 @@ def plots_json() -> str:
         for loop in LOOPS
     ]
     quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
-    strips = {strip.key: strip.heading for strip in STRIPS}
+    strips = [dataclasses.asdict(strip) | {"heading": strip.heading, "rows": strip.rows} for strip in STRIPS]
     return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": strips})
 
 

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
+from uictest import evaluation
 from uictest.report.escaping import xml_text
+from uictest.report.junit_properties import program_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 
 
@@ -18,6 +20,8 @@ def sweep_junit_xml(result: SweepResult, file: str) -> str:
     parameter, counts = next(iter(result.rates.items()))
     root = ElementTree.Element("testsuites")
     suite = ElementTree.SubElement(root, "testsuite", name=xml_text(result.name), tests=str(len(counts)))
+    if (program := evaluation.program_in(result.base)) is not None:
+        suite.append(program_properties(program))
     class_name = _class_name(file)
     for count in counts:
         name = xml_text(f"{result.name}[{parameter}={count.value.label}]")

@@ -61,7 +61,7 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the parts that cases were run with and their changes, once for all cases with the same part."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
-        for role, sentence in part_sentences(result.parts).items():
+        for role, sentence in part_sentences(result.parts, result.controller_version).items():
             cases.setdefault((role, sentence), []).append(result.id)
     for (role, sentence), names in cases.items():
         where = "" if len(names) == len(results) else f" (in {listed(names)})"
@@ -76,3 +76,7 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
         yield "maximum_slide=" + "/".join(number(wheelset["maximum_slide"]) for wheelset in result.wheelsets)
         vents = (number(wheelset["valve_actuations"]) for wheelset in result.wheelsets)
         yield "valve_actuations=" + "/".join(vents)
+    if (times := result.response_times) is not None:
+        yield f"missed_deadlines={times.missed_deadlines}"
+        yield f"longest_answer_s={number(times.longest_answer_s)}"
+        yield f"start_jitter_s={number(times.start_jitter_s)}"

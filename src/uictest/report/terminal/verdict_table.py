@@ -10,7 +10,7 @@ from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.terminal.fitted_columns import TableColumn, columns_not_shown, fitted
-from uictest.report.wording import Tone, criterion_sentences, tone
+from uictest.report.wording import Tone, criterion_sentences, real_time_sentences, tone
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
@@ -90,7 +90,8 @@ def explanation_text(
     text.append(printable(result.id), style="bold")
     lines = content.explanation(result)
     if every_criterion:
-        lines = [*criterion_sentences(result), *difference_sentences(content.differences(result.id))]
+        differences = difference_sentences(content.differences(result.id))
+        lines = [*criterion_sentences(result), *real_time_sentences(result), *differences]
     for line in lines:
         text.append(f"\n  {line}", style="not bold default")
     return text

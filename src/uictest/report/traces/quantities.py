@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from uictest.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
@@ -82,29 +83,67 @@ PANELS = (
         ("disc_temperature", "disc_surface_temperature"),
     ),
 )
-"""Panels over time from top to bottom; the strips follow below them."""
+"""Panels over time from top to bottom; strips stand between and below them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lane:
+    """Bars of one magnet within the row of a wheelset: while its valve is in one of the `states`.
+
+    A row is 1 high; `offset` is that of the lane below its middle.
+    """
+
+    label: str
+    offset: float
+    states: tuple[int, ...]
+
+
+FILL, HOLD, VENT = 0, 1, 2
+"""States of a valve."""
+MAGNETS = (Lane("hold", -0.22, (HOLD, VENT)), Lane("vent", 0.22, (VENT,)))
+"""The magnets of a WSP valve: neither fills, hold alone holds, both vent."""
 
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """Bars in a row for each wheelset over time; `note` explains them."""
+    """Bars in a row for each wheelset over time; `note` explains them.
+
+    A strip stands below the panel `below`, else below all panels. `lanes` divide the row of a wheelset.
+    """
 
     key: str
     title: str
     note: str = ""
+    below: str = ""
+    lanes: tuple[Lane, ...] = ()
 
     @property
     def heading(self) -> str:
         """The title with the note."""
         return f"{self.title}: {self.note}" if self.note else self.title
 
+    @property
+    def rows(self) -> list[tuple[float, str]]:
+        """Place and label of every row: the number of the wheelset, or with lanes each of these."""
+        if not self.lanes:
+            return [(float(n), str(n)) for n in WHEELSETS]
+        return [(n + lane.offset, f"{n} {lane.label}") for n in WHEELSETS for lane in self.lanes]
+
 
 STRIPS = (
-    Strip("valves", "WSP valves", "hold (faint), vent (strong)"),
+    Strip("valves", "WSP valves", "hold and vent magnets", below="speed", lanes=MAGNETS),
     Strip("locked", "Locked wheelsets"),
     Strip("sliding", "Sliding wheelsets"),
 )
 """Strips from top to bottom; one without bars is left out."""
+
+
+def in_order(panels: Sequence[Panel]) -> list[Panel | Strip]:
+    """Return panels from top to bottom with the strips below each of them, then the other strips."""
+    placed: list[Panel | Strip] = []
+    for panel in panels:
+        placed += [panel, *(strip for strip in STRIPS if strip.below == panel.key)]
+    return [*placed, *(strip for strip in STRIPS if strip not in placed)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,27 +1,27 @@
 """The rig compiled: the same functions, translated once.
 
-:func:`translate` copies a function and everything of this package that it calls, with each copy wrapped
-by a compiler. The originals stay plain Python, and one source serves several targets. Floating point is
-strict: nothing is contracted but what the source writes as one operation, nothing reassociated, so that
-compiled and plain code give the same bits.
+:func:`~uictest.lanes.translate` copies a function and everything of this package that it calls, with each
+copy wrapped by a compiler. The originals stay plain Python, and one source serves several targets. Floating
+point is strict: nothing is contracted but what the source writes as one operation, nothing reassociated, so
+that compiled and plain code give the same bits.
 """
 
-import dis
 import importlib
 import sys
 from collections.abc import Callable
 from functools import cache
 from importlib import metadata
 from pathlib import Path
-from types import FunctionType
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from uictest import lanes
-from uictest.controllers import Controller
+from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
+from uictest.lanes import translate as translate
 from uictest.physics import fma
 from uictest.rig.model.controller import begin, decide
+from uictest.rig.model.external_controller import call_step, exchange_at
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
@@ -34,9 +34,21 @@ _SOURCES = (
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
 
 
+@cache
 def compiled_operations() -> dict[Function, Any]:
     """Return what takes the place of plain functions in code compiled for the processor."""
-    return {fma: lanes.fma} if lanes.fuses() else {}
+    fused = {fma: lanes.fma} if lanes.fuses() else {}
+    return {**fused, exchange_at: lanes.record_at(EXCHANGE), call_step: step_by_address()}
+
+
+def step_by_address() -> Any:
+    """Return :func:`uictest.rig.model.external_controller.call_step` in compiled code."""
+    call = lanes.call
+
+    def call_at(step: int, handle: int, exchange: int) -> Any:
+        return call(step, handle, exchange, exchange + OUTPUTS_AT)
+
+    return compiler().njit(**OPTIONS)(call_at)
 
 
 def with_controller(
@@ -49,37 +61,6 @@ def with_controller(
     done = dict(operations)
     functions = translate(controller.begin, wrap, done), translate(controller.decide, wrap, done)
     return {**done, begin: functions[0], decide: functions[1]}
-
-
-def translate(function: Function, wrap: Wrap, done: dict[Function, Any]) -> Any:
-    """Return ``function`` wrapped, calling wrapped copies of the functions of this package that it calls.
-
-    ``done`` holds what is translated already; entries put there beforehand replace a function by another.
-    """
-    if function not in done:
-        plain = cast(FunctionType, function)
-        names = {
-            name: translate(plain.__globals__[name], wrap, done)
-            for name in _global_names(plain)
-            if _is_ours(plain.__globals__.get(name))
-        }
-        copy = FunctionType(plain.__code__, {**plain.__globals__, **names}, plain.__name__)
-        copy.__module__ = plain.__module__
-        copy.__qualname__ = plain.__qualname__
-        done[function] = wrap(copy)
-    return done[function]
-
-
-def _global_names(function: FunctionType) -> set[str]:
-    """Names that the function looks up in its module; attributes of the same name do not count."""
-    return {step.argval for step in dis.get_instructions(function) if step.opname == "LOAD_GLOBAL"}
-
-
-def _is_ours(value: object) -> bool:
-    return (
-        isinstance(value, FunctionType)
-        and value.__module__.partition(".")[0] == __package__.partition(".")[0]
-    )
 
 
 def compiler() -> Any:

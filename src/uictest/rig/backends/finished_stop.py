@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from uictest.controllers import ResponseTimes
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import StopInputs
 from uictest.rig.model.rail_memory import RAIL_MEMORY
@@ -18,13 +19,19 @@ RunStop = Callable[..., int]
 
 @dataclass(frozen=True)
 class FinishedStop:
-    """What a stop leaves: its measures, the final state and, if requested, the trace."""
+    """What a stop leaves: its measures, the final state and, if requested, the trace.
+
+    Of a controller from outside also the version that it names, and how it answered if cycles were paced by
+    the clock.
+    """
 
     measures: Any
     wheelset_measures: Any
     car: Any
     wheelsets: Any
     trace: Trace
+    controller_version: str = ""
+    response_times: ResponseTimes | None = None
 
 
 def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
@@ -41,7 +48,7 @@ def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0)
     wheelsets = np.zeros(4, WHEELSET)
     measures = np.zeros(1, STOP_MEASURES)
     wheelset_measures = np.zeros(4, WHEELSET_MEASURES)
-    trace = empty_trace(_rows(parameters, steps_per_sample))
+    trace = empty_trace(rows_of_trace(parameters, steps_per_sample))
     rows = run_stop(
         *(car[0], bogies, wheelsets, parameters, inputs.wheelset_parameters),
         *(inputs.rail, np.zeros(1, RAIL_MEMORY)[0]),
@@ -61,7 +68,8 @@ def empty_trace(rows: int) -> Trace:
     return Trace(np.empty(rows, TRAIN_SAMPLE), np.empty((rows, 4), WHEELSET_SAMPLE))
 
 
-def _rows(parameters: Any, steps_per_sample: int) -> int:
+def rows_of_trace(parameters: Any, steps_per_sample: int) -> int:
+    """Return the rows of the longest trace of a stop; 0 steps per sample: none."""
     if steps_per_sample == 0:
         return 0
     return int(parameters.cycles * parameters.steps_per_cycle) // steps_per_sample + 1

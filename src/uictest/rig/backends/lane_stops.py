@@ -8,6 +8,7 @@ by lane once per controller cycle; everything else runs in all lanes at once. A 
 from typing import Any, NamedTuple
 
 from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
+from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.module_air import follow_module_air
@@ -19,6 +20,7 @@ from uictest.rig.model.stop import (
     begin_stop_measures,
     begin_tables,
     close_stop_measures,
+    is_running,
     keep_tables,
     observe_cycle,
 )
@@ -136,6 +138,7 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             if p.cleans_rail > 0.0:
                 clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
+            decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
             steps = p.steps_per_cycle
             follows_air = follows_air or p.uses_module_air > 0.0
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
@@ -165,7 +168,7 @@ def _finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
     samples, wheelset_samples = lane(lanes.measures, k), lane(lanes.wheelset_measures, k)
     keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
-    if car.stopped == 0.0 and car.cycle < p.cycles:
+    if is_running(car, p):
         return False
     copy_from_lane(measures, samples)
     for i in range(4):

@@ -1,6 +1,6 @@
 """Many stops on one core, several at a time in the lanes of a SIMD register."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -39,6 +39,8 @@ _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
 _BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records that each lane has."""
+_ARGUMENTS = 20
+"""How many arguments the compiled loop over a queue has."""
 
 
 def run_in_lanes(
@@ -109,8 +111,13 @@ def _run_queue(
         *(address(array, array.dtype, array.shape) for array in allocated),
         *(count, points, queue.size),
     )
-    compiled = native_function(_name(controller, width), partial(_compile, controller, width), len(arguments))
-    compiled(*arguments)
+    load_lanes(controller, width)(*arguments)
+
+
+def load_lanes(controller: Controller, width: int | None = None) -> Callable[..., int]:
+    """Return the loop over a queue of cases in machine code, compiled first where the cache has none."""
+    width = width or register_width()
+    return native_function(_name(controller, width), partial(_compile, controller, width), _ARGUMENTS)
 
 
 def _name(controller: Controller, width: int) -> str:

@@ -8,12 +8,27 @@ import ctypes
 from collections.abc import Callable
 from functools import cache
 from threading import Lock
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from uictest import user_cache
 from uictest.rig.backends.compiled import compiler_inputs
+
+
+class Target(NamedTuple):
+    """What code is generated for.
+
+    Attributes:
+        processor: its name for LLVM.
+        features: instructions beyond those of that name, as LLVM writes them.
+        in_library: whether the code is linked into a shared library, not loaded into this process.
+    """
+
+    processor: str
+    features: str = ""
+    in_library: bool = False
+
 
 _compiling = Lock()
 _loaded: dict[str, tuple[Any, Callable[..., int]]] = {}
@@ -30,15 +45,34 @@ def native_function(name: str, callback: Callable[[], Any], arguments: int) -> C
     """
     with _compiling:
         if name not in _loaded:
-            engine = load_object_file(_kept(name) or _compiled(name, callback))
+            engine = load_object_file(_object_code(name, callback, host()))
             prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
             _loaded[name] = engine, prototype(engine.get_function_address(name))
     return _loaded[name][1]
 
 
-def is_kept(name: str) -> bool:
-    """Return whether a function is in the cache, so that it can be called without compiling."""
-    return _kept(name) is not None
+def object_code(name: str, callback: Callable[[], Any], target: Target) -> bytes:
+    """Return a function as an object file for a target, from the cache, or compiled and kept there."""
+    with _compiling:
+        return _object_code(name, callback, target)
+
+
+def is_kept(name: str, target: Target | None = None) -> bool:
+    """Return whether a function is in the cache, so that it can be called or linked without compiling.
+
+    Args:
+        name: of the function.
+        target: what it is generated for [default: this process].
+    """
+    return _kept(name, target or host()) is not None
+
+
+@cache
+def host() -> Target:
+    """Return the processor of this process."""
+    from llvmlite import binding
+
+    return Target(binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
 
 
 def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
@@ -53,34 +87,41 @@ def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
     return int(values.__array_interface__["data"][0])
 
 
-def _compiled(name: str, callback: Callable[[], Any]) -> bytes:
-    code = object_file(callback(), name)
-    user_cache.write(name, _inputs(), code)
+def _object_code(name: str, callback: Callable[[], Any], target: Target) -> bytes:
+    return _kept(name, target) or _compiled(name, callback, target)
+
+
+def _compiled(name: str, callback: Callable[[], Any], target: Target) -> bytes:
+    code = object_file(callback(), name, target)
+    user_cache.write(name, _inputs(target), code)
     return code
 
 
-def _kept(name: str) -> bytes | None:
-    return user_cache.read(name, _inputs())
+def _kept(name: str, target: Target) -> bytes | None:
+    return user_cache.read(name, _inputs(target))
 
 
 @cache
-def _inputs() -> bytes:
-    from llvmlite import binding
-
-    processor = f"{binding.get_host_cpu_name()} {binding.get_host_cpu_features().flatten()}"
-    return processor.encode() + compiler_inputs()
+def _inputs(target: Target) -> bytes:
+    return repr(tuple(target)).encode() + compiler_inputs()
 
 
-def object_file(callback: Any, name: str) -> bytes:
+def object_file(callback: Any, name: str, target: Target) -> bytes:
     """Return a callback of numba as an object file that defines ``name`` and needs nothing from outside."""
     from llvmlite import binding
 
     module = binding.parse_assembly(callback.inspect_llvm())
-    module.get_function(callback.native_name).name = name
+    entry = module.get_function(callback.native_name)
+    entry.name = name
+    if target.in_library:
+        entry.visibility = "hidden"
     for function in module.functions:
         if not function.is_declaration and function.name != name:
             function.linkage = "internal"
-    machine = _machine()
+    for variable in module.global_variables:
+        if not variable.is_declaration:
+            variable.linkage = "internal"
+    machine = _machine(target)
     # Code for calls from Python refers to symbols that are there only where numba is loaded.
     unused = binding.create_new_module_pass_manager()
     unused.add_global_dead_code_eliminate_pass()
@@ -92,21 +133,22 @@ def load_object_file(code: bytes) -> Any:
     """Load an object file into this process and return what gives its addresses and keeps it loaded."""
     from llvmlite import binding
 
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine())
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine(host()))
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     return engine
 
 
-def _machine() -> Any:
+def _machine(target: Target) -> Any:
     from llvmlite import binding
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     return binding.Target.from_default_triple().create_target_machine(
-        cpu=binding.get_host_cpu_name(),
-        features=binding.get_host_cpu_features().flatten(),
+        cpu=target.processor,
+        features=target.features,
         opt=3,
-        codemodel="jitdefault",
-        jit=True,
+        reloc="pic" if target.in_library else "default",
+        codemodel="small" if target.in_library else "jitdefault",
+        jit=not target.in_library,
     )

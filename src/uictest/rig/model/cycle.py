@@ -19,7 +19,6 @@ from uictest.physics import (
     speed_reading,
     threefry,
 )
-from uictest.rig.model.controller import decide
 from uictest.rig.model.disc_brake import set_pad_friction
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
 from uictest.rig.model.parameters import Parameters
@@ -43,7 +42,7 @@ def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
-    """Look up the friction under each wheelset and of its pads; let the controller decide from the readings.
+    """Look up the friction under each wheelset and of its pads.
 
     Args:
         car: car record.
@@ -57,7 +56,6 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
         along = interpolated(car.position - wheelset.behind, rail[PLACES], rail[FRICTIONS], p.friction_points)
         wheelset.friction = along * factor
     set_pad_friction(wheelsets, p)
-    decide(car, wheelsets, p)
 
 
 def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:

@@ -44,6 +44,11 @@ class Parameters(ControllerCycle, MeasureDefinition):
     uses_module_air: float = derived()  # 0 or 1, in modules without a caliper
     uses_hysteresis: float = derived()  # 0 or 1, in modules without a caliper
     wsp_active: int = derived()  # 0: the valves always fill
+    demand_per_pressure: float = derived()  # share of full service per demanded pressure, 1/Pa
+    # a controller from outside: addresses, set where it is opened
+    controller_step: int = derived()
+    controller_handle: int = derived()
+    controller_exchange: int = derived()
     # brake operating unit, reservoir, compressor, brake line
     commanded_pressure: float = derived()  # demanded once the brake is fully applied, gauge, Pa
     dead_time: float = derived()  # from the command to the first demand, s

@@ -29,6 +29,8 @@ class Car(Frame, TrainMemory):
     steps: float  # done so far
     substep: float  # within the controller cycle
     cycle: int  # of the controller, begun so far
+    controller_failed: int  # 1 once the controller cannot go on: the stop ends
+    diagnosis: int  # bits of a controller from outside
     time: float  # steps x step, never accumulated
     # air
     reservoir_mass: float

@@ -18,6 +18,7 @@ from uictest.measures import (
 )
 from uictest.physics import select
 from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual
+from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.module_air import follow_module_air
@@ -52,37 +53,82 @@ def run_stop(
     finished, so that a stop runs the same steps alone or beside others. ``trace`` has a row for every
     ``steps_per_sample`` steps; with 0 nothing is recorded. Recording reads the state and never changes it.
     """
+    begin_stop(car, bogies, wheelsets, p, wheelset_parameters, memory, measures, wheelset_measures)
+    rows = 0
+    while is_running(car, p):
+        begin_cycle(car, wheelsets, p, rail, memory)
+        decide(car, wheelsets, p)
+        rows = finish_cycle(
+            car, bogies, wheelsets, p, measures, wheelset_measures, trace, steps_per_sample, rows
+        )
+    close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
+    return rows
+
+
+def is_running(car: Car, p: Parameters) -> bool:
+    """Whether the stop goes on for another controller cycle."""
+    return car.stopped == 0.0 and car.cycle < p.cycles and car.controller_failed == 0
+
+
+def begin_stop(
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    wheelset_parameters: Sequence[WheelsetParameters],
+    memory: RailMemory,
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+) -> None:
+    """Set zeroed records to the instant of the brake command."""
     start(car, bogies, wheelsets, p, wheelset_parameters)
     begin_stop_measures(car, measures, wheelset_measures, p)
     begin_tables(measures, wheelset_measures)
     if p.cleans_rail > 0.0:
         forget_rail(memory)
-    rows = 0
-    steps = 0
-    while car.stopped == 0.0 and car.cycle < p.cycles:
-        read_sensors(car, wheelsets, p)
-        if p.uses_pole_wheels > 0.0:
-            read_pole_wheels(car, wheelsets, p)
-        start_cycle(car, wheelsets, p, rail)
-        if p.cleans_rail > 0.0:
-            clean_rail(car, wheelsets, p, memory)
-        command_valves(car, wheelsets, p)
-        if steps_per_sample > 0 and rows == 0:
-            sample(trace, 0, car, wheelsets, p)
-            rows = 1
-        for _ in range(p.steps_per_cycle):
-            if p.uses_module_air > 0.0:
-                follow_module_air(car, wheelsets, p)
-            step(car, bogies, wheelsets, p)
-            steps += 1
-            if steps_per_sample > 0 and steps % steps_per_sample == 0:
-                sample(trace, rows, car, wheelsets, p)
-                rows += 1
-        if p.models_disc_temperature > 0.0:
-            warm_discs(wheelsets, p)
-        observe_cycle(car, wheelsets, measures, wheelset_measures, p)
-        keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
-    close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
+
+
+def begin_cycle(
+    car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any, memory: RailMemory
+) -> None:
+    """Do what comes before the controller decides: read the sensors, look up friction, clean the rail."""
+    read_sensors(car, wheelsets, p)
+    if p.uses_pole_wheels > 0.0:
+        read_pole_wheels(car, wheelsets, p)
+    start_cycle(car, wheelsets, p, rail)
+    if p.cleans_rail > 0.0:
+        clean_rail(car, wheelsets, p, memory)
+
+
+def finish_cycle(
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    trace: Trace,
+    steps_per_sample: int,
+    rows: int,
+) -> int:
+    """Carry out what the controller has decided; return the number of rows that the trace has then."""
+    steps = car.cycle * p.steps_per_cycle
+    command_valves(car, wheelsets, p)
+    if steps_per_sample > 0 and rows == 0:
+        sample(trace, 0, car, wheelsets, p)
+        rows = 1
+    for _ in range(p.steps_per_cycle):
+        if p.uses_module_air > 0.0:
+            follow_module_air(car, wheelsets, p)
+        step(car, bogies, wheelsets, p)
+        steps += 1
+        if steps_per_sample > 0 and steps % steps_per_sample == 0:
+            sample(trace, rows, car, wheelsets, p)
+            rows += 1
+    if p.models_disc_temperature > 0.0:
+        warm_discs(wheelsets, p)
+    observe_cycle(car, wheelsets, measures, wheelset_measures, p)
+    keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
     return rows
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from uictest.physics import FILL, VENT
 from uictest.record import Record, channel, layout_of, units_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
@@ -15,6 +16,7 @@ class TrainSample(Record):
     distance: float = channel("m")
     speed: float = channel("m/s")
     reference_speed: float = channel("m/s")
+    diagnosis: float = channel("1")  # 32 bits of a controller from outside, as a number
     demanded_pressure: float = channel("Pa")
     brake_line_pressure: float = channel("Pa")
     reservoir_pressure: float = channel("Pa")
@@ -31,6 +33,8 @@ class WheelsetSample(Record):
     cleaned_share: float = channel("1")  # of the rail under the wheelset and behind it
     wheel_load: float = channel("N")  # of one wheel
     valve_command: float = channel("1")  # 0 fill, 1 hold, 2 vent
+    hold_magnet: float = channel("1")  # 1 while the valve is commanded to hold or to vent
+    vent_magnet: float = channel("1")  # 1 while it is commanded to vent
     tank_pressure: float = channel("Pa")
     cylinder_pressure: float = channel("Pa")  # measured, or computed by the cylinder dynamics
     stroke: float = channel("m")
@@ -49,6 +53,8 @@ WHEELSET_CHANNELS = units_of(WheelsetSample)
 """Channels of each wheelset and their units."""
 DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
 """Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
+CONTROLLER_CHANNELS = ("diagnosis",)
+"""Channels of the train that mean something only where the controller comes from outside."""
 TRAIN_SAMPLE = layout_of(TrainSample)
 """Layout of :class:`TrainSample`."""
 WHEELSET_SAMPLE = layout_of(WheelsetSample)
@@ -77,6 +83,7 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
     row.distance = car.position
     row.speed = car.speed
     row.reference_speed = car.reference_speed
+    row.diagnosis = car.diagnosis
     row.demanded_pressure = car.demanded_pressure
     row.brake_line_pressure = car.line_pressure - p.atmospheric_pressure
     row.reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
@@ -92,6 +99,8 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     row.cleaned_share = wheelset.cleaned_share
     row.wheel_load = wheelset.wheel_load
     row.valve_command = wheelset.valve_command
+    row.hold_magnet = 0.0 if wheelset.valve_command == FILL else 1.0
+    row.vent_magnet = 1.0 if wheelset.valve_command == VENT else 0.0
     row.tank_pressure = wheelset.pressure - p.atmospheric_pressure
     row.cylinder_pressure = wheelset.compensated_pressure
     row.stroke = wheelset.stroke

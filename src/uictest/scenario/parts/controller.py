@@ -1,31 +1,24 @@
-"""The WSP controller under test: a model for each controller that there is, made from its declaration."""
+"""The WSP controller under test: built in, each model made from its declaration, or from outside."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, create_model
+from pydantic import BeforeValidator, Discriminator, Field, Tag, create_model
 
 from uictest.controllers import CONTROLLERS, DEFAULT, Controller as Declaration, ControllerParameters
 from uictest.record import fields_of
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, of_kind
+from uictest.scenario.parts.controller_choice import one_controller
+from uictest.scenario.parts.controller_part import ControllerPart
+from uictest.scenario.parts.external_controller import EXTERNAL_MODELS, ExternalController
+from uictest.scenario.yaml import Inconsistency, Quantity, of_kind
 
 
-class ControllerPart(Part):
-    """What every controller has."""
+class BuiltInController(ControllerPart):
+    """What every controller of this package has."""
 
-    folder: ClassVar[str] = "controllers"
     declaration: ClassVar[Declaration]
-
-    schema_id: Literal["uictest/controller/1"] = Field(
-        default="uictest/controller/1",
-        alias="schema",
-        description="What the file holds: uictest/controller/1.",
-    )
-    if TYPE_CHECKING:  # fields that every model gets from its declaration
-        algorithm: str
-        cycle_time: Quantity
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield parameters that are impossible together."""
@@ -35,7 +28,7 @@ class ControllerPart(Part):
             yield Inconsistency((conflict.parameter,), conflict.message.format(**texts))
 
 
-def _model(controller: Declaration) -> type[ControllerPart]:
+def _model(controller: Declaration) -> type[BuiltInController]:
     """Return the model of a controller's parameters; those that every controller has come first."""
     fields: dict[str, Any] = {
         name: (
@@ -46,9 +39,9 @@ def _model(controller: Declaration) -> type[ControllerPart]:
     }
     algorithm = (Literal[controller.name], Field(description="The algorithm that reads these numbers."))
     common = {name: fields.pop(name) for name in fields_of(ControllerParameters)}
-    model: type[ControllerPart] = create_model(
+    model: type[BuiltInController] = create_model(
         "".join(word.capitalize() for word in controller.name.split("-")) + "Controller",
-        __base__=ControllerPart,
+        __base__=BuiltInController,
         __doc__=controller.parameters.__doc__,
         __module__=__name__,
         **{**common, "algorithm": algorithm, **fields},
@@ -64,8 +57,22 @@ CONTROLLER_MODELS = {
 # Pickle finds a class by its name in its module; sweeps send scenarios to other processes.
 globals().update({model.__name__: model for model in CONTROLLER_MODELS.values()})
 
+_BUILT_IN = "built in"
+
+
+def _tag(value: object) -> str:
+    """Return which members of the union a mapping is meant for: those with an algorithm, or one other."""
+    if isinstance(value, ExternalController):
+        return value.tag
+    keys = value if isinstance(value, Mapping) else ()
+    return next((model.tag for kind, model in EXTERNAL_MODELS.items() if kind in keys), _BUILT_IN)
+
+
 if TYPE_CHECKING:
     Controller = ControllerPart
 else:
-    Controller = Annotated[reduce(or_, CONTROLLER_MODELS.values()), Field(discriminator="algorithm")]
-    """A controller of any algorithm."""
+    _built_in = Annotated[reduce(or_, CONTROLLER_MODELS.values()), Field(discriminator="algorithm")]
+    _external = [Annotated[model, Tag(model.tag)] for model in EXTERNAL_MODELS.values()]
+    _union = reduce(or_, _external, Annotated[_built_in, Tag(_BUILT_IN)])
+    Controller = Annotated[_union, Discriminator(_tag), BeforeValidator(one_controller)]
+    """A controller of any algorithm, or from outside."""

@@ -18,7 +18,7 @@ from .model import (
     Source as Source,
     quantities_in as quantities_in,
 )
-from .model_keys import models_in as models_in
+from .model_keys import accepted_keys as accepted_keys, models_in as models_in
 from .overrides import (
     Override as Override,
     apply_overrides as apply_overrides,

@@ -35,6 +35,9 @@ class Inconsistency(NamedTuple):
 class Model(BaseModel):
     """A mapping of a scenario or of a library file."""
 
+    tag: ClassVar[str] = ""
+    """Names the model in a union that a function tells apart; no key of a file may be called so."""
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
@@ -115,6 +118,11 @@ class Part(Model):
     def original(self) -> "Part | None":
         """The part called `based_on` as its file has it; None where that file is not a whole part."""
         return self._original
+
+    @property
+    def label(self) -> str:
+        """What reports call the part."""
+        return self.name
 
     def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
         """Return a copy that knows the part it is based on."""

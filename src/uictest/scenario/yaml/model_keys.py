@@ -46,7 +46,7 @@ def _members(models: list[Any], tag: str | int) -> list[Any]:
     return [
         each
         for each in models
-        if any(_is_literal(field.annotation, tag) for field in each.model_fields.values())
+        if each.tag == tag or any(_is_literal(field.annotation, tag) for field in each.model_fields.values())
     ]
 
 

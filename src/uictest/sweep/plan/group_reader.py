@@ -38,7 +38,7 @@ from uictest.sweep.plan.decimal_quantity import (
 )
 from uictest.sweep.plan.model import Distribution, Range, Sample
 from uictest.sweep.plan.plan import ListedGroup, ParameterDraw, ParameterValue, SampledGroup
-from uictest.sweep.plan.scenario_values import inconsistencies, value_at, with_values
+from uictest.sweep.plan.scenario_values import inconsistencies, is_free, value_at, with_values
 
 _OPTIONS: Final = ("--set", "--seed")
 """Names of documents that are options, where files have their paths."""
@@ -182,9 +182,9 @@ class GroupReader:
             return ParameterDraw(distribution, choices=self._choices(key, Entry(entry.key, listed.node)))
         for text, place in _bounds(distribution, entry.node):
             self._row({key: Entry(entry.key, _scalar(text, place))}, 1)
-        kind = self._kind(key, entry)
         unit = common_unit(distribution.quantities)
         assert unit is not None
+        kind = self._kind(key, entry, unit)
         return ParameterDraw(distribution, unit, kind)
 
     def _choices(self, key: str, entry: Entry) -> tuple[ParameterValue, ...]:
@@ -195,7 +195,10 @@ class GroupReader:
             raise ScenarioErrors(())  # reported already
         return tuple(value for (value,) in rows)
 
-    def _kind(self, key: str, entry: Entry) -> str:
+    def _kind(self, key: str, entry: Entry, unit: str) -> str:
+        """Return the kind of quantity that is drawn, empty for plain numbers. Raises ScenarioErrors."""
+        if is_free(self._base.case.scenario, key) and not unit:
+            return ""
         field = quantity_field(self._base.case.scenario, key)
         physical = None if field is None else _physical(field)
         if physical is None or physical.kind.name == "count":

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from uictest.scenario import Case
-from uictest.scenario.yaml import Quantity, parse_quantity
+from uictest.scenario.yaml import parse_quantity, scalar_value
 from uictest.sweep.plan.decimal_quantity import quantity_text, rounded_decimal
 from uictest.sweep.plan.model import Distribution, Method
 
@@ -62,7 +62,10 @@ class ListedGroup:
 
 @dataclass(frozen=True)
 class ParameterDraw:
-    """The distribution of one parameter: of numbers with a unit, or a choice among values."""
+    """The distribution of one parameter: of numbers with a unit, or a choice among values.
+
+    `kind` is the kind of quantity, empty for plain numbers that no part of the rig reads.
+    """
 
     distribution: Distribution
     unit: str = ""
@@ -78,7 +81,7 @@ class ParameterDraw:
             return [self.choices[int(number)] for number in numbers]
         texts = [quantity_text(rounded_decimal(number), self.unit) for number in numbers]
         # A value is read back from its text, so that a scenario with that text gives the same case.
-        return [ParameterValue(text, parse_quantity(text, self.kind)) for text in texts]
+        return [ParameterValue(text, content_of(text, self.kind)) for text in texts]
 
 
 @dataclass(frozen=True)
@@ -171,6 +174,11 @@ def saltelli_sample(plan: Plan) -> SampledGroup | None:
     return last if isinstance(last, SampledGroup) and last.method == "saltelli" else None
 
 
+def content_of(text: str, kind: str) -> Any:
+    """Return what a scenario holds where it says `text`: a quantity of a kind, or a plain number."""
+    return parse_quantity(text, kind) if kind else scalar_value(text)
+
+
 def is_numeric(values: Sequence[ParameterValue]) -> bool:
-    """Return whether all values are quantities or whole numbers."""
-    return all(isinstance(value.content, Quantity | int) for value in values)
+    """Return whether all values are numbers."""
+    return all(isinstance(value.content, float | int) for value in values)

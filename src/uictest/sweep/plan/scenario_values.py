@@ -32,6 +32,15 @@ def value_at(scenario: Scenario, key: str) -> Any:
     return value
 
 
+def is_free(scenario: Scenario, key: str) -> bool:
+    """Return whether nothing but a controller from outside knows what the value at a dotted key means."""
+    above, _, _ = key.rpartition(".")
+    try:
+        return bool(above) and isinstance(value_at(scenario, above), dict)
+    except KeyError:
+        return False
+
+
 def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsistency]:
     """Yield the inconsistencies of the scenario and of its models on the way to `keys`."""
     seen: set[tuple[str, ...]] = set()

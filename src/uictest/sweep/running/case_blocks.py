@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import Controller
+from uictest.controllers import Config, Controller, ControllerProgram
 from uictest.evaluation import JUDGED_KEYS
 from uictest.rig import (
     ASSIGNMENTS,
@@ -19,11 +19,13 @@ from uictest.rig import (
     Assignment,
     assemble,
     assigned,
+    controller_config,
     controller_of,
     friction_laws,
 )
 from uictest.scenario import Case, Scenario
 from uictest.scenario.yaml import dotted
+from uictest.sweep.plan.controllers import CONTROLLER, programs_of
 from uictest.sweep.plan.plan import ParameterValue, Plan
 from uictest.sweep.plan.scenario_values import inconsistencies, with_values
 
@@ -83,7 +85,8 @@ class CaseBlock:
     """Some cases of a sweep in numbers.
 
     `rejections` holds for each case why it cannot be simulated, empty where it can; `judged_as` is a scenario
-    that is judged as the case's own would be.
+    that is judged as the case's own would be. `programs` and `configs` are those of controllers from outside,
+    None where the controller is built in.
     """
 
     indices: NDArray[np.int64]
@@ -93,6 +96,8 @@ class CaseBlock:
     wheelset_parameters: NDArray[Any]
     rail: NDArray[np.float64]
     controllers: list[Controller]
+    programs: list[ControllerProgram | None]
+    configs: list[Config | None]
     judged_as: list[Scenario]
     rejections: list[str]
 
@@ -107,6 +112,7 @@ class BlockAssembler:
         self._parameters = _setters(plan.keys, ASSIGNMENTS)
         self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
         self._controllers = CachedFunction(controller_of, _related_keys(plan.keys, ("controller.algorithm",)))
+        self._programs = CachedFunction(_program_of, _program_keys(plan))
         self._rail = CachedFunction(friction_laws, _related_keys(plan.keys, FRICTION_KEYS))
         self._judged = CachedFunction(_scenario_itself, _related_keys(plan.keys, JUDGED_KEYS))
         self._rejection = CachedFunction(_rejection_of(plan.keys), plan.keys)
@@ -129,11 +135,11 @@ class BlockAssembler:
                 rejections = _fill(wheelsets[:, place], values.per_case(variants), rejections)
         parameters["case_key"] = [zlib.crc32(name.encode()) for name in ids]
         rail = _stacked(self._rail.per_case(variants))
-        controllers = self._controllers.per_case(variants)
-        judged_as = self._judged.per_case(variants)
+        programs = self._programs.per_case(variants)
         return CaseBlock(
             *(indices, ids, settings, parameters, wheelsets, rail),
-            *(controllers, judged_as, rejections),
+            *(self._controllers.per_case(variants), programs, _configs(programs, parameters, wheelsets)),
+            *(self._judged.per_case(variants), rejections),
         )
 
     def case(self, block: CaseBlock, place: int) -> Case:
@@ -141,6 +147,24 @@ class BlockAssembler:
         parameters = {key: values[place].text for key, values in block.settings.items()}
         base = self._plan.base
         return Case(block.ids[place], block.judged_as[place], base.path, parameters, {})
+
+
+def _program_of(scenario: Scenario) -> ControllerProgram | None:
+    return scenario.controller.program
+
+
+def _program_keys(plan: Plan) -> tuple[str, ...]:
+    """Return the swept keys that the program depends on: none where all controllers are built in."""
+    return _related_keys(plan.keys, (CONTROLLER,)) if any(programs_of(plan)) else ()
+
+
+def _configs(
+    programs: Sequence[ControllerProgram | None], parameters: NDArray[Any], wheelsets: NDArray[Any]
+) -> list[Config | None]:
+    return [
+        None if program is None else controller_config(parameters[place], wheelsets[place], program)
+        for place, program in enumerate(programs)
+    ]
 
 
 def _related_keys(swept: Iterable[str], read: Iterable[str]) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import rig
 from uictest.campaign import ThreadedMap
 from uictest.evaluation import CaseResult, error_result, evaluate_simulated
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
@@ -23,6 +24,8 @@ from uictest.sweep.running.table import rows
 if TYPE_CHECKING:
     import pyarrow as pa
 
+RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
+"""Simulates a block in which a controller comes from outside: here, or in child processes."""
 WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _CHUNKS_AHEAD = 2
@@ -40,6 +43,7 @@ class ChunkRunner:
     assembler: BlockAssembler
     simulate: Simulate
     plan: Plan
+    run_block: RunBlock
 
     def run(self, indices: NDArray[np.int64]) -> bytes:
         """Return the rows of the cases with the given indices as a Parquet file."""
@@ -49,6 +53,9 @@ class ChunkRunner:
     def prepare(self) -> None:
         """Compile the rig before several threads need it at once."""
         block = self.assembler.block(np.zeros(1, np.int64))
+        if any(block.programs):
+            rig.load_block(block.programs, block.controllers)
+            return
         block.parameters["cycles"] = 1
         self.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
 
@@ -58,12 +65,23 @@ class ChunkRunner:
         if not places:
             return self._judge(block, [], _no_measures())
         try:
-            controllers = [block.controllers[place] for place in places]
-            own = block.wheelset_parameters[places]
-            measures = self.simulate(block.parameters[places], own, block.rail[places], controllers)
+            measures = self._simulated(block, places)
         except Exception as error:
             return self._run_one_by_one(block, error)
         return self._judge(block, places, measures)
+
+    def _simulated(self, block: CaseBlock, places: Sequence[int]) -> Measures:
+        """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
+        controllers = [block.controllers[place] for place in places]
+        inputs = block.parameters[places], block.wheelset_parameters[places], block.rail[places], controllers
+        programs = [block.programs[place] for place in places]
+        if not any(programs):
+            return self.simulate(*inputs)
+        configs = [block.configs[place] for place in places]
+        run = self.run_block(rig.BlockInputs(programs, configs, *inputs))
+        for place, failure in zip(places, run.failures, strict=True):
+            block.rejections[place] = failure
+        return run.measures, run.wheelset_measures
 
     def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
         """Find the case that caused the error of the block."""
@@ -73,13 +91,13 @@ class ChunkRunner:
         return [result for place in range(len(block.ids)) for result in self.results(_single(block, place))]
 
     def _judge(self, block: CaseBlock, places: Sequence[int], measures: Measures) -> list[CaseResult]:
-        """Return the results of all cases; those not among the simulated `places` were rejected."""
+        """Return the results of all cases; those that were not simulated, or failed, have a rejection."""
         stops = dict(zip(places, zip(*(each.tolist() for each in measures), strict=True), strict=True))
         return [self._judge_case(block, place, stops.get(place)) for place in range(len(block.ids))]
 
     def _judge_case(self, block: CaseBlock, place: int, stop: Any) -> CaseResult:
         case = self.assembler.case(block, place)
-        if stop is None:
+        if block.rejections[place]:
             return error_result(case, block.rejections[place])
         try:
             wheelsets = [_Wheelset(*wheelset) for wheelset in stop[1]]
@@ -88,9 +106,9 @@ class ChunkRunner:
             return error_result(case, f"{type(error).__name__}: {error}")
 
 
-def chunk_runner(plan: Plan, device: Device = "cpu") -> ChunkRunner:
-    """Return a runner for a plan."""
-    return ChunkRunner(BlockAssembler(plan), simulator(device), plan)
+def chunk_runner(plan: Plan, run_block: RunBlock, device: Device = "cpu") -> ChunkRunner:
+    """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
+    return ChunkRunner(BlockAssembler(plan), simulator(device), plan, run_block)
 
 
 def run_on_threads(
@@ -122,6 +140,8 @@ def _single(block: CaseBlock, place: int) -> CaseBlock:
         block.wheelset_parameters[at],
         block.rail[at],
         [block.controllers[place]],
+        [block.programs[place]],
+        [block.configs[place]],
         [block.judged_as[place]],
         [block.rejections[place]],
     )

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import secrets
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
+from pathlib import Path
 from typing import Any, Final
 from urllib.parse import urlsplit
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import rig
+from uictest.sweep.plan.controllers import programs_of
 from uictest.sweep.plan.plan import Plan
 from uictest.sweep.running.case_selection import CaseSelection
 from uictest.sweep.running.chunk import ChunkRunner, WriteChunk, chunk_runner
@@ -128,19 +132,39 @@ def _results(
 
 
 def _run_chunk(token: str, program: str, plan: Plan, indices: NDArray[np.int64]) -> bytes:
-    """Run a chunk, on a worker of the cluster. Raises RuntimeError if its uictest is another version."""
+    """Run a chunk, on a worker of the cluster.
+
+    Raises RuntimeError if its uictest is another version, or it lacks the file of a controller from outside.
+    """
     if program != program_digest():
         raise RuntimeError("the worker has another version of uictest")
     return _cached_runner(token, plan).run(indices)
 
 
+def _require_programs(plan: Plan) -> None:
+    for program in programs_of(plan):
+        path = Path(program.location)
+        if program.sha256 and not (path.is_file() and _sha256(path) == program.sha256):
+            raise RuntimeError(
+                f"the worker does not have {path} as it is here: a controller from outside must lie"
+                " at the same path on every machine of the cluster"
+            )
+
+
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+_WORKERS: Final = rig.Workers()
+"""Child processes of this process of the cluster; they end with it."""
 _RUNNERS: dict[str, ChunkRunner] = {}
 """The runner of the sweep that this process of the cluster works on, by the token of the sweep."""
 
 
 def _cached_runner(token: str, plan: Plan) -> ChunkRunner:
     if token not in _RUNNERS:
-        runner = chunk_runner(plan)
+        _require_programs(plan)
+        runner = chunk_runner(plan, _WORKERS.run_block)
         _RUNNERS.clear()
         _RUNNERS[token] = runner
         return runner

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from uictest.campaign import map_on_threads
 from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.scenario import Setting, value_label
-from uictest.scenario.yaml import Document, Entry, Place, Quantity, Scalar, parse_quantity
+from uictest.scenario.yaml import Document, Entry, Place, Quantity, Scalar
 from uictest.sweep.plan.decimal_quantity import (
     DecimalQuantity,
     common_unit,
@@ -23,10 +23,10 @@ from uictest.sweep.plan.decimal_quantity import (
     quantity_text,
     rounded_decimal,
 )
-from uictest.sweep.plan.plan import ListedGroup, ParameterValue, Plan
+from uictest.sweep.plan.plan import ListedGroup, ParameterValue, Plan, content_of
+from uictest.sweep.plan.scenario_values import is_free
 from uictest.sweep.running.case_blocks import BlockAssembler
 from uictest.sweep.running.chunk import ChunkRunner
-from uictest.sweep.running.device import Simulate
 from uictest.units import KINDS
 
 UNKNOWN: Final = -1
@@ -129,7 +129,7 @@ class FrontierSearch:
         example = self._group.rows[0][0].content
         place = Place(Document("--frontier", Path(), text))
         setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
-        return ParameterValue(text, parse_quantity(text, _kind_of(example, self.unit)), value_label(setting))
+        return ParameterValue(text, content_of(text, _kind_of(example, self.unit)), value_label(setting))
 
     def _scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
         flips = tuple(
@@ -153,15 +153,25 @@ def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
         if group.keys != (key,):
             continue
         if isinstance(group, ListedGroup) and group.size > 1:
-            if all(isinstance(row[0].content, Quantity) for row in group.rows):
+            if all(_is_continuous(plan, key, row[0].content) for row in group.rows):
                 return place, group
             raise FrontierError(f"{key} is not a quantity")
     listed = ", ".join(each for each, values in plan.listed().items() if len(values) > 1) or "none"
     raise FrontierError(f"{key} needs two values or more under grid or ranges; there are: {listed}")
 
 
-def _kind_of(example: Quantity, unit: str) -> str:
-    """Return a kind of quantity in which the unit means the same as for the example."""
+def _is_continuous(plan: Plan, key: str, content: Any) -> bool:
+    """Return whether a value is a quantity, or a number whose meaning only the controller knows."""
+    if isinstance(content, Quantity):
+        return True
+    is_number = isinstance(content, float | int) and not isinstance(content, bool)
+    return is_number and is_free(plan.base.scenario, key)
+
+
+def _kind_of(example: Any, unit: str) -> str:
+    """Return a kind of quantity in which the unit means the same as for the example, empty for a number."""
+    if not isinstance(example, Quantity):
+        return ""
     kinds = (kind for kind in KINDS.values() if kind.canonical == example.unit)
     return next(kind.name for kind in kinds if (unit in kind.units if unit else kind.bare))
 
@@ -174,9 +184,12 @@ def _note(row: Verdicts, flips: int) -> str:
     return "" if flips == 1 else f"flips {flips} times"
 
 
-def verdicts_of(plan: Plan, indices: NDArray[np.int64], simulate: Simulate, jobs: int) -> Verdicts:
-    """Return 1 for each case with the given indices that meets its expectation, else 0."""
-    runner = ChunkRunner(BlockAssembler(plan), simulate, plan)
+def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, jobs: int) -> Verdicts:
+    """Return 1 for each case with the given indices that meets its expectation, else 0.
+
+    `runner` is that of another plan of the same sweep.
+    """
+    runner = replace(runner, assembler=BlockAssembler(plan), plan=plan)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
         return [result.met for result in runner.results(runner.assembler.block(block))]

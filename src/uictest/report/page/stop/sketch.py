@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from uictest.report.page.axis import Axis, Tick, span
-from uictest.report.page.stop.bars import Bar, bars_path, mark_bars, state_bars
+from uictest.report.page.stop.bars import bars_path, magnet_bars, mark_bars
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.polyline import dots, path, path_over_time
 from uictest.report.traces.quantities import (
     LOOPS,
     PANELS,
-    STRIPS,
     WHEELSETS,
     Panel,
     PlotLine,
     PlotLoop,
     Strip,
+    in_order,
     loop_lines,
     panel_lines,
 )
@@ -26,7 +26,7 @@ from uictest.report.traces.trace import PlotTrace
 WIDTH, LEFT, RIGHT = 960, 52, 948
 _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
 _BELOW = 32  # the panels: tick labels and what they count
-_BAND = 15
+_BAND, _LANE = 15, 12  # of a wheelset in a strip, of a lane
 _LOOP_WIDTH, _LOOP_HEIGHT = 316, 230
 
 
@@ -74,6 +74,8 @@ class PlotDrawing:
     levels: Sequence[Level] = ()
     bars: Sequence[tuple[str, str]] = ()
     """Kind of bars and their path."""
+    ruled: bool = True
+    """Whether a line goes through each label of the upright axis."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,31 +97,31 @@ def sketch_of(trace: PlotTrace, marks: Sequence[Mark]) -> Sketch:
 def panels_over_time(
     trace: PlotTrace, panels: Sequence[tuple[Panel, Sequence[PlotLine]]], marks: Sequence[Mark]
 ) -> Sketch:
-    """Return panels above each other over one time axis, below them the valve states if there are any."""
+    """Return panels and strips above each other over one time axis; those without content are left out."""
     time = Axis(trace.start, trace.end if trace.end > trace.start else trace.start + 1.0, LEFT, RIGHT)
     drawings: list[PlotDrawing] = []
     top = 0.0
-    for panel, lines in panels:
-        known = [line for line in lines if line.series in trace.curves]
-        if known:
-            own = [mark for mark in marks if mark.plot == panel.key]
-            drawings.append(_panel(panel, known, trace, time, top, own))
-            top = drawings[-1].bottom + _GAP
-    for strip in STRIPS:
-        bars = mark_bars(marks, strip.key) | (state_bars(trace) if strip.key == "valves" else {})
-        if bars:
-            own = [mark for mark in marks if mark.plot == strip.key]
-            drawings.append(_strip(strip, bars, own, time, top))
-            top = drawings[-1].bottom + _GAP
+    lines = {panel.key: own for panel, own in panels}
+    for each in in_order([panel for panel, _ in panels]):
+        own = [mark for mark in marks if mark.plot == each.key]
+        if isinstance(each, Strip):
+            drawn = _strip(each, trace, time, top, own)
+        else:
+            drawn = _panel(each, lines[each.key], trace, time, top, own)
+        if drawn is not None:
+            drawings.append(drawn)
+            top = drawn.bottom + _GAP
     return Sketch(top + _BELOW, drawings)
 
 
 def _panel(
     panel: Panel, lines: Sequence[PlotLine], trace: PlotTrace, time: Axis, top: float, marks: Sequence[Mark]
-) -> PlotDrawing:
+) -> PlotDrawing | None:
+    curves = [(line, trace.curves[line.series]) for line in lines if line.series in trace.curves]
+    if not curves:
+        return None
     upper, lower = top + _TITLE, top + _TITLE + panel.height * _HEIGHT
     levels = [mark.y for mark in marks if mark.y is not None]
-    curves = [(line, trace.curves[line.series]) for line in lines]
     y = Axis(*span((curve.y for _, curve in curves), [*panel.include, *levels]), lower, upper)
     return PlotDrawing(
         panel.key,
@@ -138,10 +140,13 @@ def _panel(
 
 
 def _strip(
-    strip: Strip, bars: Mapping[str, Sequence[Bar]], marks: Sequence[Mark], time: Axis, top: float
-) -> PlotDrawing:
+    strip: Strip, trace: PlotTrace, time: Axis, top: float, marks: Sequence[Mark]
+) -> PlotDrawing | None:
+    bars = mark_bars(marks, strip) | magnet_bars(trace, strip.lanes)
+    if not bars:
+        return None
     upper = top + _TITLE
-    bottom = upper + len(WHEELSETS) * _BAND
+    bottom = upper + len(WHEELSETS) * max(_BAND, _LANE * len(strip.lanes))
     row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
     return PlotDrawing(
         strip.key,
@@ -151,9 +156,10 @@ def _strip(
         upper,
         bottom,
         time.tick_marks(10),
-        [(row.at(n), str(n)) for n in WHEELSETS],
+        [(row.at(place), label) for place, label in strip.rows],
         bars=[(kind, bars_path(kind, each, time, row)) for kind, each in bars.items()],
         levels=list(_levels([mark for mark in marks if mark.label], time, row)),
+        ruled=bool(strip.lanes),
     )
 
 

@@ -85,10 +85,9 @@
 
   /* A browser that cannot inflate the plotting script shows the drawings that are there without it. */
   if (!first("#plotly") || !window.DecompressionStream) return;
-  const common = first("#plots") ? json(first("#plots")) : { panels: [], loops: [], strips: {} };
+  const common = first("#plots") ? json(first("#plots")) : { panels: [], loops: [], strips: [] };
   const MISSING = 32767;
   const STATES = ["fill", "hold", "vent"];
-  const [FILL, HOLD, VENT] = [0, 1, 2];
   const ROWS = [1, 2, 3, 4];
 
   const bytesOf = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -220,36 +219,57 @@
   };
 
   /* Bars as one filled line with gaps: a shape each would take seconds. Its edge keeps the shortest in sight. */
-  const bars = (kind, spans, fill, yaxis, half = 0.36) => ({
+  const bars = (kind, spans, fill, yaxis, half, extra) => ({
     type: "scatter", mode: "lines", fill: "toself", fillcolor: fill, line: { color: fill, width: 1, simplify: false },
     x: spans.flatMap(([from, to]) => [from, to, to, from, from, null]),
     y: spans.flatMap(([, , row]) => [row - half, row - half, row + half, row + half, row - half, null]),
-    xaxis: "x", yaxis, hoverinfo: "skip", name: kind,
+    xaxis: "x", yaxis, hoverinfo: "skip", name: kind, ...extra,
   });
 
-  const spansOf = (stop, wanted) =>
-    ROWS.flatMap((n) => {
-      const { x, y } = stop.curves[`valve_command_${n}`] ?? { x: [], y: [] };
-      return Array.from(x, (from, k) => [from, x[k + 1] ?? stop.end, n, Math.round(y[k])]);
-    }).filter(([from, , , state]) => state === wanted && (state !== FILL || from > stop.start));
+  /* When the valve of a wheelset is in one of some states; such states that follow at once are one span. */
+  const spansOf = (stop, n, wanted) => {
+    const { x, y } = stop.curves[`valve_command_${n}`] ?? { x: [], y: [] };
+    const spans = [];
+    Array.from(y, Math.round).forEach((state, k) => {
+      const to = x[k + 1] ?? stop.end;
+      if (!wanted.includes(state)) return;
+      if (spans.length && spans.at(-1)[1] === x[k]) spans.at(-1)[1] = to;
+      else spans.push([x[k], to]);
+    });
+    return spans;
+  };
 
-  const stripBars = (stop, key, yaxis) => {
-    const states = [["hold", HOLD, "hold"], ["fill", FILL, "paper"], ["vent", VENT, "vent"]];
-    const valves = key === "valves" ? states.map(([kind, state, ink]) => bars(kind, spansOf(stop, state), colour(ink), yaxis)) : [];
+  const magnetBars = (stop, { label, offset, states }, n, yaxis) => {
+    const spans = spansOf(stop, n, states).map((span) => [...span, n + offset]);
+    const extra = { meta: `wheelset-${n}`, opacity: label === "hold" ? 0.6 : 1 };
+    return bars(label, spans, colour(`wheelset-${n}`), yaxis, 0.17, extra);
+  };
+
+  const stripBars = (stop, { key, lanes }, yaxis) => {
+    const magnets = ROWS.flatMap((n) => lanes.map((lane) => magnetBars(stop, lane, n, yaxis)));
     const marked = stop.marks.filter((mark) => mark.plot === key && mark.kind === "interval");
     const kinds = [...new Set(marked.map((mark) => mark.status))];
     const intervals = kinds.map((status) => {
       const own = marked.filter((mark) => mark.status === status);
-      return bars("interval", own.map((mark) => [mark.x0, mark.x1, mark.y]), inkOf({ status }), yaxis, 0.46);
+      const ink = colour(MARK_COLOURS[status] + (lanes.length ? "-wash" : ""));
+      return bars("interval", own.map((mark) => [mark.x0, mark.x1, mark.y]), ink, yaxis, 0.46);
     });
-    return [...intervals, ...valves].filter((each) => each.x.length);
+    return [...intervals, ...magnets].filter((each) => each.x.length);
+  };
+
+  /* Panels with the strips below each of them, then the other strips; those with nothing to show left out. */
+  const plotsOverTime = (stop) => {
+    const strips = common.strips.filter((strip) => stripBars(stop, strip, "y").length);
+    const under = (panel) => strips.filter((strip) => strip.below === panel.key);
+    const shown = (panel) => panel.lines.some((each) => each.series in stop.curves);
+    const placed = stop.panels.flatMap((panel) => [...(shown(panel) ? [panel] : []), ...under(panel)]);
+    return [...placed, ...strips.filter((strip) => !placed.includes(strip))];
   };
 
   /* Panels above each other share one time axis; a gap of 26 pixels holds the title of the next. */
   const panelsFigure = (stop) => {
-    const panels = stop.panels.filter((panel) => panel.lines.some((each) => each.series in stop.curves));
-    const strips = Object.entries(common.strips).filter(([key]) => stripBars(stop, key, "y").length);
-    const heights = [...panels.map((panel) => 112 * panel.height), ...strips.map(() => 72)];
+    const plots = plotsOverTime(stop);
+    const heights = plots.map((plot) => (plot.lines ? 112 * plot.height : Math.max(72, 13 * plot.rows.length)));
     const gap = 26;
     const total = heights.reduce((sum, height) => sum + height + gap, 0);
     const share = (time) => (time - stop.start) / (stop.end - stop.start || 1);
@@ -274,16 +294,17 @@
       for (const mark of marks.filter((mark) => mark.plot === key)) addMark(mark, traces, layout, "x", y, share);
       return y;
     };
-    panels.forEach((panel, k) => {
+    plots.forEach((plot, k) => {
       const y = k ? `y${k + 1}` : "y";
-      for (const each of panel.lines)
-        if (each.series in stop.curves) traces.push(line(each, { ...stop.curves[each.series], xaxis: "x", yaxis: y }));
-      addPlot(k, panel.key, `${panel.title}, ${panel.unit}`, { nticks: 5, autorangeoptions: { include: panel.include } });
-    });
-    strips.forEach(([key, title], n) => {
-      const y = `y${panels.length + n + 1}`;
-      traces.push(...stripBars(stop, key, y));
-      addPlot(panels.length + n, key, title, { fixedrange: true, tickvals: ROWS, range: [4.5, 0.5], showgrid: false });
+      if (plot.lines) {
+        for (const each of plot.lines)
+          if (each.series in stop.curves) traces.push(line(each, { ...stop.curves[each.series], xaxis: "x", yaxis: y }));
+        addPlot(k, plot.key, `${plot.title}, ${plot.unit}`, { nticks: 5, autorangeoptions: { include: plot.include } });
+        return;
+      }
+      traces.push(...stripBars(stop, plot, y));
+      const [tickvals, ticktext] = [plot.rows.map(([row]) => row), plot.rows.map(([, label]) => label)];
+      addPlot(k, plot.key, plot.heading, { fixedrange: true, tickvals, ticktext, range: [4.5, 0.5], showgrid: plot.lanes.length > 0 });
     });
     layout.xaxis = axis({
       anchor: `y${heights.length > 1 ? heights.length : ""}`, range: [stop.start, stop.end],
@@ -424,7 +445,7 @@
   const toggleRoles = (Plotly, plots, figures) => {
     const apply = () => {
       const hidden = new Set(all(".key input:not(:checked)", plots).map((box) => box.dataset.role));
-      for (const path of all(".sketch .line", plots))
+      for (const path of all(".sketch .line, .sketch .magnet", plots))
         path.style.display = [...hidden].some((role) => path.classList.contains(`role-${role}`)) ? "none" : "";
       for (const figure of figures)
         Plotly.restyle(figure, { visible: figure.data.map((trace) => !hidden.has(trace.meta)) });

@@ -1,0 +1,318 @@
+/* The threshold controller of uictest in C: slip speed, relative slide and wheel acceleration choose fill,
+ * hold or vent. It gives the commands of the built-in controller bit for bit.
+ *
+ * Each wheelset runs through modes. FREE fills. When its slip exceeds the threshold or its deceleration is
+ * more than any wheel on a good rail can have, it VENTs until the wheel has stopped losing speed, then HOLDs
+ * while the wheel catches up, and REFILLs in pulses until the brake is back at the demand. While all four
+ * slide nothing shows the train's speed; after a while one of them is PROBING: vented until it rolls and
+ * shows that speed.
+ *
+ * All thresholds are parameters of the scenario, in SI units: see threshold.yaml. Compile with
+ * -ffp-contract=off, or some processors round a product and a sum at once and the last bits differ.
+ */
+#include "uictest_controller.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WHEELSETS = UICTEST_WHEELSETS };
+
+typedef struct {
+    double cycle_time;                  /* s */
+    double reference_deceleration;      /* fastest fall of the estimate of the train's speed, m/s2 */
+    double minimum_speed;               /* estimate below which the brake is left alone, m/s */
+    double slip_threshold;              /* slip speed from which a wheelset slides, m/s */
+    double slide_threshold;             /* share of the estimate that is added to it */
+    double deep_slide;                  /* relative slide beyond which a vent goes on until speed is gained */
+    double vent_deceleration;           /* of a wheelset, beyond which it is vented, m/s2 */
+    double hold_deceleration;           /* of a wheelset, below which a vent turns into a hold, m/s2 */
+    double reacceleration_threshold;    /* of a wheelset, from which it regains speed, m/s2 */
+    double acceleration_filter_time;    /* time constant, s */
+    double holding_deceleration;        /* fall of the estimate while every wheelset slides, m/s2 */
+    double rolling_time;                /* without a slide before a wheelset shows the train's speed, s */
+    double sounding_interval;           /* without a rolling wheelset before one is probed, s */
+    double sounding_time;               /* shortest vent of a probed wheelset, s */
+    double recovery_share;              /* of the slip threshold, below which a wheelset has caught up */
+    double vent_watchdog;               /* longest vent, s */
+    double hold_limit;                  /* longest hold, s */
+    double fill_pulse_on;               /* s */
+    double fill_pulse_off;              /* s */
+    double refill_time;                 /* of filling in pulses, s */
+} Parameters;
+
+#define PARAMETER(name) {#name, offsetof(Parameters, name)}
+static const struct {
+    const char *name;
+    size_t offset;
+} PARAMETERS[] = {
+    PARAMETER(reference_deceleration), PARAMETER(minimum_speed), PARAMETER(slip_threshold),
+    PARAMETER(slide_threshold), PARAMETER(deep_slide), PARAMETER(vent_deceleration),
+    PARAMETER(hold_deceleration), PARAMETER(reacceleration_threshold), PARAMETER(acceleration_filter_time),
+    PARAMETER(holding_deceleration), PARAMETER(rolling_time), PARAMETER(sounding_interval),
+    PARAMETER(sounding_time), PARAMETER(recovery_share), PARAMETER(vent_watchdog), PARAMETER(hold_limit),
+    PARAMETER(fill_pulse_on), PARAMETER(fill_pulse_off), PARAMETER(refill_time),
+};
+
+typedef enum { FREE, VENTING, HOLDING, REFILLING, PROBING } Mode;
+
+typedef struct {
+    double speed;               /* as measured, m/s */
+    double previous_speed;      /* in the cycle before, m/s */
+    double acceleration;        /* low-pass filtered, m/s2 */
+    Mode mode;
+    int64_t mode_cycles;        /* since the mode began */
+} Wheelset;
+
+typedef struct {
+    Parameters parameters;
+    double initial_speed;       /* m/s */
+    double reference_speed;     /* estimated speed of the train, m/s */
+    int64_t blind_cycles;       /* since a wheelset last showed the train's speed */
+    int probed;                 /* wheelset that was probed last */
+    Wheelset wheelsets[WHEELSETS];
+} Controller;
+
+/* Why the last uictest_create of this thread failed: there is no controller yet to keep it. */
+static _Thread_local char create_error[128];
+
+static double larger(double a, double b) { return a > b ? a : b; }
+static double smaller(double a, double b) { return a < b ? a : b; }
+
+/* ---- one wheelset ---- */
+
+/* Differentiate the measured speed and filter the acceleration (first order). */
+static void differentiate(Wheelset *wheelset, const Parameters *p)
+{
+    double change = (wheelset->speed - wheelset->previous_speed) / p->cycle_time;
+    double weight = p->cycle_time / (p->cycle_time + p->acceleration_filter_time);
+    wheelset->acceleration += weight * (change - wheelset->acceleration);
+    wheelset->previous_speed = wheelset->speed;
+}
+
+/* Whether a wheelset has been free for so long that it must roll. */
+static bool rolls(const Wheelset *wheelset, const Parameters *p)
+{
+    return wheelset->mode == FREE && (double)wheelset->mode_cycles * p->cycle_time > p->rolling_time;
+}
+
+/* Whether a probed wheelset rolls: it gains no speed and loses no more than a train can. */
+static bool shows_speed(const Wheelset *wheelset, const Parameters *p)
+{
+    double time_in_mode = (double)wheelset->mode_cycles * p->cycle_time;
+    if (wheelset->mode != PROBING || time_in_mode < p->sounding_time)
+        return false;
+    bool gains = wheelset->acceleration > p->reacceleration_threshold;
+    bool loses = wheelset->acceleration < -p->reference_deceleration;
+    return !(gains || loses);
+}
+
+/* Whether the wheel slides: slip above the threshold without recovery, or an impossible fall. */
+static bool slides(const Wheelset *wheelset, double slip, double threshold, const Parameters *p)
+{
+    bool losing = wheelset->acceleration < p->reacceleration_threshold;
+    bool falling = wheelset->acceleration < -p->vent_deceleration;
+    return (slip > threshold && losing) || falling;
+}
+
+/* The mode after a vent: hold once the wheel loses no more speed. In a deep slide it must gain speed first;
+ * a locked wheel loses no speed either, and only goes on turning when it is vented further. */
+static Mode after_venting(const Wheelset *wheelset, double slip, double reference, double time_in_mode,
+                          const Parameters *p)
+{
+    bool deep = slip > p->deep_slide * reference;
+    double enough = deep ? p->reacceleration_threshold : -p->hold_deceleration;
+    if (wheelset->acceleration > enough)
+        return HOLDING;
+    return time_in_mode > p->vent_watchdog ? REFILLING : VENTING;
+}
+
+/* The mode after a hold: refill once the wheel has caught up, else vent again. */
+static Mode after_holding(const Wheelset *wheelset, double slip, double reference, double threshold,
+                          double time_in_mode, const Parameters *p)
+{
+    if (slip < p->recovery_share * threshold)
+        return REFILLING;
+    bool deep = slip > p->deep_slide * reference;
+    if (wheelset->acceleration < (deep ? 0.0 : -p->vent_deceleration))
+        return VENTING;
+    if (time_in_mode > p->hold_limit && wheelset->acceleration < p->reacceleration_threshold)
+        return VENTING;
+    return HOLDING;
+}
+
+static Mode next_mode(const Wheelset *wheelset, double reference, const Parameters *p)
+{
+    double slip = reference - wheelset->speed;
+    double threshold = p->slip_threshold + p->slide_threshold * reference;
+    double time_in_mode = (double)(wheelset->mode_cycles + 1) * p->cycle_time;
+    if (reference < p->minimum_speed)
+        return FREE;
+    if (wheelset->mode == PROBING)
+        return shows_speed(wheelset, p) || time_in_mode > p->vent_watchdog ? REFILLING : PROBING;
+    if (wheelset->mode == VENTING)
+        return after_venting(wheelset, slip, reference, time_in_mode, p);
+    if (wheelset->mode == HOLDING)
+        return after_holding(wheelset, slip, reference, threshold, time_in_mode, p);
+    if (slides(wheelset, slip, threshold, p))
+        return VENTING;
+    return wheelset->mode == REFILLING && time_in_mode <= p->refill_time ? REFILLING : FREE;
+}
+
+static void enter(Wheelset *wheelset, Mode mode)
+{
+    wheelset->mode_cycles = mode == wheelset->mode ? wheelset->mode_cycles + 1 : 0;
+    wheelset->mode = mode;
+}
+
+/* Whether a refilling wheelset is filled in this cycle: pulses of filling, with pauses. */
+static bool fills(const Wheelset *wheelset, const Parameters *p)
+{
+    int64_t on = (int64_t)rint(p->fill_pulse_on / p->cycle_time);
+    int64_t off = (int64_t)rint(p->fill_pulse_off / p->cycle_time);
+    return wheelset->mode_cycles % (on + off) < on;
+}
+
+/* ---- the train ---- */
+
+/* Estimate the train's speed from the fastest wheelset. While some wheelset rolls the estimate follows the
+ * fastest one, falling at most as fast as a train can. While all of them slide it falls more slowly, so that
+ * it does not sink with them; a probed wheelset then lowers it, at most to the speed that the train can have
+ * reached by then. Only a wheelset that rolls shows that the train is too slow for protection. */
+static void estimate_speed(Controller *c)
+{
+    const Parameters *p = &c->parameters;
+    double fastest = 0.0;
+    bool rolling = false, probed = false;
+    for (int i = 0; i < WHEELSETS; i++) {
+        fastest = larger(fastest, c->wheelsets[i].speed);
+        rolling = rolling || rolls(&c->wheelsets[i], p);
+        probed = probed || shows_speed(&c->wheelsets[i], p);
+    }
+    double fall = rolling ? p->reference_deceleration : p->holding_deceleration;
+    double estimate = c->reference_speed - fall * p->cycle_time;
+    if (probed) {
+        double blind_time = (double)c->blind_cycles * p->cycle_time;
+        estimate -= (p->reference_deceleration - p->holding_deceleration) * blind_time;
+    }
+    if (rolling || probed) {
+        c->blind_cycles = 0;
+    } else {
+        c->blind_cycles += 1;
+        estimate = larger(estimate, smaller(c->reference_speed, p->minimum_speed));
+    }
+    c->reference_speed = larger(fastest, estimate);
+}
+
+/* Start probing the next wheelset when none has shown the train's speed for too long. */
+static void probe(Controller *c)
+{
+    for (int i = 0; i < WHEELSETS; i++)
+        if (c->wheelsets[i].mode == PROBING)
+            return;
+    if ((double)c->blind_cycles * c->parameters.cycle_time > c->parameters.sounding_interval) {
+        c->probed = (c->probed + 1) % WHEELSETS;
+        enter(&c->wheelsets[c->probed], PROBING);
+    }
+}
+
+/* ---- parameters ---- */
+
+/* Read a number of a flat JSON object. */
+static bool number(const char *json, const char *name, double *value)
+{
+    size_t length = strlen(name);
+    for (const char *at = strstr(json, name); at != NULL; at = strstr(at + 1, name)) {
+        if (at == json || at[-1] != '"' || at[length] != '"')
+            continue;
+        at += length + 1;
+        at += strspn(at, " \t\r\n");
+        if (*at != ':')
+            continue;
+        char *end;
+        *value = strtod(at + 1, &end);
+        return end != at + 1;
+    }
+    return false;
+}
+
+static bool read_parameters(Parameters *p, const char *json)
+{
+    for (size_t i = 0; i < sizeof PARAMETERS / sizeof *PARAMETERS; i++) {
+        double *value = (double *)((char *)p + PARAMETERS[i].offset);
+        if (!number(json, PARAMETERS[i].name, value)) {
+            snprintf(create_error, sizeof create_error, "parameter %s is missing or not a number",
+                     PARAMETERS[i].name);
+            return false;
+        }
+    }
+    if (p->fill_pulse_on < p->cycle_time) {
+        snprintf(create_error, sizeof create_error, "fill_pulse_on is shorter than one cycle");
+        return false;
+    }
+    return true;
+}
+
+/* ---- what uictest calls ---- */
+
+uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
+
+const char *uictest_version(void) { return "1.0"; }
+
+void *uictest_create(const uictest_config *config)
+{
+    Controller *c = calloc(1, sizeof *c);
+    create_error[0] = '\0';
+    if (c == NULL) {
+        snprintf(create_error, sizeof create_error, "no memory");
+        return NULL;
+    }
+    c->parameters.cycle_time = config->cycle_time;
+    c->initial_speed = config->initial_speed;
+    if (!read_parameters(&c->parameters, config->parameters)) {
+        free(c);
+        return NULL;
+    }
+    uictest_reset(c);
+    return c;
+}
+
+int32_t uictest_reset(void *controller)
+{
+    Controller *c = controller;
+    c->reference_speed = c->initial_speed;
+    c->blind_cycles = 0;
+    c->probed = WHEELSETS - 1;
+    for (int i = 0; i < WHEELSETS; i++)
+        c->wheelsets[i] = (Wheelset){.previous_speed = c->initial_speed, .mode = FREE};
+    return 0;
+}
+
+int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
+{
+    Controller *c = controller;
+    const Parameters *p = &c->parameters;
+    for (int i = 0; i < WHEELSETS; i++) {
+        c->wheelsets[i].speed = inputs->wheel_speed[i];
+        differentiate(&c->wheelsets[i], p);
+    }
+    estimate_speed(c);
+    for (int i = 0; i < WHEELSETS; i++)
+        enter(&c->wheelsets[i], next_mode(&c->wheelsets[i], c->reference_speed, p));
+    probe(c);
+    for (int i = 0; i < WHEELSETS; i++) {
+        const Wheelset *wheelset = &c->wheelsets[i];
+        outputs->vent[i] = wheelset->mode == VENTING || wheelset->mode == PROBING;
+        bool pause = wheelset->mode == REFILLING && !fills(wheelset, p);
+        outputs->hold[i] = outputs->vent[i] || wheelset->mode == HOLDING || pause;
+    }
+    outputs->reference_speed = c->reference_speed;
+    return 0;
+}
+
+void uictest_destroy(void *controller) { free(controller); }
+
+const char *uictest_last_error(void *controller) { return controller == NULL ? create_error : NULL; }

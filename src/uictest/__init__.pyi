@@ -1,0 +1,3 @@
+from .stepping import Rig as Rig
+
+__version__: str

@@ -1,0 +1,107 @@
+"""`uictest controller`: check a WSP controller without the rig."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import typer
+
+from uictest import conformance, recording, scenario
+from uictest.cli import options
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.output import data, terminal_width
+from uictest.cli.registration import command
+from uictest.scenario import yaml
+
+controller = typer.Typer(rich_markup_mode=None, help="Check WSP controllers without the rig.")
+
+_CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
+"""Worst finding -> exit code; any other is `ExitCode.MET`."""
+
+Reference = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE",
+        help="Part or scenario (.yaml), program (.py, .so, .dll, .fmu), tcp://HOST:PORT, or a name.",
+    ),
+]
+ClassName = Annotated[
+    str,
+    typer.Option("--class", metavar="NAME", help="Class of a Python file [default: the one with a step]."),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="NAME=VALUE", help="Set a parameter of a controller from outside. May be repeated."
+    ),
+]
+TimeLimit = Annotated[
+    float | None,
+    typer.Option(
+        "--time-limit",
+        metavar="SECONDS",
+        min=0.001,
+        max=600.0,
+        help="Longest time for one answer [default: that of the controller, 5 s].",
+    ),
+]
+
+
+@command(controller, "check")
+def check(
+    reference: Reference,
+    class_name: ClassName = "",
+    settings: Settings = None,
+    time_limit: TimeLimit = None,
+    trusted: options.Trusted = None,
+    junit: options.JUnitFile = None,
+    shown: options.ListFormat = options.PlainFormat.TEXT,
+    verbosity: options.Verbosity = 0,
+) -> ExitCode:
+    """Check that a controller keeps what every WSP should, in a child process and without the rig.
+
+    It is driven through cycles with given speeds: a good rail, a sliding wheelset, locked ones, and random
+    inputs. Exit code 1: it misses a check; 3: it crashed, hung or raised.
+    """
+    file = options.junit_file(junit, Path())
+    subject = _subject(reference, class_name, settings or (), time_limit, trusted or ())
+    examination = conformance.examine(subject)
+    if shown is options.PlainFormat.JSON:
+        data(conformance.findings_json(examination))
+    else:
+        data("\n".join(conformance.finding_table(examination, terminal_width(sys.stdout))))
+    if file is not None:
+        recording.write_text_atomic(file, conformance.junit_xml(examination))
+    return _CODES.get(examination.status, ExitCode.MET)
+
+
+def _subject(
+    reference: str,
+    class_name: str,
+    settings: Sequence[str],
+    time_limit: float | None,
+    trusted: Sequence[Path],
+) -> conformance.Subject:
+    try:
+        part = scenario.load_controller(reference, class_name, trusted)
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+    parameters = dict(map(_setting, settings))
+    if part.program is None and (parameters or time_limit is not None):
+        option = "--set" if parameters else "--time-limit"
+        raise typer.BadParameter("for controllers from outside; this one is built in", param_hint=option)
+    subject = conformance.subject_of(reference, part, parameters)
+    if subject.program is None or time_limit is None:
+        return subject
+    return replace(subject, program=replace(subject.program, time_limit=time_limit))
+
+
+def _setting(text: str) -> tuple[str, Any]:
+    name, sign, value = text.partition("=")
+    if not sign or not name.strip():
+        raise typer.BadParameter(f"{text!r} is not NAME=VALUE", param_hint="--set")
+    return name.strip(), yaml.scalar_value(value.strip())

@@ -1,0 +1,92 @@
+"""`uictest export-rig`: the rig of one case as an FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from uictest import recording, rig_fmu, scenario
+from uictest.cli.cases import case_lines, load_cases, nothing_selected, select_by_options
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
+from uictest.cli.output import data, message
+from uictest.cli.progress import announce_compilation
+
+
+class Fmi(StrEnum):
+    """Version of FMI."""
+
+    TWO = "2"
+    THREE = "3"
+
+
+ScenarioFile = Annotated[Path, typer.Argument(metavar="SCENARIO", help="Scenario file.")]
+Output = Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The FMU, a .fmu file.")]
+Version = Annotated[Fmi, typer.Option("--fmi", help="Version of FMI.")]
+CaseId = Annotated[
+    str | None, typer.Option("--case", metavar="ID", help="Id of the case, where the file has several.")
+]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
+
+
+def export_rig(
+    path: ScenarioFile,
+    output: Output = Path("rig.fmu"),
+    version: Version = Fmi.TWO,
+    case_id: CaseId = None,
+    expression: Expression = None,
+    overrides: Overrides = None,
+    seed: Seed = None,
+    trusted: Trusted = None,
+    force: Force = False,
+    verbosity: Verbosity = 0,
+) -> ExitCode:
+    """Write the rig of one case as an FMU for co-simulation. Prints the name of the file."""
+    _reject_target(output, force=force)
+    cases = load_cases([path], overrides, seed, trusted)
+    selected = select_by_options(cases, expression, None)
+    if case_id is not None:
+        selected = [case for case in selected if case.id == case_id]
+    if not selected:
+        message(nothing_selected(cases))
+        message(case_lines(cases))
+        return ExitCode.NOTHING_SELECTED
+    content = _built(_only(selected), version)
+    recording.write_bytes_atomic(output, content)
+    data(str(output))
+    return ExitCode.MET
+
+
+def _reject_target(output: Path, *, force: bool) -> None:
+    """Raise InvalidInputError where the FMU cannot be written."""
+    if output.suffix != ".fmu":
+        raise InvalidInputError(f"uictest: {output}: the name of an FMU ends with .fmu")
+    if not output.parent.is_dir():
+        raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+    if output.exists() and not force:
+        raise InvalidInputError(f"uictest: already there: {output}; --force replaces it")
+
+
+def _only(cases: Sequence[scenario.Case]) -> scenario.Case:
+    if len(cases) > 1:
+        raise InvalidInputError(
+            f"uictest: {len(cases)} cases; an FMU holds one: choose it with --case ID\n{case_lines(cases)}"
+        )
+    return cases[0]
+
+
+def _built(case: scenario.Case, version: Fmi) -> bytes:
+    """Return the FMU; what the machine lacks is reported before anything is compiled."""
+    try:
+        compiler = rig_fmu.usable_compiler()
+    except rig_fmu.CannotBuildError as error:
+        raise InvalidInputError(f"uictest: {error}") from error
+    announce_compilation(warm=rig_fmu.code_is_compiled())
+    try:
+        return rig_fmu.build_fmu(case, 2 if version is Fmi.TWO else 3, compiler)
+    except ValueError as error:
+        raise InvalidInputError(f"uictest: {error}") from error

@@ -1,0 +1,52 @@
+"""The controller that is checked."""
+
+import json
+from dataclasses import dataclass, replace
+from typing import Any
+
+from uictest.conformance.situations import INITIAL_SPEED, WHEELSETS, wheel_radius
+from uictest.controllers import CONTROLLERS, Config, Controller, ControllerProgram
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A controller under check.
+
+    Attributes:
+        name: what it is called in the report.
+        config: what it is given.
+        program: what is loaded where it comes from outside, else None.
+        built_in: its functions where it is built in, else None.
+        parameters: of the built-in controller.
+    """
+
+    name: str
+    config: Config
+    program: ControllerProgram | None = None
+    built_in: Controller | None = None
+    parameters: Any = None
+
+    @property
+    def description(self) -> dict[str, str]:
+        """Kind, name and SHA-256."""
+        if self.program is None:
+            return {"kind": "built in", "name": self.name}
+        digest = {"sha256": self.program.sha256} if self.program.sha256 else {}
+        return {"kind": self.program.kind, "name": self.name, **digest}
+
+
+def subject_of(name: str, part: Any, parameters: dict[str, Any]) -> Subject:
+    """Return the subject that a scenario's controller stands for.
+
+    Args:
+        name: what it is called in the report.
+        part: the controller of a scenario.
+        parameters: what takes the place of its own parameters, or is added to them; none for one built in.
+    """
+    program = part.program
+    radii = (wheel_radius(),) * WHEELSETS
+    given = {} if program is None else {**part.parameters, **parameters}
+    config = Config(WHEELSETS, float(part.cycle_time), INITIAL_SPEED, radii, given)
+    if program is None:
+        return Subject(name, config, built_in=CONTROLLERS[part.algorithm], parameters=part)
+    return Subject(name, config, program=replace(program, parameters=json.dumps(given)))

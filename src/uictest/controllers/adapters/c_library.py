@@ -1,0 +1,136 @@
+"""Controllers in C: a shared library with the functions of ``uictest_controller.h``."""
+
+import ctypes
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
+from uictest.controllers.exchange import ABI_VERSION, WHEELSETS
+from uictest.controllers.interface import Config
+from uictest.controllers.program import ControllerProgram
+
+_Radii = ctypes.c_double * WHEELSETS
+
+
+class _Config(ctypes.Structure):
+    """`uictest_config`."""
+
+    _fields_ = (
+        ("wheelsets", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("cycle_time", ctypes.c_double),
+        ("initial_speed", ctypes.c_double),
+        ("wheel_radius", _Radii),
+        ("parameters", ctypes.c_char_p),
+    )
+
+
+_FUNCTIONS: Final[dict[str, tuple[Any, tuple[Any, ...]]]] = {
+    "abi_version": (ctypes.c_uint32, ()),
+    "create": (ctypes.c_void_p, (ctypes.c_void_p,)),
+    "reset": (ctypes.c_int32, (ctypes.c_void_p,)),
+    "step": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "destroy": (None, (ctypes.c_void_p,)),
+    "last_error": (ctypes.c_char_p, (ctypes.c_void_p,)),
+}
+"""Name behind `uictest_` -> type of the result, types of the arguments."""
+
+
+class LibraryInstance:
+    """A controller that a library has created."""
+
+    runs_beside_others = True
+    response_times = None
+
+    def __init__(self, library: Any, config: Config, parameters: str) -> None:
+        self._library = library
+        self.version = _version(library)
+        self._handle = library.uictest_create(ctypes.byref(_c_config(config, parameters)))
+        if not self._handle:
+            raise ControllerError(f"uictest_create failed: {_last_error(library, None) or 'no reason given'}")
+
+    @property
+    def step_address(self) -> int:
+        """Address of `uictest_step`."""
+        return ctypes.cast(self._library.uictest_step, ctypes.c_void_p).value or 0
+
+    @property
+    def handle(self) -> int:
+        """What `uictest_create` has returned."""
+        return int(self._handle)
+
+    def reset(self) -> None:
+        """Call `uictest_reset`."""
+        status = self._library.uictest_reset(self._handle)
+        if status != 0:
+            reason = self.last_error() or "no reason given"
+            raise ControllerError(f"uictest_reset returned {status}: {reason}")
+
+    def last_error(self) -> str:
+        """Call `uictest_last_error`."""
+        return _last_error(self._library, self._handle)
+
+    def close(self) -> None:
+        """Call `uictest_destroy`."""
+        self._library.uictest_destroy(self._handle)
+
+
+def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:
+    """Load the library, once per process, and create a controller. Raises ControllerError."""
+    return LibraryInstance(_loaded(program.location, program.sha256), config, program.parameters)
+
+
+@cache
+def _loaded(location: str, sha256: str) -> Any:
+    """Return a library whose functions are there and have their types."""
+    path = Path(location)
+    if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+        raise ControllerError(f"{path.name} has changed since the scenario was read")
+    try:
+        library = ctypes.CDLL(location)
+    except OSError as error:
+        raise ControllerError(f"{path.name} cannot be loaded: {_without(location, error)}") from error
+    missing = [f"uictest_{name}" for name in _FUNCTIONS if not hasattr(library, f"uictest_{name}")]
+    if missing:
+        raise ControllerError(f"{path.name} does not export {', '.join(missing)}")
+    for name, (result, arguments) in _FUNCTIONS.items():
+        function = getattr(library, f"uictest_{name}")
+        function.restype, function.argtypes = result, arguments
+    found = library.uictest_abi_version()
+    if found != ABI_VERSION:
+        raise ControllerError(f"{path.name} has ABI version {found}, expected {ABI_VERSION}")
+    return library
+
+
+def _without(location: str, error: OSError) -> str:
+    """Return the loader's message without the folders of this machine."""
+    return str(error).replace(location, Path(location).name)
+
+
+def _c_config(config: Config, parameters: str) -> _Config:
+    return _Config(
+        config.wheelsets,
+        0,
+        config.cycle_time,
+        config.initial_speed,
+        _Radii(*config.wheel_radius),
+        parameters.encode(),
+    )
+
+
+def _version(library: Any) -> str:
+    function = getattr(library, "uictest_version", None)
+    if function is None:
+        return ""
+    function.restype = ctypes.c_char_p
+    return _text(function())
+
+
+def _last_error(library: Any, handle: int | None) -> str:
+    return _text(library.uictest_last_error(handle))
+
+
+def _text(content: bytes | None) -> str:
+    return (content or b"").decode("utf-8", "replace")

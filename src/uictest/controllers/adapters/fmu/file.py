@@ -1,0 +1,81 @@
+"""FMU files: unpacked and described, with nothing of them run."""
+
+import hashlib
+import io
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+from zipfile import BadZipFile, ZipFile
+
+import fmpy
+
+from uictest.controllers.adapters.instance import ControllerError, reason_of
+
+_VERSIONS: Final = ("2.0", "3.0")
+LARGEST: Final = 2**30
+"""Most bytes that an FMU may have unpacked; chosen: FMUs with their resources have some megabytes."""
+
+
+class UnpackedFmu(NamedTuple):
+    """A temporary folder with the content of an FMU, and its model description as FMPy reads it."""
+
+    folder: Path
+    description: Any
+
+
+def unpack(path: Path, sha256: str) -> UnpackedFmu:
+    """Unpack an FMU into a temporary folder. Raises ControllerError where it cannot be run here."""
+    content = path.read_bytes()
+    if hashlib.sha256(content).hexdigest() != sha256:
+        raise ControllerError("has changed since the scenario was read")
+    folder = Path(tempfile.mkdtemp(prefix="uictest-fmu-"))
+    try:
+        _extract(content, folder)
+        description = _description(folder)
+        _check(folder, description)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    return UnpackedFmu(folder, description)
+
+
+def _extract(content: bytes, folder: Path) -> None:
+    try:
+        with ZipFile(io.BytesIO(content)) as archive:
+            size = sum(each.file_size for each in archive.infolist())
+        if size > LARGEST:
+            raise ControllerError(f"has {size:,} bytes unpacked, at most {LARGEST:,} are accepted")
+        fmpy.extract(io.BytesIO(content), folder)
+    except ControllerError:
+        raise
+    except BadZipFile:
+        raise ControllerError("is no FMU: it is not a ZIP archive, or a damaged one") from None
+    except Exception as error:
+        raise ControllerError(f"cannot be unpacked: {reason_of(error)}") from error
+    if not (folder / "modelDescription.xml").is_file():
+        raise ControllerError("is no FMU: it has no modelDescription.xml")
+
+
+def _description(folder: Path) -> Any:
+    try:
+        # Many tools' files break a rule of the schema that nothing here depends on.
+        return fmpy.read_model_description(folder, validate=False)
+    except Exception as error:
+        raise ControllerError(
+            f"has a modelDescription.xml that cannot be read: {reason_of(error)}"
+        ) from error
+
+
+def _check(folder: Path, description: Any) -> None:
+    """Raise ControllerError unless it is for co-simulation, of a known version and for this machine."""
+    if not description.fmiVersion.startswith(_VERSIONS):
+        raise ControllerError(f"is an FMU of FMI {description.fmiVersion}, expected {' or '.join(_VERSIONS)}")
+    if description.coSimulation is None:
+        raise ControllerError("is an FMU without co-simulation: export it for co-simulation")
+    platform = fmpy.platform if description.fmiVersion == "2.0" else fmpy.platform_tuple
+    binary = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
+    if not (folder / "binaries" / platform / binary).is_file():
+        platforms = ", ".join(sorted(each.name for each in folder.glob("binaries/*") if each.is_dir()))
+        found = f"only for {platforms}" if platforms else "for no platform"
+        raise ControllerError(f"is built {found}, expected {platform} with {binary}")

@@ -1,0 +1,118 @@
+"""Find the variables of an FMU by name."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any, Final
+
+from uictest.controllers.adapters.fmu.access import BoundVariable
+from uictest.controllers.adapters.instance import ControllerError
+from uictest.controllers.exchange import WHEELSETS
+
+FLOATS: Final = ("Real", "Float64", "Float32")
+_WHOLE: Final = ("Integer", "Enumeration", "Boolean")
+_SHOWN: Final = 8
+_FIRST_NUMBERS: Final = (1, 0)
+"""Wheelsets are counted from 1; a tool may count from 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A quantity that a controller is given or answers.
+
+    Attributes:
+        name: ours.
+        causality: of its variables in an FMU; what is set as a parameter may be an input as well.
+        count: how many there are.
+        is_whole: whether a variable of whole numbers or truth values can hold it.
+        is_needed: whether an FMU must have it.
+    """
+
+    name: str
+    causality: str
+    count: int = 1
+    is_whole: bool = False
+    is_needed: bool = False
+
+    def fits(self, variable: Any) -> bool:
+        """Return whether a variable has the causality and a type for it."""
+        causalities = (self.causality, "input") if self.causality == "parameter" else (self.causality,)
+        whole = self.is_whole and ("Int" in variable.type or variable.type in _WHOLE)
+        return variable.causality in causalities and (variable.type in FLOATS or whole)
+
+
+def bind(description: Any, declared: Iterable[Declared], names: Mapping[str, str]) -> list[BoundVariable]:
+    """Return the variables of some quantities.
+
+    Args:
+        description: of the FMU, as FMPy reads it.
+        declared: the quantities.
+        names: names of variables by ours; %d stands for the number of the wheelset.
+
+    Raises:
+        ControllerError: for a variable that is needed or named and not there, or cannot hold the quantity.
+    """
+    variables = {each.name: each for each in description.modelVariables}
+    return [bound for quantity in declared for bound in _bind(variables, quantity, names.get(quantity.name))]
+
+
+def _bind(variables: Mapping[str, Any], quantity: Declared, name: str | None) -> list[BoundVariable]:
+    candidates = list(_candidates(quantity, name))
+    found = next((each for each in candidates if all(own in variables for own in each)), None)
+    if found is None:
+        if name is None and not quantity.is_needed:
+            return []
+        raise ControllerError(_missing(variables, quantity, name, candidates[0]))
+    chosen = [variables[each] for each in found]
+    unfit = next((each for each in chosen if not quantity.fits(each)), None)
+    if unfit is not None and name is None and not quantity.is_needed:
+        return []
+    if unfit is not None:
+        raise ControllerError(_unfit(quantity, unfit))
+    return _with_slots(quantity, chosen)
+
+
+def _candidates(quantity: Declared, name: str | None) -> Iterator[list[str]]:
+    """Yield the names of variables that may hold a quantity, each as a list of one for all or of one each."""
+    template = name or (quantity.name if quantity.count == 1 else f"{quantity.name}_%d")
+    if "%d" in template and quantity.count > 1:
+        for first in _FIRST_NUMBERS:
+            yield [template.replace("%d", str(first + place)) for place in range(quantity.count)]
+    else:
+        yield [template]
+    if name is None and quantity.count > 1:
+        yield [quantity.name]
+
+
+def _with_slots(quantity: Declared, variables: Sequence[Any]) -> list[BoundVariable]:
+    slots = [(quantity.name, place) for place in range(quantity.count)]
+    if len(variables) == quantity.count:
+        for variable in variables:
+            _check_size(variable, 1)
+        return [BoundVariable(variable, (slot,)) for variable, slot in zip(variables, slots, strict=True)]
+    _check_size(variables[0], quantity.count)
+    return [BoundVariable(variables[0], tuple(slots))]
+
+
+def _check_size(variable: Any, expected: int) -> None:
+    size = prod(variable.shape or ())
+    if size != expected:
+        hint = "; write %d for the number of the wheelset" if expected == WHEELSETS and size == 1 else ""
+        values = "one value" if size == 1 else f"{size} values"
+        raise ControllerError(f"has {values} in {variable.name}, expected {expected}{hint}")
+
+
+def _missing(variables: Mapping[str, Any], quantity: Declared, name: str | None, names: list[str]) -> str:
+    there = [each.name for each in variables.values() if each.causality == quantity.causality]
+    absent = next(each for each in names if each not in variables)
+    shown = ", ".join(there[:_SHOWN]) or "none"
+    more = f" and {len(there) - _SHOWN} more" if len(there) > _SHOWN else ""
+    number = "_%d" if quantity.count > 1 else ""
+    hint = "" if name else f"; name it: variables: {{{quantity.name}: its_name{number}}}"
+    return f"has no {quantity.causality} {absent}; its {quantity.causality}s: {shown}{more}{hint}"
+
+
+def _unfit(quantity: Declared, variable: Any) -> str:
+    types = "a number or truth value" if quantity.is_whole else "Real or Float64"
+    found = f"{variable.causality} of type {variable.type}"
+    return f"has {variable.name} as {found}, expected {quantity.causality} of type {types}"

@@ -1,0 +1,198 @@
+"""What every adapter returns: a controller that compiled code calls by address."""
+
+import ctypes
+import math
+import traceback
+from abc import ABC, abstractmethod
+from pathlib import Path
+from typing import Any, Final, Protocol
+
+import numpy as np
+
+from uictest.controllers.adapters.real_time import ResponseTimes
+from uictest.controllers.exchange import INPUTS, OUTPUTS, WHEELSETS
+from uictest.controllers.interface import Inputs, Outputs
+
+STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+"""`uictest_step`."""
+_LARGEST_DIAGNOSIS: Final = 2**32 - 1
+LONGEST_MESSAGE: Final = 2000
+"""Characters of what is told about a failure; chosen: a reason stands in every report."""
+_PACKAGE: Final = Path(__file__).parents[2]
+
+
+class ControllerError(Exception):
+    """A controller cannot be loaded, or failed; the message says why."""
+
+    def __init__(self, message: str) -> None:
+        more = " ..." if len(message) > LONGEST_MESSAGE else ""
+        super().__init__(message[:LONGEST_MESSAGE] + more)
+
+
+class ControllerInstance(Protocol):
+    """A controller for one stop, created and not yet reset."""
+
+    version: str
+    """What it says of itself, empty if nothing."""
+
+    @property
+    def runs_beside_others(self) -> bool:
+        """Whether its step is machine code, and others of its kind may be open at the same time."""
+
+    @property
+    def step_address(self) -> int:
+        """Address of a function like `uictest_step`."""
+
+    @property
+    def handle(self) -> int:
+        """First argument of that function."""
+
+    def reset(self) -> None:
+        """Return to the state after creation. Raises ControllerError."""
+
+    @property
+    def response_times(self) -> ResponseTimes | None:
+        """How it answered in a stop that was paced by the clock, else None."""
+
+    def last_error(self) -> str:
+        """Return why the last step failed, empty if the controller did not say."""
+
+    def close(self) -> None:
+        """Release the controller; it is not called afterwards."""
+
+
+class CallbackInstance(ABC):
+    """A controller that compiled code calls through a callback; any exception in it ends the stop."""
+
+    version = ""
+    runs_beside_others = False
+
+    def __init__(self) -> None:
+        self._callback = STEP(self._step)
+        self._error = ""
+
+    @property
+    def step_address(self) -> int:
+        """Address of the callback."""
+        return ctypes.cast(self._callback, ctypes.c_void_p).value or 0
+
+    @property
+    def handle(self) -> int:
+        """The callback knows its object."""
+        return 0
+
+    @property
+    def response_times(self) -> ResponseTimes | None:
+        """Most kinds are not paced by the clock."""
+        return None
+
+    def last_error(self) -> str:
+        """Return what the last step raised."""
+        return self._error
+
+    @abstractmethod
+    def reset(self) -> None:
+        """Return to the state after creation. Raises ControllerError."""
+
+    @abstractmethod
+    def answer(self, inputs: int, outputs: int) -> None:
+        """Decide on the coming cycle: read the inputs at one address, write the outputs to the other."""
+
+    def close(self) -> None:  # noqa: B027 - most have nothing to release
+        """Release what the controller holds."""
+
+    def _step(self, handle: int | None, inputs: int, outputs: int) -> int:
+        # An exception must not leave a callback: ctypes would print it and answer 0.
+        try:
+            self.answer(inputs, outputs)
+        except BaseException as error:
+            self._error = f"{reason_of(error)}{_place_of(error)}"
+            return 1
+        return 0
+
+
+class CalledInstance(CallbackInstance):
+    """A controller whose step is a method."""
+
+    @abstractmethod
+    def step(self, inputs: Inputs) -> Outputs:
+        """Decide on the coming cycle."""
+
+    def answer(self, inputs: int, outputs: int) -> None:
+        """Call the method."""
+        write_outputs(at_address(outputs, OUTPUTS), self.step(read_inputs(at_address(inputs, INPUTS))))
+
+
+def reason_of(error: BaseException) -> str:
+    """Return an exception in one line."""
+    name = type(error).__name__
+    try:
+        text = str(error)
+    except Exception:  # the text of an exception is foreign code as well
+        return name
+    if isinstance(error, ControllerError):
+        return text
+    return f"{name}: {text}" if text else name
+
+
+def _place_of(error: BaseException) -> str:
+    """Return the line of the controller's own code that an exception comes from."""
+    if isinstance(error, ControllerError):
+        return ""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if not Path(frame.filename).is_relative_to(_PACKAGE)]
+    return f" ({Path(own[-1].filename).name}, line {own[-1].lineno})" if own else ""
+
+
+def at_address(address: int, layout: Any) -> Any:
+    """Return the record of a layout that lies at an address."""
+    memory = (ctypes.c_char * layout.itemsize).from_address(address)
+    return np.frombuffer(memory, layout)[0]
+
+
+def read_inputs(record: Any) -> Inputs:
+    """Return inputs as a Python controller sees them."""
+    cycle, time, speeds, pressures, demand, valid = record.tolist()
+    # Arrays give their numbers as Python's by tolist alone.
+    valid = tuple(map(bool, valid.tolist()))
+    return Inputs(cycle, time, tuple(speeds.tolist()), valid, tuple(pressures.tolist()), demand)
+
+
+def write_outputs(record: Any, outputs: Outputs) -> None:
+    """Write the answer of a Python controller. Raises ControllerError where it is none."""
+    try:
+        hold, vent, reference, diagnosis = (
+            *(outputs.hold, outputs.vent),
+            *(outputs.reference_speed, outputs.diagnosis),
+        )
+    except AttributeError:
+        raise ControllerError(f"step returned {type(outputs).__name__}, expected Outputs") from None
+    record["hold"], record["vent"] = _magnets("hold", hold), _magnets("vent", vent)
+    record["reference_speed"] = _number("reference_speed", math.nan if reference is None else reference)
+    record["diagnosis"] = _bits(diagnosis)
+
+
+def _magnets(name: str, values: Any) -> list[int]:
+    try:
+        listed = list(values)
+    except TypeError:
+        raise ControllerError(f"{name} is {values!r}, expected {WHEELSETS} values") from None
+    if len(listed) != WHEELSETS:
+        raise ControllerError(f"{name} has {len(listed)} values, expected {WHEELSETS}")
+    for place, value in enumerate(listed):
+        if value not in (0, 1):
+            raise ControllerError(f"{name}[{place}] is {value!r}, expected 0 or 1")
+    return [int(value) for value in listed]
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ControllerError(f"{name} is {value!r}, expected a number") from None
+
+
+def _bits(value: Any) -> int:
+    if isinstance(value, float) or not 0 <= int(value) <= _LARGEST_DIAGNOSIS:
+        raise ControllerError(f"diagnosis is {value!r}, expected a whole number of 32 bits")
+    return int(value)

@@ -1,0 +1,89 @@
+"""Controllers written in Python: a class in a file."""
+
+import hashlib
+import importlib.util
+import sys
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from uictest.controllers.adapters.imports import check_imports
+from uictest.controllers.adapters.instance import CalledInstance, ControllerError, reason_of
+from uictest.controllers.interface import Config, Inputs, Outputs
+from uictest.controllers.program import ControllerProgram
+
+
+class PythonInstance(CalledInstance):
+    """An object of the user's class."""
+
+    def __init__(self, controller: Any, version: str) -> None:
+        super().__init__()
+        self._controller = controller
+        self.version = version
+
+    def reset(self) -> None:
+        """Call the object's ``reset``."""
+        try:
+            self._controller.reset()
+        except (Exception, SystemExit) as error:
+            raise ControllerError(f"reset failed: {reason_of(error)}") from error
+
+    def step(self, inputs: Inputs) -> Outputs:
+        """Call the object's ``step``."""
+        outputs: Outputs = self._controller.step(inputs)
+        return outputs
+
+
+def open_controller(program: ControllerProgram, config: Config) -> PythonInstance:
+    """Load the file, once per process, and create an object of the class. Raises ControllerError."""
+    module = _loaded(program.location, program.sha256)
+    return created(module, program.options["class"], config)
+
+
+def created(module: ModuleType, name: str, config: Config) -> PythonInstance:
+    """Return an object of a class of a module. Raises ControllerError."""
+    kind = getattr(module, name, None)
+    if not isinstance(kind, type):
+        defined = [each for each, value in vars(module).items() if isinstance(value, type)]
+        own = [each for each in defined if getattr(module, each).__module__ == module.__name__]
+        message = f"{Path(str(module.__file__)).name} has no class {name!r}"
+        raise ControllerError(f"{message}; its classes: {', '.join(own) or 'none'}")
+    return object_of(kind, config, str(getattr(module, "__version__", "")))
+
+
+def object_of(kind: type, config: Config, version: str) -> PythonInstance:
+    """Return an object of a class. Raises ControllerError."""
+    name: str = kind.__name__
+    for method in ("reset", "step"):
+        if not callable(getattr(kind, method, None)):
+            raise ControllerError(f"class {name} has no method {method!r}")
+    try:
+        return PythonInstance(kind(config), version)
+    except (Exception, SystemExit) as error:
+        raise ControllerError(f"{name}(config) failed: {reason_of(error)}") from error
+
+
+@cache
+def _loaded(location: str, sha256: str) -> ModuleType:
+    """Return the module of a file; its own folder is searched for what it imports."""
+    path = Path(location)
+    content = path.read_bytes()
+    if hashlib.sha256(content).hexdigest() != sha256:
+        raise ControllerError(f"{path.name} has changed since the scenario was read")
+    # dataclasses look a class's module up by its name; a file called json.py takes no other's place.
+    name = location if path.stem in sys.modules else path.stem
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise ControllerError(f"{path.name} is no Python file")
+    check_imports(path)
+    module = importlib.util.module_from_spec(spec)
+    if str(path.parent) not in sys.path:
+        sys.path.insert(0, str(path.parent))
+    sys.modules[name] = module
+    try:
+        exec(compile(content, location, "exec"), vars(module))
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        raise ControllerError(f"{path.name} cannot be imported: {reason_of(error)}") from error
+    return module

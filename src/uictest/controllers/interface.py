@@ -1,0 +1,87 @@
+"""What a controller written in Python is given and answers; see docs/controllers.md.
+
+    from uictest.controllers import Config, Inputs, Outputs
+
+    class MyWsp:
+        def __init__(self, config: Config) -> None: ...
+        def reset(self) -> None: ...
+        def step(self, inputs: Inputs) -> Outputs: ...
+
+SI units. Wheelset 0 is the leading one.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """What a controller is given once, before a stop.
+
+    Attributes:
+        wheelsets: number of wheelsets.
+        cycle_time: time from one call of ``step`` to the next, s.
+        initial_speed: of the train at the brake command, m/s.
+        wheel_radius: radius that ``wheel_speed`` is computed with, m, one per wheelset.
+        parameters: ``parameters`` of the scenario's controller.
+        case_sha256: of everything that decides the stop but the controller, see
+            :func:`uictest.rig.assembly.case_sha256`; empty where there is no case.
+    """
+
+    wheelsets: int
+    cycle_time: float
+    initial_speed: float
+    wheel_radius: tuple[float, ...]
+    parameters: Mapping[str, Any]
+    case_sha256: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """What the sensors show at the start of a controller cycle.
+
+    Attributes:
+        cycle: number of the cycle, 0 at the brake command.
+        time: ``cycle`` x ``cycle_time``, s.
+        wheel_speed: circumferential, as the sensor gives it, m/s, one per wheelset.
+        speed_valid: False where a speed sensor reports a fault.
+        cylinder_pressure: as the sensor gives it, gauge, Pa, one per wheelset.
+        brake_demand: share of full service; a brake is demanded above 0.
+    """
+
+    cycle: int
+    time: float
+    wheel_speed: tuple[float, ...]
+    speed_valid: tuple[bool, ...]
+    cylinder_pressure: tuple[float, ...]
+    brake_demand: float
+
+
+@dataclass(slots=True)
+class Outputs:
+    """The answer of a controller for the coming cycle.
+
+    Attributes:
+        hold: whether the holding magnet is energised, one per wheelset.
+        vent: whether the venting magnet is energised, one per wheelset. Neither fills the cylinder, hold
+            alone holds its pressure, both vent it; vent without hold is forbidden and ends the stop.
+        reference_speed: estimated speed of the train, m/s; NaN: none.
+        diagnosis: 32 bits of the controller's own, recorded with the stop.
+    """
+
+    hold: Sequence[bool | int]
+    vent: Sequence[bool | int]
+    reference_speed: float = math.nan
+    diagnosis: int = 0
+
+
+class PythonController(Protocol):
+    """A controller written in Python. It is created with a :class:`Config` for every stop, then reset."""
+
+    def reset(self) -> None:
+        """Return to the state after creation."""
+
+    def step(self, inputs: Inputs) -> Outputs:
+        """Decide on the coming cycle."""

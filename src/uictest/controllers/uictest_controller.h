@@ -1,0 +1,77 @@
+/* A wheel-slide-protection controller for uictest, in C.
+ *
+ * A controller is a shared library that exports the functions below (`uictest_version` may be left out).
+ * uictest creates a controller for every stop, resets it, calls `uictest_step` once per controller cycle, and
+ * destroys it. Several controllers of one library may live at the same time, each used by one thread at a
+ * time: keep all memory in the controller, none in static variables.
+ *
+ *     gcc -O2 -fPIC -shared -o libwsp.so wsp.c        the header's folder: uictest init controller --c DIR
+ *
+ * SI units. Wheelset 0 is the leading one.
+ */
+#ifndef UICTEST_CONTROLLER_H
+#define UICTEST_CONTROLLER_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define UICTEST_ABI_VERSION 1
+#define UICTEST_WHEELSETS 4
+
+#if defined(_WIN32)
+#define UICTEST_EXPORT __declspec(dllexport)
+#else
+#define UICTEST_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* Given once, before a stop. Copy what you need: the memory is not kept. */
+typedef struct {
+    int32_t wheelsets;                          /* UICTEST_WHEELSETS */
+    int32_t reserved;
+    double cycle_time;                          /* s */
+    double initial_speed;                       /* of the train at the brake command, m/s */
+    double wheel_radius[UICTEST_WHEELSETS];     /* that wheel_speed is computed with, m */
+    const char *parameters;                     /* `parameters` of the scenario, a JSON object in UTF-8 */
+} uictest_config;
+
+/* Read once per cycle, before the controller decides. */
+typedef struct {
+    int64_t cycle;                              /* 0 at the brake command */
+    double time;                                /* cycle x cycle_time, s */
+    double wheel_speed[UICTEST_WHEELSETS];      /* circumferential, as the sensor gives it, m/s */
+    double cylinder_pressure[UICTEST_WHEELSETS];/* as the sensor gives it, gauge, Pa */
+    double brake_demand;                        /* share of full service; a brake is demanded above 0 */
+    int32_t speed_valid[UICTEST_WHEELSETS];     /* 0: the sensor reports a fault */
+} uictest_inputs;
+
+/* Magnets of the WSP valves: hold 0 vent 0 fills, 1 0 holds, 1 1 vents; 0 1 is forbidden and ends the stop.
+ * Before every call hold, vent and diagnosis are 0, and reference_speed is NaN. */
+typedef struct {
+    double reference_speed;                     /* estimated speed of the train, m/s; NaN: none */
+    int32_t hold[UICTEST_WHEELSETS];            /* 0 or 1 */
+    int32_t vent[UICTEST_WHEELSETS];            /* 0 or 1 */
+    uint32_t diagnosis;                         /* any bits; recorded with the stop */
+} uictest_outputs;
+
+/* UICTEST_ABI_VERSION: any other number is rejected. */
+UICTEST_EXPORT uint32_t uictest_abi_version(void);
+/* Version of the controller for the reports, such as "2.1.0". May be left out. */
+UICTEST_EXPORT const char *uictest_version(void);
+/* A controller, or NULL: uictest_last_error(NULL) says why. */
+UICTEST_EXPORT void *uictest_create(const uictest_config *config);
+/* Return to the state after create. 0, or any other number: uictest_last_error says why. */
+UICTEST_EXPORT int32_t uictest_reset(void *controller);
+/* Decide on the coming cycle. 0, or any other number to end the stop: uictest_last_error says why. */
+UICTEST_EXPORT int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs);
+UICTEST_EXPORT void uictest_destroy(void *controller);
+/* Why the last call failed, UTF-8, valid until the next call; NULL or "" if there is nothing to say. */
+UICTEST_EXPORT const char *uictest_last_error(void *controller);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

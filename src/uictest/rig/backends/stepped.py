@@ -1,0 +1,202 @@
+"""A stop in machine code that another program carries on, one controller cycle at a time.
+
+No controller is called: commands and sensor readings pass through the exchange.
+"""
+
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+
+from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.assembly import StopInputs
+from uictest.rig.backends.compiled import (
+    OPTIONS,
+    callback,
+    compiled_operations,
+    compiler,
+    translate,
+    with_controller,
+)
+from uictest.rig.backends.finished_stop import FinishedStop, empty_trace, rows_of_trace
+from uictest.rig.backends.machine_code import Target, address, is_kept, native_function, object_code
+from uictest.rig.model.external_controller import EXTERNAL
+from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.stepped_stop import step_stop
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+
+STOP_MEMORY: Final[Any] = np.dtype(
+    [
+        ("car", CAR),
+        ("bogies", BOGIE, 2),
+        ("wheelsets", WHEELSET, 4),
+        ("parameters", PARAMETERS),
+        ("rail_memory", RAIL_MEMORY),
+        ("measures", STOP_MEASURES),
+        ("wheelset_measures", WHEELSET_MEASURES, 4),
+        ("exchange", EXCHANGE),
+        ("train", TRAIN_SAMPLE, 1),
+        ("modules", WHEELSET_SAMPLE, (1, 4)),
+    ]
+)
+"""Everything that changes in a stop, in one piece without addresses: a copy of it is a copy of the stop.
+
+`train` and `modules` are the present true state, as a row of a trace. Zeroed, with `parameters` filled in, it
+is a stop that has not begun.
+"""
+STEP_NAME: Final = "uictest_step_stop"
+"""Name of the function in machine code."""
+STEP_ARGUMENTS: Final = (
+    *(CAR, BOGIE, WHEELSET, PARAMETERS, RAIL_MEMORY, STOP_MEASURES, WHEELSET_MEASURES, EXCHANGE),
+    *(TRAIN_SAMPLE, WHEELSET_SAMPLE),
+    *(WHEELSET_PARAMETERS, "f8", int, TRAIN_SAMPLE, WHEELSET_SAMPLE, int, int, int),
+)
+"""Its arguments as `compiled.callback` names them: addresses of the parts of :data:`STOP_MEMORY`, of the
+wheelsets' parameters and of the rail, points of the rail, addresses of a trace, rows that it has room for,
+steps per sample, rows that are filled. It returns the rows filled afterwards."""
+
+
+def stepping_is_compiled(target: Target | None = None) -> bool:
+    """Return whether the cache holds the stepped stop for a target [default: this process]."""
+    return is_kept(STEP_NAME, target)
+
+
+def stepping_code(target: Target) -> bytes:
+    """Return the stepped stop as an object file for a target."""
+    return object_code(STEP_NAME, _compile, target)
+
+
+class SteppedStop:
+    """One stop that is carried on from outside, on memory of its own.
+
+    Attributes:
+        memory: record of :data:`STOP_MEMORY`.
+        exchange: its part of that name.
+        inputs: what the sensors show for the coming cycle, the record of :data:`~uictest.controllers.INPUTS`
+            within the exchange.
+        outputs: the commands for that cycle, the record of :data:`~uictest.controllers.OUTPUTS` within it.
+    """
+
+    def __init__(self, inputs: StopInputs, steps_per_sample: int = 0) -> None:
+        """Begin the stop.
+
+        Args:
+            inputs: parameters, those of the wheelsets and rail; the controller plays no part.
+            steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
+        """
+        memory = np.zeros(1, STOP_MEMORY)
+        memory["parameters"] = inputs.parameters
+        self.memory: Any = memory[0]
+        self.exchange: Any = self.memory["exchange"]
+        place = STOP_MEMORY.fields["exchange"][1]
+        self.inputs: Any = np.frombuffer(memory, INPUTS, 1, place)[0]
+        self.outputs: Any = np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT)[0]
+        self._trace = empty_trace(rows_of_trace(inputs.parameters, steps_per_sample))
+        self._arguments = (
+            *_addresses_within(self.memory),
+            *(address(inputs.wheelset_parameters, WHEELSET_PARAMETERS, (4,)), *_rail(inputs.rail)),
+            *(*_of_trace(self._trace), steps_per_sample),
+        )
+        self._kept = inputs  # the machine code reads them by their addresses
+        self._step = _native_step()
+        self._rows = 0
+        self.step()
+
+    @property
+    def stands(self) -> bool:
+        """Whether the train stands."""
+        return bool(self.memory["car"]["stopped"])
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the train stands, or the longest duration of a stop has passed."""
+        return self.stands or bool(self.memory["car"]["cycle"] >= self.memory["parameters"]["cycles"])
+
+    def step(self) -> None:
+        """Carry out the commands in the exchange until the next cycle."""
+        self._rows = self._step(*self._arguments, self._rows)
+
+    def finished(self) -> FinishedStop:
+        """Return what the stop leaves, which must have ended."""
+        memory, rows = self.memory, self._rows
+        return FinishedStop(
+            memory["measures"],
+            memory["wheelset_measures"].view(np.recarray),
+            memory["car"],
+            memory["wheelsets"].view(np.recarray),
+            Trace(self._trace.train[:rows], self._trace.wheelsets[:rows]),
+        )
+
+
+@cache
+def _native_step() -> Any:
+    return native_function(STEP_NAME, _compile, len(STEP_ARGUMENTS))
+
+
+def _addresses_within(memory: Any) -> tuple[int, ...]:
+    start = int(memory.__array_interface__["data"][0])
+    return tuple(start + STOP_MEMORY.fields[name][1] for name in STOP_MEMORY.names)
+
+
+def _rail(rail: Any) -> tuple[int, int]:
+    return address(rail, np.dtype("f8"), (ROWS, rail.shape[1])), rail.shape[1]
+
+
+def _of_trace(trace: Trace) -> tuple[int, int, int]:
+    rows = len(trace.train)
+    return (
+        address(trace.train, TRAIN_SAMPLE, (rows,)),
+        address(trace.wheelsets, WHEELSET_SAMPLE, (rows, 4)),
+        rows,
+    )
+
+
+def _compile() -> Any:
+    """Return the stepped stop compiled by numba, as a function of addresses and the lengths behind them."""
+    numba = compiler()
+    carray, njit = numba.carray, numba.njit(**OPTIONS)
+    entry = translate(step_stop, njit, with_controller(EXTERNAL, njit, compiled_operations()))
+
+    def on_addresses(
+        car: Any,
+        bogies: Any,
+        wheelsets: Any,
+        p: Any,
+        memory: Any,
+        measures: Any,
+        wheelset_measures: Any,
+        exchange: Any,
+        present_train: Any,
+        present_wheelsets: Any,
+        wheelset_parameters: Any,
+        rail: Any,
+        points: int,
+        train_samples: Any,
+        wheelset_samples: Any,
+        room: int,
+        steps_per_sample: int,
+        rows: int,
+    ) -> Any:
+        return entry(
+            carray(car, 1)[0],
+            carray(bogies, 2),
+            carray(wheelsets, 4),
+            carray(p, 1)[0],
+            carray(wheelset_parameters, 4),
+            carray(rail, (ROWS, points)),
+            carray(memory, 1)[0],
+            carray(measures, 1)[0],
+            carray(wheelset_measures, 4),
+            carray(exchange, 1)[0],
+            Trace(carray(present_train, 1), carray(present_wheelsets, (1, 4))),
+            Trace(carray(train_samples, room), carray(wheelset_samples, (room, 4))),
+            steps_per_sample,
+            rows,
+        )
+
+    return callback(on_addresses, *STEP_ARGUMENTS)

@@ -1,0 +1,1 @@
+"""Stops with a controller from outside: in this process, or each in a child process that may crash."""

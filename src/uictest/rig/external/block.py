@@ -1,0 +1,181 @@
+"""A block of stops, some or all with controllers from outside, in one process.
+
+Controllers in machine code are called by address, lane by lane. Others run their stops one after the other:
+they need the interpreter, or can have only one controller at a time.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.controllers import (
+    EXCHANGE,
+    Config,
+    Controller,
+    ControllerError,
+    ControllerInstance,
+    ControllerProgram,
+)
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.assembly import StopInputs
+from uictest.rig.backends.finished_stop import run_to_end
+from uictest.rig.backends.lanes import lanes_are_compiled, load_lanes, run_in_lanes
+from uictest.rig.backends.native import compiled_stop, stops_are_compiled
+from uictest.rig.external.opened import opened
+
+
+class BlockRun(NamedTuple):
+    """What a block of stops leaves.
+
+    Attributes:
+        measures: records of :data:`uictest.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.measures.WHEELSET_MEASURES`, shape (cases, 4).
+        failures: for each case why its controller failed, empty where it did not; the measures of a case
+            that failed mean nothing.
+    """
+
+    measures: NDArray[Any]
+    wheelset_measures: NDArray[Any]
+    failures: list[str]
+
+
+class BlockInputs(NamedTuple):
+    """What a block of stops is run with.
+
+    Attributes:
+        programs: the controller of each case that comes from outside, None where it is built in.
+        configs: what those controllers are given before the stop.
+        parameters: as for :func:`~uictest.rig.backends.lanes.run_in_lanes`; the addresses of controllers from
+            outside are written into them.
+        wheelset_parameters: likewise.
+        rail: likewise.
+        controllers: likewise; of one from outside, what stands in its place in the model.
+    """
+
+    programs: Sequence[ControllerProgram | None]
+    configs: Sequence[Config | None]
+    parameters: NDArray[Any]
+    wheelset_parameters: NDArray[Any]
+    rail: NDArray[np.float64]
+    controllers: Sequence[Controller]
+
+    def at(self, places: Sequence[int]) -> "BlockInputs":
+        """Return some of the cases."""
+        return BlockInputs(
+            [self.programs[place] for place in places],
+            [self.configs[place] for place in places],
+            *(self.parameters[places], self.wheelset_parameters[places], self.rail[places]),
+            [self.controllers[place] for place in places],
+        )
+
+
+class _Block(NamedTuple):
+    """The stops of a block: what they are run with, what they talk to, what they leave."""
+
+    inputs: BlockInputs
+    exchanges: NDArray[Any]
+    run: BlockRun
+
+    def opened(self, place: int) -> AbstractContextManager[ControllerInstance]:
+        """Return the context in which the controller of a case from outside is open."""
+        program, config = self.inputs.programs[place], self.inputs.configs[place]
+        parameters, exchange = self.inputs.parameters[place], self.exchanges[place]
+        return opened(program, config, parameters, exchange)  # type: ignore[arg-type]
+
+
+def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> BlockRun:
+    """Run the stop of every case; a controller that fails ends its own stop, the others keep their bits.
+
+    Args:
+        inputs: the cases.
+        exchanges: zeroed records of :data:`~uictest.controllers.EXCHANGE`, one per case, through which the
+            controllers are called [default: memory of its own].
+    """
+    count = len(inputs.programs)
+    run = empty_run(count)
+    block = _Block(inputs, np.zeros(count, EXCHANGE) if exchanges is None else exchanges, run)
+    with ExitStack() as controllers:
+        ready = [place for place in range(count) if _is_ready(block, place, controllers)]
+        if ready:
+            _run_in_lanes(block, ready)
+    return run
+
+
+def empty_run(count: int) -> BlockRun:
+    """Return what so many stops leave, not yet filled."""
+    return BlockRun(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES), [""] * count)
+
+
+def load_block(programs: Sequence[ControllerProgram | None], controllers: Sequence[Controller]) -> None:
+    """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
+    for program, controller in zip(programs, controllers, strict=True):
+        if _may_run_in_lanes(program):
+            load_lanes(controller)
+        if _may_run_alone(program):
+            compiled_stop(controller)
+
+
+def block_is_compiled(
+    programs: Sequence[ControllerProgram | None], controllers: Sequence[Controller]
+) -> bool:
+    """Return whether the cache holds everything that :func:`load_block` loads."""
+    beside = [each for program, each in zip(programs, controllers, strict=True) if _may_run_in_lanes(program)]
+    alone = [each for program, each in zip(programs, controllers, strict=True) if _may_run_alone(program)]
+    return lanes_are_compiled(beside) and stops_are_compiled(alone)
+
+
+# What a package has registered runs in either way; which one is known once the package is imported.
+
+
+def _may_run_in_lanes(program: ControllerProgram | None) -> bool:
+    return program is None or program.kind in ("library", "registered")
+
+
+def _may_run_alone(program: ControllerProgram | None) -> bool:
+    return program is not None and program.kind != "library"
+
+
+def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
+    """Open the controller of a case, and return whether it waits for the lanes; else its stop is over."""
+    if block.inputs.programs[place] is None:
+        return True
+    with ExitStack() as opening:
+        # The outer context gets the failure of a stop, which is known when its controller is closed.
+        opening.enter_context(_noted(block.run.failures, place))
+        controller = opening.enter_context(block.opened(place))
+        if controller.runs_beside_others:
+            controllers.enter_context(opening.pop_all())
+            return True
+        _run_alone(block, place)
+    return False
+
+
+def _run_in_lanes(block: _Block, places: Sequence[int]) -> None:
+    """Run cases side by side, each with a controller of its own that is open."""
+    ready = block.inputs.at(places)
+    batch = run_in_lanes(ready.parameters, ready.wheelset_parameters, ready.rail, ready.controllers)
+    block.run.measures[places], block.run.wheelset_measures[places] = batch
+
+
+def _run_alone(block: _Block, place: int) -> None:
+    """Run one case whose controller is open and cannot run beside others."""
+    programs, configs, parameters, wheelset_parameters, rail, controllers = block.inputs
+    records = parameters[place], wheelset_parameters[place], rail[place]
+    stop = StopInputs(*records, controllers[place], programs[place], configs[place])
+    finished = run_to_end(compiled_stop(stop.controller), stop)
+    block.run.measures[place], block.run.wheelset_measures[place] = (
+        finished.measures,
+        finished.wheelset_measures,
+    )
+
+
+@contextmanager
+def _noted(failures: list[str], place: int) -> Iterator[None]:
+    """Keep why the controller of a case failed, instead of raising it."""
+    try:
+        yield
+    except ControllerError as error:
+        failures[place] = f"controller: {error}"

@@ -1,0 +1,90 @@
+"""The program of a child process: it runs stops with controllers from outside, or drives such a controller
+through given cycles, one after the other.
+
+    python -m uictest.rig.external.child EXCHANGE LIFELINE FOLDER
+
+Requests come through standard input, answers go through standard output; what a controller prints goes to
+standard error. EXCHANGE is a file descriptor of the memory that the parent watches. The process ends when
+LIFELINE, a pipe that the parent holds open, is closed, and then removes FOLDER, which has temporary files.
+"""
+
+import mmap
+import os
+import shutil
+import sys
+from threading import Thread
+from typing import Any, BinaryIO, Final
+
+import numpy as np
+
+from uictest.controllers import EXCHANGE, ControllerError
+from uictest.rig.external.block import run_block
+from uictest.rig.external.drive import drive_controller
+from uictest.rig.external.drive_messages import drive_request_of, drives_message
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.messages import Message, StreamEndedError, read_message, write_message
+from uictest.rig.external.stop_messages import block_of, finished_message, run_message, stop_of
+
+
+def serve(exchange_file: int, lifeline: int, temporary_folder: str) -> None:
+    """Answer requests until there are no more."""
+    Thread(target=_end_with, args=(lifeline, temporary_folder), daemon=True).start()
+    requests, answers = _private_streams()
+    memory: Any = mmap.mmap(exchange_file, 0)
+    if hasattr(mmap, "MADV_DONTFORK"):
+        # A copy of this process that a controller forks would run the same stop in the same memory.
+        memory.madvise(mmap.MADV_DONTFORK)
+    exchanges = np.frombuffer(memory, EXCHANGE)
+    while True:
+        try:
+            request = read_message(requests)
+        except StreamEndedError:
+            return
+        memory[:] = bytes(len(memory))
+        answer = _answer(request, exchanges)
+        write_message(answers, answer.head, answer.blocks)
+
+
+def _answer(request: Message, exchanges: Any) -> Message:
+    try:
+        return _ANSWERS[request.head["request"]](request, exchanges)
+    except ControllerError as error:
+        return Message({"error": str(error)})
+
+
+def _stop(request: Message, exchanges: Any) -> Message:
+    return finished_message(run_in_process(*stop_of(request), exchanges[0]))
+
+
+def _block(request: Message, exchanges: Any) -> Message:
+    inputs = block_of(request)
+    return run_message(run_block(inputs, exchanges[: len(inputs.programs)]))
+
+
+def _drive(request: Message, exchanges: Any) -> Message:
+    return drives_message(drive_controller(drive_request_of(request), exchanges[0]))
+
+
+_ANSWERS: Final = {"stop": _stop, "block": _block, "drive": _drive}
+
+
+def _private_streams() -> tuple[BinaryIO, BinaryIO]:
+    """Return standard input and output, and leave a controller nothing that it could disturb them with."""
+    requests = os.fdopen(os.dup(0), "rb")
+    answers = os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.dup2(2, 1)
+    os.close(nothing)
+    return requests, answers
+
+
+def _end_with(lifeline: int, temporary_folder: str) -> None:
+    """End the process, whatever it does, once the parent is gone; it can no longer remove the folder."""
+    os.read(lifeline, 1)
+    shutil.rmtree(temporary_folder, ignore_errors=True)
+    os._exit(1)
+
+
+if __name__ == "__main__":
+    serve(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])

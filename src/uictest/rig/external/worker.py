@@ -1,0 +1,205 @@
+"""A child process that runs stops with controllers from outside, watched from here."""
+
+import mmap
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import weakref
+from collections.abc import Sequence
+from contextlib import suppress
+from select import select
+from socket import socket, socketpair
+from time import monotonic
+from typing import Any, Final
+
+import numpy as np
+
+from uictest.controllers import (
+    CLOSING,
+    EXCHANGE,
+    NOT_CALLED,
+    OPENING,
+    STEPPING,
+    WROTE_BEYOND,
+    ControllerError,
+)
+from uictest.rig.assembly import StopInputs
+from uictest.rig.backends.finished_stop import FinishedStop
+from uictest.rig.external.block import BlockInputs, BlockRun
+from uictest.rig.external.drive import DriveRequest, Drives
+from uictest.rig.external.drive_messages import drive_message, drives_of
+from uictest.rig.external.messages import (
+    BrokenMessageError,
+    Message,
+    StreamEndedError,
+    read_message,
+    write_message,
+)
+from uictest.rig.external.stop_messages import block_message, finished_of, run_of, stop_message
+
+LARGEST_BLOCK: Final = 256
+"""Most stops that a child runs at once."""
+OPENING_LIMIT: Final = 60.0
+"""Longest time to load, create and reset a controller, s; chosen: Python files may import large packages."""
+ANSWER_LIMIT: Final = 60.0
+"""Longest time from the first byte of an answer to its last, s; chosen: most take milliseconds."""
+_LONGEST_WAIT: Final = 0.1
+"""Time between two looks at a child that has not answered, s; chosen."""
+_CHILD: Final = "uictest.rig.external.child"
+_NAMES: Final = {STEPPING: "step", OPENING: "loading, create or reset", CLOSING: "destroy"}
+
+ProgramKey = tuple[str, str, str]
+"""What programs share that may run in one process: kind, location, SHA-256."""
+
+
+class LostChildError(ControllerError):
+    """A controller crashed, or did not return in time, and its process is gone.
+
+    `place` is that of the stop in its block, None where it is not known.
+    """
+
+    def __init__(self, message: str, place: int | None) -> None:
+        super().__init__(message)
+        self.place = place
+
+
+class Worker:
+    """A child process; one thread at a time uses it, for one program.
+
+    A process holds one module or library of a name: what lies beside another file of the same program in
+    another version would take the place of its own.
+    """
+
+    def __init__(self, key: ProgramKey) -> None:
+        self.key = key
+        """Of the program that may run on it."""
+        # The child is ended by a signal and removes no file: its temporary files lie in a folder of ours.
+        self._folder = tempfile.TemporaryDirectory(prefix="uictest-child-", ignore_cleanup_errors=True)
+        with tempfile.TemporaryFile() as shared:
+            shared.truncate(LARGEST_BLOCK * EXCHANGE.itemsize)
+            self._memory = mmap.mmap(shared.fileno(), 0)
+            self._exchanges: Any = np.frombuffer(self._memory, EXCHANGE)
+            self._process, self._answers, lifeline = _started(shared.fileno(), self._folder.name)
+        # Only once: the numbers of a closed pipe and of a collected process may be those of others soon.
+        self._release = weakref.finalize(self, _end, self._process, self._answers, lifeline, self._folder)
+        self.usable = True
+        """Whether another stop may be run on it."""
+
+    def run(self, inputs: StopInputs, steps_per_sample: int) -> FinishedStop:
+        """Run a stop. Raises ControllerError; LostChildError where the child is gone."""
+        return finished_of(self._answer(stop_message(inputs, steps_per_sample), [inputs.program]))
+
+    def run_block(self, inputs: BlockInputs) -> BlockRun:
+        """Run at most :data:`LARGEST_BLOCK` stops. Raises LostChildError."""
+        return run_of(self._answer(block_message(inputs), inputs.programs))
+
+    def drive(self, request: DriveRequest) -> Drives:
+        """Drive a controller through given cycles. Raises ControllerError, as :meth:`run`."""
+        return drives_of(self._answer(drive_message(request), [request.program]))
+
+    def close(self) -> None:
+        """End the child and whatever it has started."""
+        self.usable = False
+        self._release()
+
+    def _answer(self, request: Message, programs: Any) -> Message:
+        """Return the answer. Raises ControllerError; a child that may be damaged is not used again."""
+        try:
+            answer = self._asked(request, [program.time_limit for program in programs])
+        except BaseException:
+            self.close()
+            raise
+        # A controller that wrote where it should not may have damaged anything in the child.
+        self.usable = not (self._exchanges["failure"] == WROTE_BEYOND).any()
+        if error := answer.head.get("error"):
+            raise ControllerError(error)
+        return answer
+
+    def _asked(self, request: Message, time_limits: Sequence[float]) -> Message:
+        requests: Any = self._process.stdin
+        try:
+            write_message(requests, request.head, request.blocks)
+            self._wait(time_limits)
+            with self._answers.makefile("rb") as answers:
+                return read_message(answers)
+        except (BrokenMessageError, TimeoutError):
+            raise self._lost("its process sent something else than an answer") from None
+        except (StreamEndedError, BrokenPipeError, ConnectionResetError):
+            raise self._lost(self._ending()) from None
+
+    def _wait(self, time_limits: Sequence[float]) -> None:
+        """Wait for an answer; a controller that does not return in time is an error."""
+        state, since = self._state(), monotonic()
+        while not select([self._answers], [], [], min(_LONGEST_WAIT, *time_limits))[0]:
+            now = self._state()
+            if now != state:
+                state, since = now, monotonic()
+            place, calling, _ = state
+            limit = time_limits[place] if calling == STEPPING else max(OPENING_LIMIT, time_limits[place])
+            if calling != NOT_CALLED and monotonic() - since > limit:
+                raise self._lost(f"{_NAMES[calling]} did not return within {limit:g} s")
+
+    def _state(self) -> tuple[int, int, int]:
+        """Return which stop's controller is asked at present, for what, and how many steps were begun."""
+        calling = self._exchanges["calling"]
+        place = int(calling.argmax())
+        return place, int(calling[place]), int(self._exchanges["cycles"].sum())
+
+    def _lost(self, what: str) -> LostChildError:
+        """Return the error of the stop whose controller has not returned."""
+        calling = np.flatnonzero(self._exchanges["calling"])
+        place = int(calling[0]) if calling.size else None
+        exchange = self._exchanges[place or 0]
+        cycle = f"cycle {exchange['cycle']}" if exchange["cycles"] else "before the first cycle"
+        return LostChildError(f"{what} ({cycle})", place)
+
+    def _ending(self) -> str:
+        """Return in words how the child ended."""
+        _, calling, _ = self._state()
+        try:
+            code = self._process.wait(ANSWER_LIMIT)
+        except subprocess.TimeoutExpired:
+            return "closed what its answers go through"
+        crash = f"crashed with {signal.Signals(-code).name}" if code < 0 else ""
+        within = f"{_NAMES[calling]} " if calling in (OPENING, CLOSING) else ""
+        return within + (crash or f"ended its process with exit code {code}")
+
+
+def _started(exchange_file: int, temporary_folder: str) -> tuple[Any, socket, int]:
+    """Start a child; return it, what its answers come through, and the pipe that keeps it alive."""
+    end, lifeline = os.pipe()
+    answers, its_answers = socketpair()
+    answers.settimeout(ANSWER_LIMIT)
+    try:
+        process = subprocess.Popen(
+            # -P: modules of the working folder are not ours, whatever they are called.
+            [sys.executable, "-P", "-m", _CHILD, str(exchange_file), str(end), temporary_folder],
+            stdin=subprocess.PIPE,
+            stdout=its_answers.fileno(),
+            pass_fds=(exchange_file, end),
+            # Signals of the terminal are for this process, which ends the child and what that has started.
+            start_new_session=True,
+            env={**os.environ, "TMPDIR": temporary_folder},
+        )
+    except BaseException:
+        os.close(lifeline)
+        answers.close()
+        raise
+    finally:
+        os.close(end)
+        its_answers.close()
+    return process, answers, lifeline
+
+
+def _end(process: Any, answers: socket, lifeline: int, folder: tempfile.TemporaryDirectory[str]) -> None:
+    """End a child and whatever it has started."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    for stream in (process.stdin, answers):
+        with suppress(OSError):
+            stream.close()
+    os.close(lifeline)
+    folder.cleanup()

@@ -1,0 +1,153 @@
+"""Stops whose controller from outside runs in a child process: one process for each thread that asks."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from threading import Lock
+from types import TracebackType
+from typing import Final, Self, TypeGuard
+
+from uictest.controllers import ControllerProgram
+from uictest.rig.assembly import StopInputs
+from uictest.rig.backends.finished_stop import FinishedStop
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
+from uictest.rig.external.drive import DriveRequest, Drives, drive_controller
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.opened import empty_exchange
+from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, ProgramKey, Worker
+
+_MOST_IDLE: Final = 8
+"""Children that are kept for the next stop of their program; chosen: each takes some 110 MB."""
+
+
+class Workers:
+    """Child processes, started when they are needed and kept until the end of the `with` block.
+
+    A crash, a hang or a forbidden command of a controller ends its stop and, where it must, its process;
+    other stops go on.
+    """
+
+    def __init__(self) -> None:
+        self._idle: list[Worker] = []
+        self._all: list[Worker] = []
+        self._lock = Lock()
+        self._closed = False
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def run(self, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
+        """Run a stop; one whose controller is built in, or a process of its own, runs here.
+
+        Raises:
+            ControllerError: when the controller cannot be opened, failed, crashed or did not answer in time.
+        """
+        if not _is_isolated(inputs.program):
+            return run_in_process(inputs, steps_per_sample)
+        compiled_stop(inputs.controller)  # so that the child finds it in the cache
+        with self._worker(_key(inputs.program)) as worker:
+            return worker.run(inputs, steps_per_sample)
+
+    def run_block(self, inputs: BlockInputs) -> BlockRun:
+        """Run many stops; those whose controller is built in, or a process of its own, run here."""
+        places = range(len(inputs.programs))
+        here = [place for place in places if not _is_isolated(inputs.programs[place])]
+        load_block(inputs.programs, inputs.controllers)  # so that the child finds it in the cache
+        run = empty_run(len(places))
+        if here:
+            _put(run, here, run_block(inputs.at(here)))
+        for key, there in _places_by_program(inputs.programs).items():
+            for first in range(0, len(there), LARGEST_BLOCK):
+                self._run_isolated(key, inputs, there[first : first + LARGEST_BLOCK], run)
+        return run
+
+    def drive(self, request: DriveRequest) -> Drives:
+        """Drive a controller through given cycles. Raises ControllerError, as :meth:`run`."""
+        if not _is_isolated(request.program):
+            return drive_controller(request, empty_exchange())
+        with self._worker(_key(request.program)) as worker:
+            return worker.drive(request)
+
+    def close(self) -> None:
+        """End all child processes, also those in use."""
+        with self._lock:
+            self._closed = True
+            workers, self._all, self._idle = self._all, [], []
+        for worker in workers:
+            worker.close()
+
+    def _run_isolated(self, key: ProgramKey, inputs: BlockInputs, places: list[int], run: BlockRun) -> None:
+        """Run some stops in a child; when it is lost, find the stop at fault and run the others again."""
+        while places:
+            try:
+                with self._worker(key) as worker:
+                    _put(run, places, worker.run_block(inputs.at(places)))
+                return
+            except LostChildError as error:
+                if error.place is None and len(places) > 1:
+                    break
+                run.failures[places.pop(error.place or 0)] = f"controller: {error}"
+        for place in places:
+            self._run_isolated(key, inputs, [place], run)
+
+    @contextmanager
+    def _worker(self, key: ProgramKey) -> Iterator[Worker]:
+        """Lend this thread a child for a program."""
+        worker = self._taken(key)
+        try:
+            yield worker
+        finally:
+            self._give_back(worker)
+
+    def _taken(self, key: ProgramKey) -> Worker:
+        with self._lock:
+            if self._closed:
+                raise RuntimeError("the child processes have been ended")
+            for worker in reversed(self._idle):
+                if worker.key == key:
+                    self._idle.remove(worker)
+                    return worker
+            if len(self._idle) >= _MOST_IDLE:
+                self._idle[0].close()
+                self._all.remove(self._idle.pop(0))
+            worker = Worker(key)
+            self._all.append(worker)
+            return worker
+
+    def _give_back(self, worker: Worker) -> None:
+        if not worker.usable:
+            worker.close()
+        with self._lock:
+            if worker.usable:
+                self._idle.append(worker)
+            elif worker in self._all:
+                self._all.remove(worker)
+
+
+def _is_isolated(program: ControllerProgram | None) -> TypeGuard[ControllerProgram]:
+    return program is not None and program.kind != "connect"
+
+
+def _key(program: ControllerProgram) -> ProgramKey:
+    return program.kind, program.location, program.sha256
+
+
+def _places_by_program(programs: Sequence[ControllerProgram | None]) -> dict[ProgramKey, list[int]]:
+    """Return the places of the stops that run in children, those of a program together."""
+    places: dict[ProgramKey, list[int]] = {}
+    for place, program in enumerate(programs):
+        if _is_isolated(program):
+            places.setdefault(_key(program), []).append(place)
+    return places
+
+
+def _put(run: BlockRun, places: Sequence[int], part: BlockRun) -> None:
+    """Enter what some of the stops have left."""
+    run.measures[places], run.wheelset_measures[places] = part.measures, part.wheelset_measures
+    for place, failure in zip(places, part.failures, strict=True):
+        run.failures[place] = failure

@@ -1,0 +1,2 @@
+from .rig import Rig as Rig
+from .state import RigState as RigState

@@ -1,0 +1,99 @@
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+FILLS = """\
+from uictest.controllers import Outputs
+
+class Fills:
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs):
+        {fault}
+        return Outputs([0] * 4, [0] * 4)
+"""
+
+
+def program(fault: str = "pass") -> Path:
+    """A controller that never protects a wheelset."""
+    path = Path("fills.py")
+    path.write_text(FILLS.format(fault=fault), "utf-8")
+    return path
+
+
+def test_exit_codes_are_those_of_run(call: Call) -> None:
+    assert call("controller", "check", "threshold").code == 0
+    assert call("controller", "check", program()).code == 1
+    assert call("controller", "check", program("raise ValueError")).code == 3
+    assert call("controller", "check", "no-such.py").code == 4
+
+
+def test_nothing_but_the_table_is_on_stdout(call: Call, tmp_path: Path) -> None:
+    """What a controller prints cannot disturb it."""
+    answer = call("controller", "check", program("print('noise')"), "--format", "json")
+    assert json.loads(answer.out)["controller"]["kind"] == "python"
+
+
+CONTROLLER = "controller: {python: fills.py, class: Fills}\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "schema: uictest/controller/1\nname: fills\npython: fills.py\nclass: Fills\n",
+        f"schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n{CONTROLLER}",
+    ],
+    ids=["part", "scenario"],
+)
+def test_a_part_and_a_scenario_name_their_controller(call: Call, text: str) -> None:
+    program()
+    Path("file.yaml").write_text(text, "utf-8")
+    answer = call("controller", "check", "file.yaml")
+    assert answer.code == 1
+    assert "fail vents-sliding" in answer.out
+
+
+def test_junit_has_the_failure(call: Call) -> None:
+    assert call("controller", "check", program(), "--junitxml", "check.xml").code == 1
+    assert '<failure message="from the beginning of the slide' in Path("check.xml").read_text("utf-8")
+
+
+def test_parameters_are_set_as_texts_of_yaml(call: Call) -> None:
+    path = program("pass")
+    path.write_text(
+        path.read_text().replace("config): pass", "config): assert config.parameters == {'a': 2.5}")
+    )
+    assert call("controller", "check", path, "--set", "a=2.5").code == 1
+    assert call("controller", "check", path, "--set", "a").code == 4
+    assert call("controller", "check", "threshold", "--set", "a=1").code == 4
+
+
+def test_a_class_is_named_where_there_are_several(call: Call) -> None:
+    path = program()
+    path.write_text(path.read_text() + "\nclass Other:\n    def step(self, inputs): pass\n")
+    answer = call("controller", "check", path)
+    assert answer.code == 4
+    assert "Those with a method step: 'Fills', 'Other'" in answer.err
+    assert call("controller", "check", path, "--class", "Fills").code == 1
+
+
+def test_a_hang_ends_and_leaves_no_process(call: Call) -> None:
+    path = program("open('pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(600)")
+    answer = call("controller", "check", path, "--time-limit", "0.2")
+    assert answer.code == 3
+    assert "step did not return within 0.2 s (cycle 0)" in answer.out
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(Path("pid").read_text()), 0)
+
+
+def test_the_program_is_not_imported_here(call: Call) -> None:
+    call("controller", "check", program())
+    assert "fills" not in sys.modules

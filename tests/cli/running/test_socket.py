@@ -1,0 +1,168 @@
+"""Batches with a controller in a program at a socket, with and without a clock."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from ..conftest import HANGING, Answer
+
+Call = Callable[..., Answer]
+Write = Callable[..., Path]
+EXAMPLE = Path(__file__).parents[3] / "examples" / "socket" / "wsp.py"
+
+IN_REAL_TIME = ("run", "--real-time", "--set", "initial_speed=10 km/h")
+PROGRAM = """
+import importlib.util
+import sys
+import time
+
+spec = importlib.util.spec_from_file_location("wsp", sys.argv[1])
+wsp = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(wsp)
+
+
+class Faulty(wsp.SlipBand):
+    def __init__(self, cycle_time, initial_speed, parameters):
+        super().__init__(cycle_time, initial_speed, parameters)
+        self.cycle, self.fault = 0, parameters["fault"]
+        with open("stops", "a") as stops:
+            stops.write(self.fault + " ")
+
+    def step(self, speeds):
+        self.cycle += 1
+        if self.cycle == 51 and self.fault == "close":
+            raise ConnectionError
+        if self.cycle == 51 and self.fault == "sleep":
+            time.sleep(3 * self.cycle_time)
+        if self.cycle == 51 and self.fault == "hang":
+            open("hanging", "w").close()
+            time.sleep(3600)
+        return super().step(speeds)
+
+
+wsp.SlipBand = Faulty
+wsp.main(0)
+"""
+CASES = """
+criteria: uictest-stop
+controller: {connect: "%s", time_limit: 600 s, parameters: {fault: none}}
+matrix: {controller.parameters.fault: [%s]}
+"""
+
+
+@pytest.fixture
+def faults(scenario: Write) -> Iterator[Callable[..., None]]:
+    """Start a program, and write a scenario with a case for each of its faults."""
+    command = [sys.executable, "-c", PROGRAM, str(EXAMPLE)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().removeprefix("listening on ").strip()
+        yield lambda *names: scenario("stop", CASES % (address, ", ".join(names)))
+        process.kill()
+
+
+def results() -> dict[str, Any]:
+    document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    return {case["parameters"]["controller.parameters.fault"]: case for case in document["cases"]}
+
+
+def test_a_connection_that_breaks_ends_its_case(call: Call, faults: Callable[..., None]) -> None:
+    faults("none", "close", "last")
+    assert call("run", "-n2").code == 3
+    outcomes = {fault: (case["outcome"], case["reason"]) for fault, case in results().items()}
+    broken = "the program closed the connection before its answer to the step frame"
+    assert outcomes == {
+        "none": ("pass", ""),
+        "close": ("error", f"controller: step failed: {broken} (cycle 50)"),
+        "last": ("pass", ""),
+    }
+
+
+def test_a_stop_without_a_clock_says_nothing_of_time(call: Call, faults: Callable[..., None]) -> None:
+    faults("sleep")
+    assert call("run").code == 0
+    assert "response_times" not in results()["sleep"]
+
+
+def test_a_result_names_the_program_and_the_stop_that_it_was_given(
+    call: Call, faults: Callable[..., None]
+) -> None:
+    faults("none", "close")
+    answer = call("run", "-v")
+    named, broken = results()["none"], results()["close"]
+    assert named["controller_version"] == "slip band in Python 1.0"
+    assert "version slip band in Python 1.0, connect tcp://" in answer.out
+    digests = {named["case_sha256"], broken["case_sha256"]}
+    assert [len(digest) for digest in digests] == [64, 64]
+    assert "controller_version" not in broken
+
+
+def test_a_missed_deadline_makes_a_stop_invalid(call: Call, faults: Callable[..., None]) -> None:
+    faults("sleep")
+    answer = call(*IN_REAL_TIME, "-v", "--junitxml", "junit.xml")
+    assert answer.code == 1
+    result = results()["sleep"]
+    times = result["response_times"]
+    # At least: on a machine that others use as well, more can come late.
+    assert times["missed_deadlines"] >= 3
+    assert times["longest_answer_s"] >= 0.03
+    assert times["cycle_time_s"] == 0.01
+    sentence = f"{times['missed_deadlines']} of {times['answers']} answers came after the end of their cycle"
+    assert result["outcome"] == "invalid"
+    assert result["reason"].startswith(f"real-time: {sentence} of 10 ms; the longest took ")
+    assert (result["criteria"][-1]["id"], result["criteria"][-1]["verdict"]) == ("real-time", "fail")
+    assert f"missed_deadlines={times['missed_deadlines']} longest_answer_s=" in answer.out
+    shown = f"in real time: {times['missed_deadlines']} of {times['answers']} answers after the end"
+    assert shown in (ElementTree.parse("junit.xml").findtext(".//failure") or "")
+    assert shown[1:] in Path("reports/latest/index.html").read_text("utf-8")
+    # A stop that misses its expectation is recorded, and not by running it a second time.
+    assert Path("reports/latest/recordings/stop[fault=sleep].parquet").is_file()
+    assert Path("stops").read_text("utf-8") == "sleep "
+
+
+def test_a_stop_in_real_time_takes_its_time_and_is_drawn_as_it_ran(
+    call: Call, faults: Callable[..., None]
+) -> None:
+    faults("none")
+    began = time.monotonic()
+    call(*IN_REAL_TIME, "--record-rate", "10")  # too coarse for the valves: else the stop would run again
+    times = results()["none"]["response_times"]
+    assert time.monotonic() - began >= times["cycle_time_s"] * (times["answers"] - 1)
+    assert Path("stops").read_text("utf-8") == "none "
+    page = Path("reports/latest/index.html").read_text("utf-8")
+    assert f"In real time: {times['missed_deadlines']} of {times['answers']} answers" in page
+
+
+@pytest.mark.parametrize("controller", ["threshold", "{library: wsp.so}"])
+def test_only_a_program_at_a_socket_keeps_to_the_clock(
+    call: Call, scenario: Write, controller: str, workplace: Path
+) -> None:
+    (workplace / "scenarios").mkdir()
+    (workplace / "scenarios" / "wsp.so").write_bytes(b"never loaded")
+    scenario("stop", f"controller: {controller}\n")
+    answer = call("run", "--real-time")
+    assert answer.code == 4
+    assert "--real-time: stop has the controller" in answer.err
+    assert "expected one with `connect`" in answer.err
+    assert not Path("reports").exists()
+
+
+def test_who_interrupts_does_not_wait_for_a_program(
+    faults: Callable[..., None], program: Path, workplace: Path
+) -> None:
+    faults("hang", "none")
+    with subprocess.Popen([program, "run", "-n2"], start_new_session=True) as running:
+        while not (workplace / "hanging").exists() and running.poll() is None:
+            time.sleep(0.01)
+        running.send_signal(signal.SIGTERM)
+        assert running.wait(HANGING) == 2

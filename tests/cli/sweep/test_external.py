@@ -1,0 +1,126 @@
+"""Sweeps over controllers from outside, as their users meet them."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Call = Callable[..., Any]
+FILE = "study.sweep.yaml"
+CONTROLLER = """\
+from uictest.controllers import Config, Inputs, Outputs
+
+
+class Share:
+    def __init__(self, config: Config) -> None:
+        self.share = config.parameters.get("share", 0.0)
+
+    def reset(self) -> None:
+        pass
+
+    def step(self, inputs: Inputs) -> Outputs:
+        if self.share < 0:
+            raise ValueError("a share below zero")
+        holds = inputs.cycle % 10 < 10 * self.share
+        return Outputs([holds] * 4, [0] * 4)
+"""
+"""Holds in a share of all cycles: the more, the longer the stop."""
+
+
+@pytest.fixture
+def study(scenario: Callable[..., Path]) -> Callable[[str], Path]:
+    """A sweep of a stop from 30 km/h with that controller; it says the given text after its head."""
+    scenario("stop", "controller: {python: ../share.py, class: Share}\nmeasures: {extends: standard}\n")
+    Path("share.py").write_text(CONTROLLER)
+
+    def write(text: str) -> Path:
+        head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
+        Path(FILE).write_text(f"{head}{text}")
+        return Path(FILE)
+
+    return write
+
+
+def summary() -> list[dict[str, str]]:
+    with Path("reports/study/summary.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call: Call, study: Any) -> None:
+    answer = call("sweep", study("grid: {controller.parameters.share: [0, -1, 0.3]}\n"))
+    assert answer.code == 3
+    outcomes = [row["outcome"] for row in summary()]
+    assert outcomes[1] == "error" and "error" not in outcomes[::2]
+    assert summary()[1]["reason"].startswith("controller: step failed: ValueError: a share below zero")
+    assert summary()[1]["reason"].endswith("(cycle 0)")
+    distances = [float(row["braking_distance_m"]) for row in summary()[::2]]
+    assert distances[0] < distances[1]
+
+
+def test_another_content_of_the_controller_is_another_sweep(call: Call, study: Any) -> None:
+    file = study("grid: {controller.parameters.share: [0, 0.3]}\n")
+    assert call("sweep", file).code in (0, 1)
+    first = summary()
+    manifest = json.loads(Path("reports/study/manifest.json").read_bytes())
+    assert len(manifest["inputs"]["share.py"]) == 64
+    Path("share.py").write_text(CONTROLLER + "\n")
+    answer = call("sweep", file)
+    assert answer.code == 4
+    assert "holds chunks of this sweep with other inputs" in answer.err
+    assert "inputs: share.py" in answer.err
+    assert call("sweep", file, "--restart").code in (0, 1)
+    assert summary() == first
+
+
+def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call: Call, study: Any) -> None:
+    file = study("grid: {controller: [threshold, {python: share.py, class: Share}, own.yaml]}\n")
+    Path("own.yaml").write_text(
+        "schema: uictest/controller/1\npython: share.py\nclass: Share\nparameters: {share: 0.5}\n"
+    )
+    assert call("sweep", file).code in (0, 1)
+    assert [row["id"] for row in summary()] == [
+        "study[controller=threshold]",
+        "study[controller=share]",
+        "study[controller=own]",
+    ]
+    inputs = json.loads(Path("reports/study/manifest.json").read_bytes())["inputs"]
+    assert {"share.py", "own.yaml"} <= inputs.keys()
+
+
+def test_the_frontier_of_a_parameter_is_found(call: Call, study: Any) -> None:
+    file = study("grid: {controller.parameters.share: [0.0, 1.0]}\n")
+    scenario = Path("scenarios/stop.yaml")
+    text = scenario.read_text()
+    scenario.write_text(f"{text}criteria: [uictest-stop]\nsimulation: {{maximum_duration: 15 s}}\n")
+    answer = call("sweep", file, "--frontier", "controller.parameters.share", "--tolerance", "0.1")
+    assert answer.code == 1
+    assert "frontier along controller.parameters.share" in answer.out
+    with Path("reports/study/frontier.csv").open() as lines:
+        (flip,) = csv.DictReader(lines)
+    assert 0.0 < float(flip["from"]) < float(flip["to"]) <= 1.0
+    assert float(flip["to"]) - float(flip["from"]) <= 0.1
+
+
+@pytest.mark.parametrize("swept", ["grid: {rail.friction: [0.1]}\n", "grid: {controller: [threshold, x]}\n"])
+def test_a_gpu_runs_no_controller_from_outside(call: Call, study: Any, swept: str) -> None:
+    Path("x.yaml").write_text("schema: uictest/controller/1\npython: share.py\nclass: Share\n")
+    file = study(swept.replace("x]", "x.yaml]"))
+    answer = call("sweep", file, "--device", "cuda")
+    assert answer.code == 4
+    assert "a GPU runs built-in controllers only, not share.py; leave --device out" in " ".join(
+        answer.err.split()
+    ).replace("│ ", "")
+
+
+def test_a_dry_run_loads_no_controller(call: Call, study: Any) -> None:
+    file = study("grid: {controller.parameters.share: [0, 1]}\n")
+    Path("share.py").write_text("open('loaded', 'w')\n")
+    assert call("sweep", file, "--dry-run").code == 0
+    assert call("check", file).code == 0
+    assert call("list", file).code == 0
+    assert not Path("loaded").exists()

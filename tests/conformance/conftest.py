@@ -1,0 +1,28 @@
+"""Controllers that miss one fact each: changes of the first controller that `uictest init` writes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest import conformance, templates
+from uictest.scenario import load_controller
+
+Examine = Callable[..., conformance.Examination]
+
+
+@pytest.fixture
+def examine(tmp_path: Path) -> Examine:
+    """Examine the first controller in Python with one stretch of its text replaced by another."""
+
+    def changed(before: str = "", after: str = "", time_limit: str = "60 s") -> conformance.Examination:
+        files = templates.controller_files("python")
+        assert before in files["my_wsp.py"]
+        (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")
+        part = tmp_path / "my-wsp.yaml"
+        part.write_text(f"{files['my-wsp.yaml']}time_limit: {time_limit}\n", "utf-8")
+        return conformance.examine(conformance.subject_of("changed", load_controller(str(part)), {}))
+
+    return changed

@@ -1,0 +1,146 @@
+"""Each check rejects the controller that breaks its fact, and the controllers that ship pass fair limits."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from uictest import conformance
+from uictest.conformance import checks
+from uictest.controllers import OUTPUTS
+from uictest.scenario import load_part
+
+Examine = Callable[..., conformance.Examination]
+STEP = '        """Answer one controller cycle."""\n'
+RESULT = "            hold=[hold for hold, _ in states],\n            vent=[vent for _, vent in states],\n"
+
+
+def missed(examination: conformance.Examination) -> set[str]:
+    """The checks that failed; how fast this machine is does not count."""
+    return {each.id for each in examination.findings if each.status in ("fail", "error")}
+
+
+def built_in(name: str) -> conformance.Examination:
+    return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}"), {}))
+
+
+def test_the_default_controller_conforms() -> None:
+    assert missed(built_in("threshold")) == set()
+
+
+def test_the_simplest_controller_has_no_watchdog() -> None:
+    examination = built_in("slip-band")
+    assert missed(examination) == {"ends-vents"}
+    assert examination.status == "fail"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [
+        (RESULT, "hold=[0] * 4, vent=[vent for _, vent in states],\n", {"legal-commands"}),
+        (
+            "= self.initial_speed\n",
+            "= getattr(self, 'reference_speed', self.initial_speed)\n",
+            {"same-after-reset"},
+        ),
+        ("slide < self.lower_slide", "slide < -1e-4", {"keeps-brake", "gives-back"}),
+        ("slide < self.upper_slide", "slide < 2.0", {"vents-sliding"}),
+        (
+            RESULT,
+            "hold=[any(h for h, _ in states)] * 4, vent=[any(v for _, v in states)] * 4,\n",
+            {"spares-rolling"},
+        ),
+        ("return False, False  # fill", "return self.reference_speed < 25.0, False", {"gives-back"}),
+        ("not filling, not filling", "True, True", {"ends-vents"}),
+        (
+            "reference_speed=self.reference_speed",
+            "reference_speed=1.2 * self.reference_speed",
+            {"reference-speed"},
+        ),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "-".join(sorted(value)),
+)
+def test_a_controller_that_breaks_a_fact_is_found(
+    examine: Examine, before: str, after: str, expected: set[str]
+) -> None:
+    examination = examine(before, after)
+    assert expected <= missed(examination)
+    assert examination.status == "fail"
+
+
+def test_memory_that_controllers_share_is_found(examine: Examine) -> None:
+    """A second controller must not begin where the first one is."""
+    examination = examine("        self.reference_speed = self.initial_speed\n", SHARED)
+    [finding] = [each for each in examination.findings if each.id == "same-after-reset"]
+    assert finding.status == "fail"
+    assert finding.reason.startswith("after reset 0 cycles differ, with a second controller ")
+
+
+SHARED = """\
+        if not hasattr(self, "number"):
+            type(self).created = getattr(type(self), "created", 0) + 1
+            self.number = self.created
+        self.reference_speed = self.initial_speed if self.number % 2 else 0.0
+"""
+
+
+def test_only_fields_of_answers_are_compared() -> None:
+    """A controller in C that assigns the whole structure leaves anything behind them."""
+    one, other = np.zeros((2, 5), OUTPUTS)
+    other["padding"] = 7
+    assert checks._different(one, other) == 0
+    other["hold"][3, 1] = 1
+    assert checks._different(one, other) == 1
+
+
+def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine: Examine) -> None:
+    examination = examine("            reference_speed=self.reference_speed,\n", "")
+    [finding] = [each for each in examination.findings if each.id == "reference-speed"]
+    assert (finding.status, finding.value) == ("skipped", None)
+    assert missed(examination) == set()
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        ("raise ValueError('no wheel')", "ValueError: no wheel (my_wsp.py, line "),
+        ("import os; os.kill(os.getpid(), 11)", "crashed with SIGSEGV"),
+        ("import time; time.sleep(600)", "step did not return within 0.5 s"),
+        ("return None", "step returned NoneType, expected Outputs"),
+    ],
+)
+def test_a_controller_that_fails_is_an_error_with_the_cycle(
+    examine: Examine, fault: str, message: str
+) -> None:
+    """In one situation alone: the checks that do not need it are decided all the same."""
+    sudden = f"{STEP}        if max(inputs.wheel_speed) > 69.0: {fault}\n"
+    examination = examine(STEP, sudden, time_limit="500 ms" if "sleep" in fault else "60 s")
+    assert examination.status == "error"
+    by_id = {each.id: each for each in examination.findings}
+    assert message in by_id["same-after-reset"].reason
+    assert "(cycle " in by_id["same-after-reset"].reason
+    assert by_id["keeps-brake"].status == "pass"
+
+
+def test_a_controller_that_cannot_be_created_is_an_error(examine: Examine) -> None:
+    examination = examine('parameters["pause"]', 'parameters["paus"]')
+    assert {each.status for each in examination.findings} == {"error"}
+    assert "KeyError: 'paus'" in examination.findings[0].reason
+
+
+def test_the_report_has_every_check_in_each_form(examine: Examine) -> None:
+    examination = examine("slide < self.upper_slide", "slide < 2.0")
+    table = list(conformance.finding_table(examination, None))
+    assert table[-1].startswith("fail vents-sliding: ")
+    document: dict[str, Any] = json.loads(conformance.findings_json(examination))
+    assert [each["id"] for each in document["checks"]] == [each.id for each in conformance.CHECKS]
+    assert document["controller"]["version"] == "0.1.0"
+    suite = ElementTree.fromstring(conformance.junit_xml(examination).encode())[0]
+    assert suite.get("tests") == str(len(conformance.CHECKS))
+    [failure] = suite.findall("testcase/failure")
+    assert "never, at most 1 s" in (failure.text or "")

@@ -1,0 +1,380 @@
+"""Controllers as FMUs: variables of any name and type, FMUs that cannot be run, FMUs that fail."""
+
+from __future__ import annotations
+
+import gc
+import tempfile
+import threading
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+from uictest.controllers import ControllerError, ControllerInstance
+
+MakeFmu = Any
+OpenFmu = Callable[..., ControllerInstance]
+Ask = Callable[..., Any]
+
+
+VENTS_TWO_AND_FOUR = ([0, 1, 0, 1], [0, 1, 0, 1])
+SPEEDS = (20.0, 9.0, 20.0, 9.0)
+
+
+@pytest.fixture(params=[2, 3], ids=["FMI 2.0", "FMI 3.0"])
+def fmi(request: pytest.FixtureRequest) -> int:
+    return int(request.param)
+
+
+@pytest.fixture(autouse=True)
+def temporary_folder(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where FMUs are unpacked."""
+    folder = tmp_path_factory.mktemp("unpacked")
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
+
+
+def magnets(answer: Any) -> tuple[list[int], list[int]]:
+    return answer["hold"].tolist(), answer["vent"].tolist()
+
+
+def refused(open_fmu: OpenFmu, path: Path, *arguments: Any, **names: Any) -> str:
+    """The message without the name of the file."""
+    with pytest.raises(ControllerError) as error:
+        open_fmu(path, *arguments, **names)
+    assert str(error.value).startswith(f"{path.name} ")
+    return str(error.value).removeprefix(f"{path.name} ")
+
+
+def test_a_step_answers_the_inputs_of_the_same_cycle(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+) -> None:
+    instance = open_fmu(make_fmu(fmi), {"threshold": 10.0})
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    assert magnets(ask(instance, 20.0, 20.0, 20.0, 20.0, cycle=1)) == ([0] * 4, [0] * 4)
+
+
+def test_an_fmu_that_answers_a_cycle_late_is_left_as_it_is(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+) -> None:
+    instance = open_fmu(make_fmu(fmi), {"threshold": 10.0, "late": 1})
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
+    assert magnets(ask(instance, 20.0, 20.0, 20.0, 20.0, cycle=1)) == VENTS_TWO_AND_FOUR
+
+
+TYPES = [(2, "Real", "Real"), (2, "Real", "Integer"), (2, "Real", "Boolean"), (2, "Real", "Enumeration")]
+TYPES += [(3, "Float32", kind) for kind in ("Float32", "Float64", "Int8", "UInt8", "Int16", "UInt16")]
+TYPES += [(3, "Float64", kind) for kind in ("Int32", "UInt32", "Int64", "UInt64", "Enumeration", "Boolean")]
+
+
+@pytest.mark.parametrize(("fmi", "real", "magnet"), TYPES)
+def test_magnets_and_speeds_may_have_any_type_that_holds_them(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int, real: str, magnet: str
+) -> None:
+    instance = open_fmu(make_fmu(fmi, make_fmu.variables(fmi, real=real, magnet=magnet)), {"threshold": 10})
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+
+
+@pytest.mark.parametrize(
+    ("speed", "hold", "names"),
+    [
+        ("axle[%d].speed", "ev%d", {"wheel_speed": "axle[%d].speed", "hold": "ev%d"}),
+        ("u", "y", {"wheel_speed": "u", "hold": "y"}),
+        ("wheel_speed", "hold", {}),
+    ],
+)
+def test_variables_have_our_names_or_those_of_the_scenario_and_may_be_arrays(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, speed: str, hold: str, names: dict[str, str]
+) -> None:
+    listed = make_fmu.variables(3, speed=speed, hold=hold)
+    instance = open_fmu(make_fmu(3, listed), {"threshold": 10.0}, **names)
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+
+
+def test_a_tool_may_count_wheelsets_from_0(make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int) -> None:
+    listed = make_fmu.variables(fmi)
+    for place in range(4):
+        listed[f"v{place}"] = listed.pop(f"wheel_speed_{place + 1}")
+    instance = open_fmu(make_fmu(fmi, listed), {"threshold": 10.0}, wheel_speed="v%d")
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+
+
+def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_variable(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+) -> None:
+    """Each output shows the place of one input: they have the same value reference."""
+    real = {2: "Real", 3: "Float64"}[fmi]
+    places = {"time": (13, real), "brake_demand": (12, real), "initial_speed": (15, real)}
+    shown: dict[str, float] = {}
+    for name, (place, kind) in places.items():
+        causality = "parameter" if name == "initial_speed" else "input"
+        given = {name: (place, causality, kind), "seen": (place, "output", kind)}
+        instance = open_fmu(make_fmu(fmi, make_fmu.variables(fmi, **given)), reference_speed="seen")
+        instance.reset()
+        shown[name] = float(ask(instance, *SPEEDS, cycle=3)["reference_speed"])
+    assert shown == {"time": 0.03, "brake_demand": 0.0, "initial_speed": 20.0}
+
+
+def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask) -> None:
+    """The place of `late` is shown as the diagnosis."""
+    listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))
+    instance = open_fmu(make_fmu(2, listed), {"late": -2})
+    instance.reset()
+    assert int(ask(instance, *SPEEDS)["diagnosis"]) == 0xFFFFFFFE
+
+
+def test_reset_returns_to_the_start_values_and_the_parameters(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+) -> None:
+    path = make_fmu(fmi)
+    instance = open_fmu(path, {"threshold": 10.0, "late": 1})
+    for _ in range(2):
+        instance.reset()
+        assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
+        assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    instance.close()
+    other = open_fmu(path)  # the same FMU, with the threshold that it starts with
+    other.reset()
+    ask(other, *SPEEDS)
+    assert magnets(ask(other, *SPEEDS)) == ([0] * 4, [0] * 4)
+
+
+def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int, temporary_folder: Path
+) -> None:
+    """Each copy of the library counts its instances; a copy lies in a folder of its own."""
+    kind = {2: "Integer", 3: "UInt32"}[fmi]
+    path = make_fmu(fmi, make_fmu.variables(fmi, diagnosis=(30, "output", kind)))
+    counts: list[int] = []
+    folders: list[int] = []
+
+    def use(instance: ControllerInstance) -> None:
+        instance.reset()
+        counts.append(int(ask(instance, *SPEEDS)["diagnosis"]))
+        folders.append(len(list(temporary_folder.iterdir())))
+
+    def use_it_again_and_again() -> None:
+        for _ in range(3):
+            instance = open_fmu(path)
+            use(instance)
+            instance.close()
+
+    use_it_again_and_again()
+    thread = threading.Thread(target=use_it_again_and_again)
+    thread.start()
+    thread.join()
+    gc.collect()
+    first, second = open_fmu(path), open_fmu(path)
+    use(first)
+    use(second)
+    assert counts == [1] * 8
+    assert folders == [1, 1, 1, 2, 2, 2, 2, 2]
+
+
+def test_the_version_is_that_of_the_model_description(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int) -> None:
+    assert open_fmu(make_fmu(fmi, about='version="2.4.1"')).version == "2.4.1"
+    assert open_fmu(make_fmu(fmi)).version == ""
+
+
+FAULTS = {
+    "nan": (1, r"hold_3 is nan, expected 0 or 1"),
+    "half": (2, r"vent_2 is 0\.5, expected 0 or 1"),
+    "error": (3, r"fmi\dDoStep returned error: told to( 7)?"),
+    "fatal": (4, r"fmi\dDoStep returned fatal"),
+    "diagnosis": (7, r"diagnosis is nan, expected a whole number of 32 bits"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_step_that_fails_says_what_the_fmu_says_and_the_next_stop_goes_on(
+    make_fmu: MakeFmu,
+    open_fmu: OpenFmu,
+    ask: Ask,
+    fmi: int,
+    fault: str,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    real = {2: "Real", 3: "Float64"}[fmi]
+    number, message = FAULTS[fault]
+    path = make_fmu(fmi, make_fmu.variables(fmi, magnet=real, diagnosis=(30, "output", real)))
+    instance = open_fmu(path, {"fault": number, "at": 1, "threshold": 10.0})
+    instance.reset()
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    with pytest.raises(ControllerError, match=f"^{message}$"):
+        ask(instance, *SPEEDS)
+    instance.close()
+    other = open_fmu(path, {"threshold": 10.0})
+    other.reset()
+    for _ in range(3):
+        assert magnets(ask(other, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    assert capfd.readouterr().out == ""
+
+
+def test_an_fmu_that_ends_the_simulation_ends_the_stop(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask
+) -> None:
+    instance = open_fmu(make_fmu(3), {"fault": 5, "at": 0})
+    instance.reset()
+    with pytest.raises(ControllerError, match=r"^the FMU asks to end the simulation$"):
+        ask(instance, *SPEEDS)
+
+
+def test_an_fmu_that_does_not_start_says_why(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int) -> None:
+    instance = open_fmu(make_fmu(fmi), {"fault": 8})
+    with pytest.raises(ControllerError, match=r"^fmi\dExitInitializationMode returned error: no start( 7)?$"):
+        instance.reset()
+
+
+def test_an_fmu_without_the_variables_that_are_needed_is_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int
+) -> None:
+    path = make_fmu(fmi, make_fmu.variables(fmi, speed="axle_speed_%d"))
+    assert refused(open_fmu, path) == (
+        "has no input wheel_speed_1; its inputs: axle_speed_1, axle_speed_2, axle_speed_3, axle_speed_4;"
+        " name it: variables: {wheel_speed: its_name_%d}"
+    )
+    many = {f"y{number}": (40, "output", "Boolean") for number in range(9)}
+    path = make_fmu(fmi, make_fmu.variables(fmi, vent="release_%d", **many))
+    message = refused(open_fmu, path)
+    assert message.startswith("has no output vent_1; its outputs: hold_1, hold_2, ")
+    assert message.endswith(" and 9 more; name it: variables: {vent: its_name_%d}")
+
+
+NAMES = [
+    (
+        {"wheel_speed": "v%d"},
+        "has no input v1; its inputs: wheel_speed_1, wheel_speed_2, wheel_speed_3, wheel_speed_4",
+    ),
+    ({"brake_demand": "demand"}, "has no input demand; its inputs: "),
+    ({"wheel_sped": "v%d"}, "has no use for variables.wheel_sped; the keys are wheel_speed, speed_valid, "),
+    ({"hold": "hold_1"}, "has one value in hold_1, expected 4; write %d for the number of the wheelset"),
+    ({"hold": "wheel_speed_%d"}, "has wheel_speed_1 as input of type "),
+    (
+        {"wheel_speed": "hold_%d"},
+        "has hold_1 as output of type Boolean, expected input of type Real or Float64",
+    ),
+]
+
+
+@pytest.mark.parametrize(("names", "message"), NAMES)
+def test_names_that_do_not_fit_are_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, names: dict[str, str], message: str
+) -> None:
+    assert refused(open_fmu, make_fmu(fmi), **names).startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"treshold": 1.0}, "has no parameter treshold: did you mean threshold?"),
+        (
+            {"wheel_speed_1": 1.0},
+            "has no parameter wheel_speed_1: it has fault, at, threshold, late, steps, on",
+        ),
+        ({"steps": 1.5}, "has parameter steps of type {whole}, found 1.5"),
+        ({"steps": 2**40}, "has parameter steps of type {whole}, found 1099511627776"),
+        ({"steps": "many"}, "has parameter steps of type {whole}, found 'many'"),
+        ({"on": 2}, "has parameter on of type Boolean, found 2"),
+        ({"threshold": True}, "has parameter threshold of type {real}, found True"),
+        ({"threshold": [1.0, 2.0]}, "has one value in parameter threshold, found 2"),
+    ],
+)
+def test_parameters_that_do_not_fit_are_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, parameters: dict[str, Any], message: str
+) -> None:
+    whole, real = {2: ("Integer", "Real"), 3: ("Int32", "Float64")}[fmi]
+    listed = make_fmu.variables(fmi, steps=(40, "parameter", whole), on=(41, "parameter", "Boolean"))
+    found = refused(open_fmu, make_fmu(fmi, listed), parameters)
+    assert found.startswith(message.format(whole=whole, real=real))
+
+
+def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+) -> None:
+    whole = {2: "Integer", 3: "Int32"}[fmi]
+    listed = make_fmu.variables(
+        fmi,
+        text=(50, "parameter", "String"),
+        on=(34, "parameter", "Boolean"),
+        steps=(32, "parameter", whole),
+    )
+    del listed["late"], listed["at"]
+    instance = open_fmu(make_fmu(fmi, listed), {"text": "ten meters", "on": True, "steps": 5.0})
+    instance.reset()
+    ask(instance, *SPEEDS)
+    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+
+
+def test_files_that_are_no_fmu_for_here_are_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, tmp_path: Path, fmi: int, temporary_folder: Path
+) -> None:
+    text, empty = tmp_path / "text.fmu", tmp_path / "empty.fmu"
+    text.write_text("no archive")
+    with zipfile.ZipFile(empty, "w") as archive:
+        archive.writestr("readme.txt", "")
+    here = fmpy.platform if fmi == 2 else fmpy.platform_tuple
+    expected = {
+        text: "is no FMU: it is not a ZIP archive, or a damaged one",
+        empty: "is no FMU: it has no modelDescription.xml",
+        make_fmu(fmi, kind="ModelExchange"): "is an FMU without co-simulation: export it for co-simulation",
+        make_fmu(fmi, platform="win16"): f"is built only for win16, expected {here} with any.so",
+        make_fmu(fmi, token="wrong"): "cannot be instantiated",
+        make_fmu(
+            fmi, token="wrong", about='generationTool="Tool 7"', interface='needsExecutionTool="true"'
+        ): ("cannot be instantiated (it needs its tool on this machine: Tool 7)"),
+    }
+    assert {path: refused(open_fmu, path) for path in expected} == expected
+    reading = refused(open_fmu, make_fmu(fmi, version="1.5"))
+    assert reading.startswith("has a modelDescription.xml that cannot be read: ")
+    assert list(temporary_folder.iterdir()) == []
+
+
+def test_a_library_that_cannot_be_loaded_is_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, temporary_folder: Path, tmp_path: Path
+) -> None:
+    before = Path.cwd()
+    make_fmu.libraries = {fmi: b"no library"}
+    message = refused(open_fmu, make_fmu(fmi))
+    assert message.startswith("cannot be loaded: Failed to load shared library ")
+    assert str(temporary_folder) not in message
+    assert Path.cwd() == before
+    assert list(temporary_folder.iterdir()) == []
+
+
+def test_an_fmu_of_another_step_is_refused(make_fmu: MakeFmu, open_fmu: OpenFmu) -> None:
+    experiment = '<DefaultExperiment stepSize="{}"/>'
+    message = "makes steps of 0.003 s: cycle_time is 0.01 s, expected a multiple of it"
+    assert refused(open_fmu, make_fmu(2, experiment=experiment.format("0.003"))) == message
+    assert refused(open_fmu, make_fmu(3, interface='fixedInternalStepSize="0.003"')) == message
+    for size in ("0.01", "0.0025"):
+        open_fmu(make_fmu(2, experiment=experiment.format(size)))
+        open_fmu(make_fmu(3, interface=f'fixedInternalStepSize="{size}"'))
+    variable = 'canHandleVariableCommunicationStepSize="true"'
+    open_fmu(make_fmu(2, experiment=experiment.format("0.003"), interface=variable))
+
+
+def test_a_file_that_changes_after_it_was_read_is_not_loaded(
+    make_fmu: MakeFmu, open_program: Callable[..., ControllerInstance]
+) -> None:
+    path = make_fmu(2)
+    with pytest.raises(ControllerError, match=rf"^{path.name} has changed since the scenario was read$"):
+        open_program(path, "0" * 64)
+
+
+def test_a_missing_extra_is_named(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = make_fmu(2)
+    monkeypatch.setattr("uictest.controllers.adapters.fmu.find_spec", lambda name: None)
+    with pytest.raises(
+        ControllerError, match=r"^controllers as FMUs need FMPy: pip install 'uictest\[fmu\]'$"
+    ):
+        open_fmu(path)

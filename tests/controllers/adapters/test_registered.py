@@ -1,0 +1,201 @@
+"""Controllers of installed packages: a class, or functions in the built-in form."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import uictest.controllers.built_in.threshold as threshold
+from uictest import rig
+from uictest.conformance.situations import anything
+from uictest.controllers import (
+    Config,
+    ControllerError,
+    ControllerProgram,
+    installed_version,
+    open_controller,
+)
+from uictest.controllers.adapters import registered
+from uictest.scenario import ScenarioErrors, load, load_controller, load_part
+
+ENTRY_POINTS = """\
+[uictest.controllers]
+acme-copy = acme_wsp.copy_of_threshold:CONTROLLER
+acme-class = acme_wsp.in_python:Acme
+acme-broken = acme_wsp.broken:Anything
+acme-number = acme_wsp.in_python:NUMBER
+"""
+IN_PYTHON = """
+from uictest.controllers import Outputs
+
+NUMBER = 7
+
+
+class Acme:
+    def __init__(self, config):
+        self.gain = config.parameters.get("gain", 0.0)
+
+    def reset(self):
+        self.cycles = 0
+
+    def step(self, inputs):
+        self.cycles += 1
+        return Outputs(hold=[0] * 4, vent=[0] * 4, reference_speed=self.gain * self.cycles)
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Install the package acme-wsp 2.1.0; return its folder of modules."""
+    site = tmp_path / "site"
+    modules, metadata = site / "acme_wsp", site / "acme_wsp-2.1.0.dist-info"
+    modules.mkdir(parents=True)
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-wsp\nVersion: 2.1.0\n", "utf-8")
+    (metadata / "entry_points.txt").write_text(ENTRY_POINTS, "utf-8")
+    (modules / "__init__.py").write_text("", "utf-8")
+    (modules / "in_python.py").write_text(IN_PYTHON, "utf-8")
+    (modules / "broken.py").write_text("import no_such_module\n", "utf-8")
+    copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
+    (modules / "copy_of_threshold.py").write_text(copy, "utf-8")
+    monkeypatch.syspath_prepend(str(site))
+    monkeypatch.setenv("PYTHONPATH", str(site))
+    importlib.invalidate_caches()
+    registered._loaded.cache_clear()
+    yield modules
+    registered._loaded.cache_clear()
+    for name in [name for name in sys.modules if name.partition(".")[0] == "acme_wsp"]:
+        del sys.modules[name]
+
+
+def test_its_part_has_name_and_version_of_the_package_which_is_not_imported(package: Path) -> None:
+    part = load_controller("acme-broken")
+    assert (part.version, "acme_wsp" in sys.modules) == ("acme-wsp 2.1.0", False)
+    assert opened("acme-class").version == load_controller("acme-class").version
+
+
+def test_a_name_that_nobody_or_two_packages_registered_has_no_version(package: Path) -> None:
+    assert installed_version("no-such") == ""
+    other = package.parent / "other_wsp-1.0.dist-info"
+    other.mkdir()
+    (other / "METADATA").write_text("Metadata-Version: 2.1\nName: other-wsp\nVersion: 1.0\n", "utf-8")
+    (other / "entry_points.txt").write_text("[uictest.controllers]\nacme-class = other:Acme\n", "utf-8")
+    importlib.invalidate_caches()
+    assert installed_version("acme-class") == ""
+    assert installed_version("acme-number") == "acme-wsp 2.1.0"
+
+
+def shipped() -> dict[str, float]:
+    """The parameters of the threshold controller of the library, SI units."""
+    part = load_part("controllers/threshold")
+    return {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
+
+
+def opened(name: str, **parameters: Any) -> Any:
+    config = Config(4, 0.01, 30.0, (0.46,) * 4, parameters)
+    return open_controller(ControllerProgram("registered", name, parameters=json.dumps(parameters)), config)
+
+
+def stop(folder: Path, controller: str) -> Any:
+    (folder / "stop.yaml").write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 60 km/h\n"
+        f"rail: {{condition: wet, friction: 0.08}}\ncontroller: {controller}\n",
+        "utf-8",
+    )
+    return load([folder / "stop.yaml"])[0]
+
+
+def test_a_copy_of_a_built_in_controller_gives_its_bits(package: Path, tmp_path: Path) -> None:
+    ours = rig.simulate(stop(tmp_path, "threshold"))
+    parameters = json.dumps(shipped())
+    theirs = rig.simulate(stop(tmp_path, f"{{registered: acme-copy, parameters: {parameters}}}"))
+    assert theirs.measures.tobytes() == ours.measures.tobytes()
+    assert theirs.wheelset_measures.tobytes() == ours.wheelset_measures.tobytes()
+
+
+def test_reset_leaves_nothing_of_the_stop_before(package: Path) -> None:
+    instance = opened("acme-copy", **shipped())
+    answers = []
+    for _ in range(2):
+        instance.reset()
+        driven = rig.drive(instance, anything(0.01, 500).inputs, 0.01, rig.empty_exchange())
+        answers.append(driven.outputs.tobytes())
+    assert answers[0] == answers[1]
+
+
+def test_a_class_is_created_with_its_parameters(package: Path) -> None:
+    instance = opened("acme-class", gain=2.0)
+    assert instance.version == "acme-wsp 2.1.0"
+    instance.reset()
+    outputs = rig.drive(instance, anything(0.01, 3).inputs, 0.01, rig.empty_exchange()).outputs
+    assert outputs["reference_speed"].tolist() == [2.0, 4.0, 6.0]
+    assert np.all(outputs["vent"] == 0)
+
+
+def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(
+    package: Path, tmp_path: Path
+) -> None:
+    case = stop(tmp_path, "acme-class")
+    assert case.scenario.controller.program.kind == "registered"
+    assert case.scenario.controller.program.location == "acme-class"
+    assert case.scenario.controller.version == "acme-wsp 2.1.0"
+    case = stop(tmp_path, "{extends: acme-class, parameters: {gain: 3}}")
+    assert json.loads(case.scenario.controller.program.parameters) == {"gain": 3}
+    assert not [name for name in sys.modules if name.startswith("acme_wsp")]
+
+
+def test_an_unknown_name_gets_a_hint_with_the_registered_ones(package: Path, tmp_path: Path) -> None:
+    with pytest.raises(ScenarioErrors, match="did you mean 'acme-class'"):
+        stop(tmp_path, "acme-clas")
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("acme-broken", "acme-broken of acme-wsp 2.1.0 cannot be imported: ModuleNotFoundError"),
+        ("acme-number", "acme-number of acme-wsp 2.1.0 is of type int; register a class or a Controller"),
+        ("nobody", "no installed package has registered 'nobody'; registered: acme-broken, acme-class"),
+    ],
+)
+def test_what_cannot_be_opened_says_why(package: Path, name: str, message: str) -> None:
+    with pytest.raises(ControllerError, match=message):
+        opened(name)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"slip_treshold": 1.0}, "no parameter slip_treshold; did you mean slip_threshold?"),
+        ({"slip_threshold": "0.8 bar"}, "slip_threshold is '0.8 bar', expected a number in m/s or a text"),
+        ({"slip_threshold": True}, "slip_threshold is True, expected a number in m/s"),
+        ({"slip_threshold": 99}, "slip_threshold is 99, expected a speed from 0.001 km/h to 100 km/h"),
+        ({"slip_threshold": float("nan")}, "slip_threshold is nan, expected a finite number"),
+        ({"hold_limit": "9 ms"}, "hold_limit is 9 ms: 9 ms is shorter than one controller cycle"),
+    ],
+)
+def test_wrong_parameters_are_rejected(package: Path, changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(ControllerError) as error:
+        opened("acme-copy", **{**shipped(), **changes})
+    assert message in str(error.value)
+
+
+def test_parameters_may_have_units(package: Path) -> None:
+    plain = opened("acme-copy", **shipped())
+    written = opened("acme-copy", **{**shipped(), "slip_threshold": "3.6km/h", "deep_slide": "30 %"})
+    values = written._memory["parameters"][0]
+    assert values["slip_threshold"] == 1.0
+    assert values["deep_slide"] == plain._memory["parameters"][0]["deep_slide"]
+
+
+def test_missing_parameters_are_named(package: Path) -> None:
+    parameters = shipped()
+    del parameters["slip_threshold"], parameters["hold_limit"]
+    with pytest.raises(ControllerError, match="parameters without a value: slip_threshold, hold_limit"):
+        opened("acme-copy", **parameters)

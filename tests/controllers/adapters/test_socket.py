@@ -1,0 +1,299 @@
+"""Controllers in a program at a socket: every frame, and everything that a program can do wrong."""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.controllers import (
+    INPUTS,
+    OUTPUTS,
+    Config,
+    ControllerError,
+    ControllerProgram,
+    interrupt_turns,
+    open_controller,
+)
+from uictest.controllers.adapters import turns
+
+from .conftest import Fault, Start
+
+At = Callable[..., ControllerProgram]
+STEPPED = 2
+"""Number of the first step frame: behind greeting and reset."""
+
+
+def step(controller: Any, cycle: int = 0) -> tuple[int, Any]:
+    """Call a controller as compiled code does; return its status and outputs."""
+    inputs, outputs = np.zeros(1, INPUTS), np.zeros(1, OUTPUTS)
+    inputs["cycle"], inputs["wheel_speed"], inputs["speed_valid"] = cycle, [[1.0, 2.0, 3.0, 4.0]], 1
+    status = controller._callback(None, inputs.ctypes.data, outputs.ctypes.data)
+    return status, outputs[0]
+
+
+def failure(program: ControllerProgram, config: Config) -> str:
+    """Return what goes wrong in the greeting, the reset, or the first of two steps that fails."""
+    try:
+        controller = open_controller(program, config)
+    except ControllerError as error:
+        return str(error)
+    try:
+        controller.reset()
+        failed = any(step(controller, cycle)[0] for cycle in range(2))  # as a stop, it ends at the first
+        return controller.last_error() if failed else "nothing"
+    except ControllerError as error:
+        return str(error)
+    finally:
+        controller.close()
+
+
+def test_the_greeting_says_what_the_program_has_to_know(start: Start, at: At, config: Config) -> None:
+    program = start()
+    controller = open_controller(at(program.address), config)
+    controller.close()
+    kind, number, body = program.received[0]
+    assert (kind, number) == (b"HELO", 0)
+    assert struct.unpack_from("<4I", body) == (1, 104, 48, 4)
+    assert struct.unpack_from("<6d", body, 16) == (0.01, 33.25, 0.41, 0.42, 0.43, 0.44)
+    assert body[64:96].hex() == config.case_sha256
+    assert body[96:] == b'{"lower": 0.08}'
+    assert controller.version == "Bremsprüfer 2.1"
+
+
+def test_inputs_and_outputs_travel_as_they_lie_in_memory(start: Start, at: At, config: Config) -> None:
+    program = start()
+    controller = open_controller(at(program.address), config)
+    controller.reset()
+    status, outputs = step(controller, cycle=7)
+    controller.close()
+    frames = program.frames()
+    step_frame = frames[2]
+    assert step_frame[:2] == (b"STEP", 2)
+    speeds_and_demand = (1.0, 2.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    assert struct.unpack("<q10d4i", step_frame[2]) == (7, 0.0, *speeds_and_demand, 1, 1, 1, 1)
+    assert (status, outputs["reference_speed"], outputs["diagnosis"]) == (0, 31.5, 0xFFFFFFFF)
+    assert (outputs["hold"].tolist(), outputs["vent"].tolist()) == ([1, 1, 0, 0], [0, 1, 0, 0])
+    assert [(kind, number) for kind, number, _ in frames[1:]] == [
+        (b"RSET", 1),
+        (b"STEP", 2),
+        (b"DONE", 3),
+    ]
+
+
+def test_the_digest_of_no_case_is_zero(start: Start, at: At) -> None:
+    program = start()
+    open_controller(at(program.address), Config(4, 0.01, 30.0, (0.4,) * 4, {})).close()
+    assert program.received[0][2][64:96] == bytes(32)
+
+
+def changed(place: int, layout: str, value: object) -> Fault:
+    """Write a value into the answer."""
+
+    def fault(frame: bytes) -> bytes:
+        content = bytearray(frame)
+        struct.pack_into(layout, content, place, value)
+        return bytes(content)
+
+    return fault
+
+
+def refusal(text: bytes) -> Fault:
+    """Answer FAIL and a reason."""
+    return lambda frame: struct.pack("<4sI", b"FAIL", len(text)) + frame[8:16] + text
+
+
+FAULTS: dict[str, tuple[int, Fault, str]] = {
+    "closes before the greeting": (
+        *(0, lambda frame: None),
+        "the program closed the connection before its answer to the greeting",
+    ),
+    "closes in mid-stop": (
+        *(STEPPED + 1, lambda frame: None),
+        "the program closed the connection before its answer to the step frame",
+    ),
+    "other version": (
+        *(0, changed(16, "<I", 2)),
+        "the program has protocol version 2, expected 1",
+    ),
+    "talks another protocol": (
+        *(0, lambda frame: b"HTTP/1.1 400 Bad Request\r\n\r\n"),
+        "the answer to the greeting begins with b'HTTP', expected b'HELO'",
+    ),
+    "garbage": (
+        *(STEPPED, lambda frame: bytes(range(200, 256)) * 20),
+        r"the answer to the step frame begins with b'\xc8\xc9\xca\xcb', expected b'STEP'",
+    ),
+    "other kind": (
+        *(1, changed(0, "<4s", b"STEP")),
+        "the answer to the reset frame begins with b'STEP', expected b'RSET'",
+    ),
+    "wrong number": (
+        *(STEPPED + 1, changed(8, "<Q", STEPPED)),
+        "the answer to the step frame has the number 2, expected 3",
+    ),
+    "wrong size": (
+        *(STEPPED, changed(4, "<I", 40)),
+        "the answer to the step frame has 40 bytes, expected 48",
+    ),
+    "longer than it says": (
+        *(STEPPED, lambda frame: frame + b"12345"),
+        "5 bytes follow the answer to the step frame",
+    ),
+    "refuses": (0, refusal(b"no licence"), "no licence"),
+    "refuses a step": (STEPPED, refusal("Ölstand".encode()), "Ölstand"),
+    "refuses without a reason": (STEPPED, refusal(b""), "no reason given"),
+    "refuses at length": (
+        *(STEPPED, refusal(bytes(1001))),
+        "the answer to the step frame begins with b'FAIL', expected b'STEP'",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_every_departure_from_the_protocol_is_named(start: Start, at: At, config: Config, name: str) -> None:
+    number, fault, message = FAULTS[name]
+    program = start(fault, number)
+    assert failure(at(program.address), config) == message
+
+
+@pytest.mark.parametrize("part", [1, 15, 16, 40])
+def test_a_short_frame_is_named_where_the_connection_ends(
+    start: Start, at: At, config: Config, part: int
+) -> None:
+    def send_a_part(frame: bytes) -> None:
+        program.streams[-1].sendall(frame[:part])
+
+    program = start(send_a_part, STEPPED)
+    needed = 16 if part < 16 else 64
+    expected = (
+        f"the program closed the connection after {part} of {needed} bytes of its answer to the step frame"
+    )
+    assert failure(at(program.address), config) == expected
+
+
+def test_a_program_that_says_nothing_has_its_time(start: Start, at: At, config: Config) -> None:
+    ended = threading.Event()
+    program = start(lambda frame: b"late" if ended.wait() else None)
+    assert failure(at(program.address, 0.05), config) == "no answer to the greeting within 0.05 s"
+    ended.set()
+
+
+def test_a_program_that_sends_byte_by_byte_has_no_more_time(start: Start, at: At, config: Config) -> None:
+    def trickle(frame: bytes) -> None:
+        for place in range(len(frame)):
+            program.streams[-1].sendall(frame[place : place + 1])
+            time.sleep(0.01)
+
+    program = start(trickle)
+    message = failure(at(program.address, 0.2), config)
+    assert message.startswith(("only ", "no answer "))
+    assert message.endswith(" to the greeting within 0.2 s")
+
+
+def free_address() -> str:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        return f"tcp://127.0.0.1:{listener.getsockname()[1]}"
+
+
+def test_where_nobody_listens_only_the_first_stop_waits(
+    at: At, config: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waited: list[float] = []
+    monkeypatch.setattr(turns, "STARTING", 0.2)
+    monkeypatch.setattr(turns, "sleep", lambda pause: waited.append(pause) or time.sleep(pause))
+    address = free_address()
+    expected = f"no program listens at {address} (Connection refused); start it before the run"
+    assert failure(at(address), config) == expected
+    assert waited
+    waited.clear()
+    assert failure(at(address), config) == expected
+    assert not waited
+
+
+def test_a_program_may_start_after_the_run(
+    start: Start, at: At, config: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = start()
+    connect = socket.create_connection
+    attempts: list[object] = []
+
+    def refused_twice(*arguments: Any, **options: Any) -> socket.socket:
+        attempts.append(arguments)
+        if len(attempts) <= 2:
+            raise ConnectionRefusedError(111, "Connection refused")
+        return connect(*arguments, **options)
+
+    monkeypatch.setattr(turns, "STARTING", 600.0)
+    monkeypatch.setattr(socket, "create_connection", refused_twice)
+    assert failure(at(program.address), config) == "nothing"
+
+
+def test_a_name_that_nobody_has_is_named(at: At, config: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    def unknown(*arguments: Any, **options: Any) -> socket.socket:
+        raise socket.gaierror(-2, "Name or service not known")
+
+    monkeypatch.setattr(turns, "STARTING", 0.0)
+    monkeypatch.setattr(socket, "create_connection", unknown)
+    message = failure(at("tcp://box.invalid:5025"), config)
+    assert message.startswith("no program listens at tcp://box.invalid:5025 (Name or service not known)")
+
+
+def test_parameters_that_no_frame_holds_are_rejected(start: Start, config: Config) -> None:
+    program = start()
+    long = ControllerProgram("connect", program.address, parameters=f'{{"map": "{"x" * 65536}"}}')
+    assert failure(long, config) == "parameters: 65547 bytes as JSON, at most 65440 can be sent"
+
+
+def test_stops_at_one_address_run_one_after_the_other(start: Start, at: At, config: Config) -> None:
+    program = start()
+    messages: list[str] = []
+    threads = [
+        threading.Thread(target=lambda: messages.append(failure(at(program.address), config)))
+        for _ in range(6)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert messages == ["nothing"] * 6
+    kinds = [kind for kind, _, _ in program.frames()]
+    # The end of a stop is not answered: its frame may be read when the next stop has begun.
+    assert [kind for kind in kinds if kind != b"DONE"] == [b"HELO", b"RSET", b"STEP", b"STEP"] * 6
+    assert kinds.count(b"DONE") == 6
+
+
+def test_an_interruption_ends_stops_that_run_and_stops_that_wait(
+    start: Start, at: At, config: Config
+) -> None:
+    asked, ended = threading.Event(), threading.Event()
+
+    def hang(frame: bytes) -> None:
+        asked.set()
+        ended.wait()
+
+    program = start(hang, STEPPED)
+    messages: list[str] = []
+    threads = [
+        threading.Thread(target=lambda: messages.append(failure(at(program.address, 600.0), config)))
+        for _ in range(2)
+    ]
+    for thread in threads:
+        thread.start()
+    asked.wait()
+    while len(turns._TURNS) < len(threads):
+        time.sleep(0.001)
+    interrupt_turns()
+    for thread in threads:
+        thread.join()
+    ended.set()
+    assert messages == [
+        "the program closed the connection before its answer to the step frame",
+        "interrupted before the program was connected",
+    ]

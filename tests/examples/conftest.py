@@ -1,0 +1,134 @@
+"""The controllers in examples/, built as a user builds them, and every shipped case with one of them."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import os
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import uictest
+from uictest import rig
+from uictest.controllers import CONTROLLERS, DEFAULT
+from uictest.scenario import Case, load
+from uictest.scenario.parts.external_controller import (
+    ExternalController,
+    FmuController,
+    LibraryController,
+    SocketController,
+)
+from uictest.scenario.parts.program_file import ProgramFile
+from uictest.scenario.yaml import Document
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
+HEADERS = Path(uictest.__file__).parent / "controllers"
+WithController = Callable[[Case, Path | str], Case]
+Serve = Callable[[Path], Path]
+
+
+@pytest.fixture(scope="session")
+def compiler() -> str:
+    """The C compiler: $CC, else gcc."""
+    path = shutil.which(os.environ.get("CC", "gcc"))
+    if path is None:
+        pytest.skip("no C compiler")
+    return path
+
+
+@pytest.fixture(scope="session")
+def threshold_library(compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """examples/threshold-c, made by its Makefile."""
+    folder = tmp_path_factory.mktemp("threshold-c") / "built"
+    shutil.copytree(EXAMPLES / "threshold-c", folder, ignore=shutil.ignore_patterns("*.so"))
+    make = shutil.which("make")
+    if make is None:
+        pytest.skip("no make")
+    subprocess.run([make, "-s", f"CC={compiler}", f"HEADER={HEADERS}"], cwd=folder, check=True)
+    return folder / "libwsp.so"
+
+
+@pytest.fixture(scope="session")
+def serve(compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Serve:
+    """Compile examples/socket/serve.c with a controller, without a warning, and return the program."""
+
+    def compiled(controller: Path) -> Path:
+        program = tmp_path_factory.mktemp("serve") / "wsp"
+        options = ("-O2", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", f"-I{HEADERS}", "-o", program)
+        sources = (EXAMPLES / "socket" / "serve.c", controller)
+        subprocess.run([compiler, *options, *sources, "-lm"], check=True)
+        return program
+
+    return compiled
+
+
+@contextmanager
+def listening(*command: str | Path) -> Iterator[str]:
+    """Start a program at a port that the system chooses, yield where it listens, and end it."""
+    with subprocess.Popen([*command, "0"], stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield process.stdout.readline().removeprefix("listening on ").strip()
+        finally:
+            process.kill()
+
+
+def _parameters(case: Case) -> dict[str, float]:
+    """The parameters of the built-in controller of a case, in SI units."""
+    declared = CONTROLLERS[DEFAULT].declared_parameters()
+    return {name: float(getattr(case.scenario.controller, name)) for name in declared if name != "cycle_time"}
+
+
+@pytest.fixture(scope="session")
+def parameters_of() -> Callable[[Case], dict[str, float]]:
+    """The parameters of the built-in controller of a case, in SI units."""
+    return _parameters
+
+
+def _external(case: Case, program: Path | str) -> ExternalController:
+    common = {
+        "parameters": _parameters(case),
+        "cycle_time": f"{float(case.scenario.controller.cycle_time)} s",
+    }
+    if isinstance(program, str):
+        return SocketController(connect=program, **common)
+    digest = hashlib.sha256(program.read_bytes()).hexdigest()
+    file = ProgramFile(program.name, str(program), Document("", program.parent, "", digest))
+    if program.suffix == ".fmu":
+        return FmuController(fmu=file, **common)
+    return LibraryController(library=file, **common)
+
+
+@pytest.fixture(scope="session")
+def with_controller() -> WithController:
+    """Put a library, an FMU or what listens at an address into a case, with the built-in's parameters."""
+
+    def replaced(case: Case, program: Path | str) -> Case:
+        scenario = case.scenario.model_copy(update={"controller": _external(case, program)})
+        return dataclasses.replace(case, scenario=scenario)
+
+    return replaced
+
+
+@pytest.fixture(scope="session")
+def shipped() -> list[Case]:
+    """Every shipped case with the threshold controller."""
+    cases = load([ROOT / "scenarios"])
+    return [case for case in cases if case.scenario.controller.algorithm == DEFAULT]
+
+
+def bits(stop: rig.SimulatedStop) -> bytes:
+    """What a stop has measured, to the bit."""
+    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
+
+
+@pytest.fixture(scope="session")
+def built_in(shipped: list[Case]) -> list[bytes]:
+    """The bits of every shipped stop with the built-in controller."""
+    return [bits(rig.simulate(case)) for case in shipped]

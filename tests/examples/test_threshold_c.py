@@ -1,0 +1,155 @@
+"""The threshold controller in C is the built-in one, bit for bit."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from uictest import rig
+from uictest.controllers import (
+    EXCHANGE,
+    OUTPUTS_AT,
+    Config,
+    ControllerError,
+    ControllerInstance,
+    ControllerProgram,
+    open_controller,
+)
+from uictest.controllers.adapters.instance import STEP
+from uictest.controllers.built_in import threshold
+from uictest.physics import FILL, VENT
+from uictest.rig.external.in_process import run_in_process
+from uictest.scenario import Case, load
+
+from .conftest import EXAMPLES, Serve, WithController, bits, listening
+
+Array = NDArray[np.float64]
+Simulate = Callable[[Case], rig.SimulatedStop]
+
+
+@pytest.fixture
+def in_process(threshold_library: Path, with_controller: WithController) -> Simulate:
+    return lambda case: rig.simulate(with_controller(case, threshold_library), run=run_in_process)
+
+
+@pytest.fixture
+def in_a_child_process(threshold_library: Path, with_controller: WithController) -> Iterator[Simulate]:
+    with rig.Workers() as workers:
+        yield lambda case: rig.simulate(with_controller(case, threshold_library), run=workers.run)
+
+
+@pytest.fixture
+def over_tcp(serve: Serve, with_controller: WithController) -> Iterator[Simulate]:
+    with listening(serve(EXAMPLES / "threshold-c" / "threshold.c")) as address:
+        yield lambda case: rig.simulate(with_controller(case, address))
+
+
+@pytest.mark.parametrize("way", ["in_process", "in_a_child_process", "over_tcp"])
+def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
+    way: str, request: pytest.FixtureRequest, shipped: list[Case], built_in: list[bytes]
+) -> None:
+    simulate: Simulate = request.getfixturevalue(way)
+    stops = [simulate(case) for case in shipped]
+    assert len(stops) > 20
+    assert {stop.controller_version for stop in stops} == {"1.0"}
+    found = zip(shipped, stops, built_in, strict=True)
+    assert [case.id for case, stop, expected in found if bits(stop) != expected] == []
+
+
+def test_the_example_scenario_runs_with_the_parameters_of_the_built_in_controller(
+    threshold_library: Path, parameters_of: Callable[[Case], dict[str, float]], shipped: list[Case]
+) -> None:
+    case = load([threshold_library.parent / "threshold.yaml"])[0]
+    written = case.scenario.controller.program
+    assert written is not None
+    assert json.loads(written.parameters) == parameters_of(shipped[0])
+    assert float(rig.simulate(case, run=run_in_process).measures.braking_distance) > 0.0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_it_answers_as_the_built_in_controller_does_to_any_speeds(
+    threshold_library: Path, parameters_of: Callable[[Case], dict[str, float]], shipped: list[Case], seed: int
+) -> None:
+    """Speeds that no rig gives reach the modes that shipped stops do not: probing, watchdogs."""
+    parameters = parameters_of(shipped[0])
+    built_in = BuiltIn({**parameters, "cycle_time": 0.01}, 30.0)
+    instance = opened_library(threshold_library, parameters, 30.0)
+    try:
+        instance.reset()
+        for cycle, speeds in enumerate(wandering_speeds(seed)):
+            assert asked(instance, cycle, speeds) == built_in.asked(speeds), f"cycle {cycle}"
+        assert built_in.modes == {0, 1, 2, 3, 4}
+    finally:
+        instance.close()
+
+
+def wandering_speeds(seed: int) -> Array:
+    """Four speeds over 60 s that slide, lock and catch up by chance, m/s."""
+    random = np.random.default_rng(seed)
+    train = np.maximum(30.0 - 0.5 * 0.01 * np.arange(6000), 0.0)
+    share = np.clip(np.cumsum(random.normal(0.0, 0.02, (6000, 4)), axis=0) + 0.8, 0.0, 1.0)
+    return np.asarray(train[:, None] * share + np.abs(random.normal(0.0, 0.005, (6000, 4))))
+
+
+class BuiltIn:
+    """The built-in controller in plain Python."""
+
+    def __init__(self, parameters: dict[str, float], speed: float) -> None:
+        self.parameters = SimpleNamespace(**parameters)
+        self.train = SimpleNamespace()
+        self.wheelsets = [SimpleNamespace() for _ in range(4)]
+        self.modes: set[int] = set()
+        threshold.begin(self.train, self.wheelsets, speed)  # type: ignore[arg-type]
+
+    def asked(self, speeds: Array) -> tuple[list[int], list[int], float]:
+        for wheelset, speed in zip(self.wheelsets, speeds.tolist(), strict=True):
+            wheelset.measured_speed = speed
+        threshold.decide(self.train, self.wheelsets, self.parameters)  # type: ignore[arg-type]
+        self.modes |= {wheelset.mode for wheelset in self.wheelsets}
+        commands = [wheelset.valve_command for wheelset in self.wheelsets]
+        hold, vent = [int(each != FILL) for each in commands], [int(each == VENT) for each in commands]
+        return hold, vent, self.train.reference_speed
+
+
+def opened_library(library: Path, parameters: dict[str, float], speed: float) -> ControllerInstance:
+    digest = hashlib.sha256(library.read_bytes()).hexdigest()
+    program = ControllerProgram("library", str(library), digest, json.dumps(parameters))
+    return open_controller(program, Config(4, 0.01, speed, (0.46,) * 4, parameters))
+
+
+def asked(instance: ControllerInstance, cycle: int, speeds: Array) -> tuple[list[int], list[int], float]:
+    exchange: Any = np.zeros(1, EXCHANGE)[0]
+    exchange["cycle"], exchange["time"], exchange["wheel_speed"] = cycle, cycle * 0.01, speeds
+    address = exchange.__array_interface__["data"][0]
+    assert STEP(instance.step_address)(instance.handle, address, address + OUTPUTS_AT) == 0
+    return exchange["hold"].tolist(), exchange["vent"].tolist(), float(exchange["reference_speed"])
+
+
+@pytest.mark.parametrize(
+    ("parameters", "reason"),
+    [
+        ({"slip_threshold": "high"}, "parameter slip_threshold is missing or not a number"),
+        ({"hold_limit": None}, "parameter hold_limit is missing or not a number"),
+        ({"fill_pulse_on": 0.001}, "fill_pulse_on is shorter than one cycle"),
+    ],
+)
+def test_parameters_that_are_none_are_named(
+    threshold_library: Path,
+    parameters_of: Callable[[Case], dict[str, float]],
+    shipped: list[Case],
+    parameters: dict[str, Any],
+    reason: str,
+) -> None:
+    changed = {
+        name: value for name, value in (parameters_of(shipped[0]) | parameters).items() if value is not None
+    }
+    with pytest.raises(ControllerError, match=f"^uictest_create failed: {reason}$"):
+        opened_library(threshold_library, changed, 30.0)

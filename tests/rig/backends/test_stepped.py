@@ -1,0 +1,137 @@
+"""A stop that is stepped from outside is the stop of `run`, to the bit."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.controllers import FORBIDDEN_COMMAND, NO_FAILURE, NO_MAGNET_STATE
+from uictest.record import fields_of
+from uictest.rig.assembly import assemble
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.stepped import SteppedStop
+from uictest.rig.model.state import Car, Wheelset
+from uictest.scenario import Case, load
+
+SCENARIOS = Path(__file__).parents[3] / "scenarios"
+OF_THE_NEXT_CYCLE = {
+    *("measured_speed", "pressure_error", "loadcell_error", "line_pressure_error", "friction"),
+    *("pad_friction", "counted_teeth", "tooth_time", "tooth_rate", "tooth_speed", "cleaned_share"),
+}
+"""What the sensors and the look-ups after the last cycle set."""
+VARIANTS = {
+    "modelled air": ("slide-80.yaml", ["rig.compensation=thermal"]),
+    "pole wheels": ("low-adhesion-80.yaml", ["rig.sensors=pole-wheel"]),
+    "slip band": ("slide-80-four-caliper.yaml", ["controller=slip-band"]),
+    "another cycle": ("low-adhesion-80.yaml", ["controller.cycle_time=20 ms"]),
+}
+
+
+def stepped_to_end(case: Case, outside: Any, every: int) -> FinishedStop:
+    stop, controller = SteppedStop(assemble(case), every), outside(case)
+    exchange = stop.exchange
+    while not stop.has_ended:
+        exchange["hold"], exchange["vent"] = controller.magnets(exchange["wheel_speed"].tolist())
+        exchange["reference_speed"] = controller.reference_speed
+        stop.step()
+    return stop.finished()
+
+
+def assert_same(stepped: FinishedStop, run: FinishedStop) -> None:
+    """Every measure, every sample and every state but those of the cycle that never came."""
+    assert stepped.measures.tobytes() == run.measures.tobytes()
+    assert stepped.wheelset_measures.tobytes() == run.wheelset_measures.tobytes()
+    for one, other in zip(stepped.trace, run.trace, strict=True):
+        assert one.tobytes() == other.tobytes()
+    memory_of_controller = {*run.car.dtype.names, *run.wheelsets.dtype.names} - own_states()
+    for one, other in ((stepped.car, run.car), (stepped.wheelsets, run.wheelsets)):
+        differ = {name for name in one.dtype.names if one[name].tobytes() != other[name].tobytes()}
+        assert differ <= OF_THE_NEXT_CYCLE | memory_of_controller
+
+
+def own_states() -> set[str]:
+    """States of the rig and what any controller shows of itself."""
+    return {*fields_of(Car), *fields_of(Wheelset)}
+
+
+@pytest.mark.parametrize("every", [0, 7])
+def test_every_shipped_stop_has_the_bits_of_run(
+    scenarios: list[Case], controller_outside: Callable[[Case], Any], every: int
+) -> None:
+    for case in scenarios if every == 0 else scenarios[::5]:
+        inputs = assemble(case)
+        run = run_to_end(compiled_stop(inputs.controller), inputs, every)
+        assert_same(stepped_to_end(case, controller_outside, every), run)
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_other_parts_of_the_rig_have_the_bits_of_run(
+    name: str, controller_outside: Callable[[Case], Any]
+) -> None:
+    file, overrides = VARIANTS[name]
+    case = load([SCENARIOS / file], overrides)[0]
+    inputs = assemble(case)
+    run = run_to_end(compiled_stop(inputs.controller), inputs, 20)
+    assert_same(stepped_to_end(case, controller_outside, 20), run)
+
+
+def test_a_stop_ends_after_its_longest_duration(rig: Any) -> None:
+    inputs = rig.inputs("rig.wsp=bypassed", cycles=50)
+    stop, steps = SteppedStop(inputs), 0
+    while not stop.has_ended:
+        stop.step()
+        steps += 1
+    assert steps == 50
+    run = run_to_end(compiled_stop(inputs.controller), inputs)
+    assert stop.finished().measures.tobytes() == run.measures.tobytes()
+
+
+def test_the_present_state_is_that_of_the_recording(rig: Any) -> None:
+    """Sampled at the end of each cycle, after the sensors were read for the next one."""
+    inputs = rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=150)
+    steps = int(inputs.parameters["steps_per_cycle"])
+    stop = SteppedStop(inputs, steps)
+    states = [stop.memory["train"].copy()]
+    while not stop.has_ended:
+        stop.step()
+        states.append(stop.memory["train"].copy())
+    recorded = stop.finished().trace.train
+    for name in ("time", "distance", "speed", "brake_line_pressure"):
+        assert np.concatenate(states)[name].tobytes() == recorded[name].tobytes()
+
+
+@pytest.mark.parametrize(
+    ("hold", "vent", "failure"),
+    [(0, 1, FORBIDDEN_COMMAND), (2, 0, NO_MAGNET_STATE), (0, -1, NO_MAGNET_STATE)],
+)
+def test_a_command_that_no_valve_has_moves_nothing(rig: Any, hold: int, vent: int, failure: int) -> None:
+    stop, other = (SteppedStop(rig.inputs(cycles=20)) for _ in range(2))
+    stop.exchange["hold"][2], stop.exchange["vent"][2] = hold, vent
+    stop.step()
+    assert stop.exchange["failure"] == failure
+    assert stop.exchange["failed_wheelset"] == 2
+    stop.exchange["hold"], stop.exchange["vent"] = 0, 0
+    for each in (stop, other):
+        while not each.has_ended:
+            each.step()
+    assert stop.exchange["failure"] == NO_FAILURE
+    assert stop.finished().measures.tobytes() == other.finished().measures.tobytes()
+
+
+def test_a_copy_of_the_memory_is_a_copy_of_the_stop(rig: Any) -> None:
+    """It holds no address, so that a tool can go back to an earlier state."""
+    stop = SteppedStop(rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=60))
+    for _ in range(30):
+        stop.step()
+    kept = stop.memory.copy()
+    ends = []
+    for _ in range(2):
+        while not stop.has_ended:
+            stop.step()
+        ends.append(stop.memory.tobytes())
+        for name in kept.dtype.names:
+            stop.memory[name] = kept[name]
+    assert ends[0] == ends[1]

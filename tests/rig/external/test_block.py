@@ -1,0 +1,149 @@
+"""Stops in one block: in lanes where the controller says that it runs beside others, else one by one."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import uictest.controllers.built_in.threshold as threshold
+from uictest.controllers import EXCHANGE
+from uictest.controllers.adapters import registered
+from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.external import block
+from uictest.rig.external.block import BlockInputs, run_block
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.workers import Workers
+from uictest.scenario import load, load_part
+
+Compile = Callable[..., Path]
+ENTRY_POINTS = """\
+[uictest.controllers]
+acme-copy = acme_lanes:CONTROLLER
+acme-class = bad:Bad
+"""
+
+
+@pytest.fixture
+def package(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Install a package with a copy of the threshold controller and a class that fails as told to."""
+    metadata = folder / "acme_lanes-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-lanes\nVersion: 1.0\n", "utf-8")
+    (metadata / "entry_points.txt").write_text(ENTRY_POINTS, "utf-8")
+    copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
+    (folder / "acme_lanes.py").write_text(copy, "utf-8")
+    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+    importlib.invalidate_caches()
+    registered._loaded.cache_clear()
+    yield
+    registered._loaded.cache_clear()
+    for name in ("acme_lanes", "bad"):
+        sys.modules.pop(name, None)
+
+
+@pytest.fixture
+def ran_in_lanes(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many stops ran in lanes, for each call."""
+    counts: list[int] = []
+    original = block.run_in_lanes
+
+    def counted(parameters: NDArray[np.void], *others: object) -> object:
+        counts.append(len(parameters))
+        return original(parameters, *others)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(block, "run_in_lanes", counted)
+    return counts
+
+
+def copies(*frictions: float, **changes: object) -> list[StopInputs]:
+    """Stops with the copy of the threshold controller, on rails that need it."""
+    part = load_part("controllers/threshold")
+    own = {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
+    return stops(f"{{registered: acme-copy, parameters: {json.dumps({**own, **changes})}}}", *frictions)
+
+
+def stops(controller: str, *frictions: float) -> list[StopInputs]:
+    rails = [f"rail={{condition: wet, friction: {friction}}}" for friction in frictions]
+    return [assemble(load([Path("stop.yaml")], [rail, f"controller={controller}"])[0]) for rail in rails]
+
+
+def block_of(inputs: Sequence[StopInputs]) -> BlockInputs:
+    return BlockInputs(
+        [stop.program for stop in inputs],
+        [stop.config for stop in inputs],
+        np.array([stop.parameters for stop in inputs]),
+        np.array([stop.wheelset_parameters for stop in inputs]),
+        np.array([stop.rail for stop in inputs]),
+        [stop.controller for stop in inputs],
+    )
+
+
+def bits(run: object, place: int | tuple[()] = ()) -> bytes:
+    measures, of_wheelsets = run.measures[place], run.wheelset_measures[place]  # type: ignore[attr-defined]
+    return bytes(measures.tobytes() + of_wheelsets.tobytes())
+
+
+@pytest.mark.usefixtures("package")
+def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(
+    library: Compile, ran_in_lanes: list[int]
+) -> None:
+    """Whatever stands between them in the block; a class of a package runs one by one."""
+    library()
+    frictions = (0.06, 0.08, 0.11)
+    inputs = [
+        *copies(*frictions),
+        *stops("{registered: acme-class, parameters: {fault: none, at: 0}}", 0.08),
+        *stops("threshold", *frictions),
+        *stops("{library: libbad.so, parameters: {fault: none, at: 0}}", 0.08),
+        *copies(0.14),
+    ]
+    run = run_block(block_of(inputs))
+    assert run.failures == [""] * 9
+    assert ran_in_lanes == [8]
+    for place, stop in enumerate(inputs):
+        assert bits(run, place) == bits(run_in_process(stop)), place
+    assert [bits(run, place) for place in (0, 1, 2)] == [bits(run, place) for place in (4, 5, 6)]
+
+
+@pytest.mark.usefixtures("package")
+def test_a_controller_that_fails_ends_its_own_stop_alone(ran_in_lanes: list[int]) -> None:
+    inputs = [
+        *copies(0.08, slip_threshold=99.0),
+        *copies(0.08),
+        *stops("{registered: acme-class, parameters: {fault: raise, at: 7}}", 0.08),
+        *stops("{registered: acme-class, parameters: {fault: create, at: 0}}", 0.08),
+        *copies(0.06),
+    ]
+    exchanges = np.zeros(5, EXCHANGE)
+    run = run_block(block_of(inputs), exchanges)
+    expected = (
+        "controller: slip_threshold is 99.0, expected a speed from",
+        "",
+        "controller: step failed: ValueError: told to",
+        "controller: Bad(config) failed: ValueError: told to",
+        "",
+    )
+    for found, beginning in zip(run.failures, expected, strict=True):
+        assert found.startswith(beginning)
+        assert bool(found) == bool(beginning)
+    assert ran_in_lanes == [2]
+    assert not exchanges["calling"].any()
+    for place in (1, 4):
+        assert bits(run, place) == bits(run_in_process(inputs[place]))
+
+
+@pytest.mark.usefixtures("package")
+def test_a_block_in_a_child_process_has_the_bits_of_one_here() -> None:
+    inputs = copies(0.06, 0.09)
+    with Workers() as workers:
+        there = workers.run_block(block_of(inputs))
+    assert there.failures == ["", ""]
+    assert bits(there) == bits(run_block(block_of(inputs)))

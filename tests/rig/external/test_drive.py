@@ -1,0 +1,47 @@
+"""Controllers driven through given cycles: each that was created is closed once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.controllers import INPUTS, Config, ControllerError, ControllerProgram
+from uictest.rig.external import drive
+from uictest.rig.external.opened import empty_exchange
+
+CONFIG = Config(4, 0.01, 30.0, (0.46,) * 4, {})
+
+
+class Instance:
+    """Counts how often it is closed."""
+
+    version = ""
+
+    def __init__(self) -> None:
+        self.closed = 0
+
+    def reset(self) -> None:
+        """Nothing to reset."""
+
+    def close(self) -> None:
+        self.closed += 1
+
+
+def test_a_controller_that_cannot_be_created_again_was_closed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A second destroy of what a library has created would free its memory twice."""
+    created: list[Instance] = []
+
+    def opened(*arguments: Any) -> Instance:
+        if created:
+            raise ControllerError("only one licence")
+        created.append(Instance())
+        return created[0]
+
+    monkeypatch.setattr(drive, "open_controller", opened)
+    program = ControllerProgram("library", "libwsp.so")
+    request = drive.DriveRequest(program, CONFIG, np.zeros(0, INPUTS), ("create", "create"))
+    with pytest.raises(ControllerError, match="only one licence"):
+        drive.drive_controller(request, empty_exchange())
+    assert created[0].closed == 1

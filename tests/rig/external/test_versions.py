@@ -1,0 +1,76 @@
+"""Two versions of a controller in one run: each has the modules that lie beside its own file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.controllers import ControllerError
+from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.workers import Workers
+from uictest.scenario import load
+
+VersionOf = Callable[[str], StopInputs]
+WSP = """
+from uictest.controllers import Outputs
+import shared_logic
+
+class Wsp:
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs): return Outputs([0] * 4, [0] * 4, shared_logic.SPEED)
+"""
+
+
+@pytest.fixture
+def version_of(folder: Path) -> VersionOf:
+    """A stop with the controller of a folder; its helper module has the folder's number."""
+
+    def inputs(name: str) -> StopInputs:
+        (folder / name).mkdir(exist_ok=True)
+        (folder / name / "wsp.py").write_text(WSP, "utf-8")
+        (folder / name / "shared_logic.py").write_text(f"SPEED = {name[1:]}.0\n", "utf-8")
+        scenario = folder / "stop.yaml"
+        text = scenario.read_text("utf-8").partition("controller:")[0]
+        scenario.write_text(f"{text}controller: {{python: {name}/wsp.py, class: Wsp}}\n", "utf-8")
+        return assemble(load([scenario])[0])
+
+    return inputs
+
+
+def test_each_version_imports_what_lies_beside_it(version_of: VersionOf) -> None:
+    stops = {name: version_of(name) for name in ("v1", "v2", "v1", "v2")}
+    with Workers() as workers:
+        for name, stop in stops.items():
+            speeds = workers.run(stop, 1000).trace.train["reference_speed"]
+            assert set(speeds[1:-1]) == {float(name[1:])}, name
+
+
+def test_in_one_process_a_second_version_is_refused(version_of: VersionOf) -> None:
+    first, second = version_of("v3"), version_of("v4")
+    run_in_process(first)
+    with pytest.raises(ControllerError, match=r"^wsp\.py may import shared_logic\.py, and this process"):
+        run_in_process(second)
+
+
+def test_modules_of_the_working_folder_are_not_those_of_the_child(
+    version_of: VersionOf, folder: Path
+) -> None:
+    (folder / "mmap.py").write_text('raise RuntimeError("not ours")\n', "utf-8")
+    with Workers() as workers:
+        workers.run(version_of("v1"))
+
+
+def test_a_forked_copy_of_a_controller_does_not_answer(version_of: VersionOf, folder: Path) -> None:
+    stop = version_of("v1")
+    with Workers() as workers:
+        expected = workers.run(stop).measures.tobytes()
+        forking = WSP.replace("return", "import os; inputs.cycle == 100 and os.fork(); return")
+        version_of("v5")
+        (folder / "v5" / "wsp.py").write_text(forking, "utf-8")
+        stop = assemble(load([folder / "stop.yaml"])[0])
+        for _ in range(3):
+            assert workers.run(stop).measures.tobytes() == expected

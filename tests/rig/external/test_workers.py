@@ -1,0 +1,261 @@
+"""Controllers from outside in child processes: what they do wrong ends their stop and nothing else."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.controllers import ControllerError
+from uictest.rig.assembly import StopInputs
+from uictest.rig.external import worker
+from uictest.rig.external.block import BlockInputs
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.worker import Worker
+from uictest.rig.external.workers import Workers
+
+StopOf = Callable[..., StopInputs]
+Compile = Callable[..., Path]
+
+IN_PYTHON = {
+    "create": "Bad(config) failed: ValueError: told to",
+    "reset": "reset failed: ValueError: told to",
+    "leave": "Bad(config) failed: SystemExit: 0",
+    "leave-reset": "reset failed: SystemExit: 0",
+    "mute": "step failed: MuteError (bad.py, line {line}) (cycle 700)",
+    "crash": "crashed with SIGSEGV (cycle 700)",
+    "exit": "ended its process with exit code 3 (cycle 700)",
+    "raise": "step failed: ValueError: told to (bad.py, line {line}) (cycle 700)",
+    "end": "step failed: SystemExit: 0 (bad.py, line {line}) (cycle 700)",
+    "nothing": "step failed: step returned NoneType, expected Outputs (cycle 700)",
+    "nan": "step failed: hold[0] is nan, expected 0 or 1 (cycle 700)",
+    "short": "step failed: hold has 3 values, expected 4 (cycle 700)",
+    "forbidden": "forbidden command for wheelset 2: vent without hold (cycle 700)",
+    "speed": "step failed: reference_speed is 'fast', expected a number (cycle 700)",
+    "bits": "step failed: diagnosis is 4294967296, expected a whole number of 32 bits (cycle 700)",
+}
+IN_C = {
+    "create": "uictest_create failed: told to",
+    "reset": "uictest_reset returned 7: told to",
+    "crash": "crashed with SIGSEGV (cycle 700)",
+    "exit": "ended its process with exit code 3 (cycle 700)",
+    "step": "step failed: told to (cycle 700)",
+    "forbidden": "forbidden command for wheelset 2: vent without hold (cycle 700)",
+    "magnet": "a magnet of wheelset 4 is neither 0 nor 1: hold 7, vent 0 (cycle 700)",
+    "beyond": "the controller wrote beyond its outputs (cycle 700)",
+    "destroy": "destroy crashed with SIGABRT",
+}
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[Workers]:
+    with Workers() as open_workers:
+        yield open_workers
+
+
+def children() -> set[int]:
+    """The child processes of this one that are not yet collected."""
+    return {int(pid) for pid in Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()}
+
+
+def bits(stop: object) -> bytes:
+    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())  # type: ignore[attr-defined]
+
+
+def line_of(fault: str) -> int:
+    text = (Path(__file__).parent / "bad.py").read_text("utf-8").splitlines()
+    raising = {
+        "raise": 'raise ValueError("told to")',
+        "mute": "raise MuteError",
+        "end": "raise SystemExit(0)",
+    }[fault]
+    return max(number for number, line in enumerate(text, start=1) if raising in line)
+
+
+def test_a_child_process_gives_the_bits_of_this_one(workers: Workers, stop_of: StopOf) -> None:
+    here, there = run_in_process(stop_of(), 10), workers.run(stop_of(), 10)
+    assert bits(here) == bits(there)
+    assert here.trace.train.tobytes() == there.trace.train.tobytes()
+    assert here.trace.wheelsets.tobytes() == there.trace.wheelsets.tobytes()
+    assert (here.car.tobytes(), here.wheelsets.tobytes()) == (there.car.tobytes(), there.wheelsets.tobytes())
+
+
+@pytest.mark.parametrize("fault", IN_PYTHON)
+def test_a_fault_in_python_names_the_reason_and_the_cycle(
+    workers: Workers, stop_of: StopOf, fault: str
+) -> None:
+    expected = IN_PYTHON[fault]
+    with pytest.raises(ControllerError) as error:
+        workers.run(stop_of(fault))
+    assert str(error.value) == (expected.format(line=line_of(fault)) if "{line}" in expected else expected)
+
+
+@pytest.mark.parametrize("fault", IN_C)
+def test_a_fault_in_c_names_the_reason_and_the_cycle(
+    workers: Workers, stop_of: StopOf, library: Compile, fault: str
+) -> None:
+    library()
+    with pytest.raises(ControllerError) as error:
+        workers.run(stop_of(fault, library="libbad.so"))
+    assert str(error.value).startswith(IN_C[fault])
+
+
+@pytest.mark.parametrize("fault", ["hang", "spin"])
+def test_a_controller_that_does_not_answer_is_ended(workers: Workers, stop_of: StopOf, fault: str) -> None:
+    with pytest.raises(ControllerError, match=r"^step did not return within 0\.3 s \(cycle 700\)$"):
+        workers.run(stop_of(fault, limit="300 ms"))
+
+
+def test_the_next_stop_is_not_touched_by_a_fault(stop_of: StopOf) -> None:
+    with Workers() as own:
+        before = bits(own.run(stop_of()))
+        for fault in ("crash", "raise", "hang"):
+            with pytest.raises(ControllerError):
+                own.run(stop_of(fault, limit="1 s"))
+            assert bits(own.run(stop_of())) == before
+
+
+def test_no_process_is_left_behind(stop_of: StopOf) -> None:
+    before = children()
+    with Workers() as own:
+        own.run(stop_of())
+        for fault in ("crash", "raise", "hang", "exit"):
+            with pytest.raises(ControllerError):
+                own.run(stop_of(fault, limit="1 s"))
+        assert len(children() - before) <= 1
+    assert children() - before == set()
+
+
+def test_a_second_close_leaves_files_of_others_alone() -> None:
+    """What is opened after the first one has the numbers of what that has closed."""
+    worker = Worker(("python", "", ""))
+    worker.close()
+    others = [end for _ in range(4) for end in os.pipe()]
+    worker.close()
+    for each in others:
+        os.close(each)
+
+
+def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path) -> None:
+    """The parent is killed while its child hangs in a step; no temporary file is left."""
+    temporary = folder / "temporary"
+    temporary.mkdir()
+    stop_of("hang", limit="600 s")
+    program = (
+        "from pathlib import Path; from uictest import rig; from uictest.scenario import load\n"
+        "rig.simulate(load([Path('stop.yaml')])[0])"
+    )
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    parent = subprocess.Popen([sys.executable, "-c", program], cwd=folder, env=environment)
+    child = waited_for(lambda: next(iter(children_of(parent.pid)), 0))
+    parent.kill()
+    parent.wait()
+    assert waited_for(lambda: not Path(f"/proc/{child}").exists() or is_zombie(child))
+    assert list(temporary.iterdir()) == []
+
+
+def children_of(pid: int) -> list[int]:
+    tasks = Path(f"/proc/{pid}/task").glob("*/children")
+    return [int(child) for task in tasks for child in task.read_text().split()]
+
+
+def is_zombie(pid: int) -> bool:
+    return ") Z " in Path(f"/proc/{pid}/stat").read_text()
+
+
+def waited_for(condition: Callable[[], int]) -> int:
+    """Return what the condition gives once it is true; the machine may be slow."""
+    for _ in range(6000):
+        if found := condition():
+            return found
+        time.sleep(0.01)
+    raise AssertionError("waited in vain")
+
+
+def test_libraries_that_are_none(workers: Workers, stop_of: StopOf, library: Compile, folder: Path) -> None:
+    text = folder / "text.so"
+    text.write_text("no library", "utf-8")
+    narrow = folder / "narrow.so"
+    content = bytearray(library().read_bytes())
+    content[4] = 1  # the class of an ELF file: 32 bits
+    narrow.write_bytes(content)
+    library("-DABI=7", name="libnew.so")
+    library("-Duictest_step=own_step", name="libless.so")
+    expected = {
+        "text.so": r"text\.so cannot be loaded: text\.so: ",
+        "narrow.so": r"narrow\.so cannot be loaded: narrow\.so: wrong ELF class: ELFCLASS32",
+        "libnew.so": r"libnew\.so has ABI version 7, expected 1",
+        "libless.so": r"libless\.so does not export uictest_step",
+    }
+    for name, message in expected.items():
+        with pytest.raises(ControllerError, match=message):
+            workers.run(stop_of(library=name))
+
+
+def test_a_file_that_changes_after_it_was_read_is_not_run(
+    workers: Workers, stop_of: StopOf, folder: Path
+) -> None:
+    inputs = stop_of()
+    with (folder / "bad.py").open("a") as file:
+        file.write("# changed\n")
+    with pytest.raises(ControllerError, match=r"^bad\.py has changed since the scenario was read$"):
+        workers.run(inputs)
+
+
+def test_a_fault_in_a_block_ends_its_own_stop_alone(
+    workers: Workers, stop_of: StopOf, library: Compile
+) -> None:
+    """Stops of C libraries run side by side in lanes."""
+    library()
+    faults = ("create", "none", "crash", "none", "forbidden", "hang", "exit", "none", "destroy")
+    stops = [stop_of(fault, at=7, limit="1 s", library="libbad.so") for fault in faults]
+    run = workers.run_block(block_of_stops(stops))
+    expected = {
+        "create": "controller: uictest_create failed: told to",
+        "none": "",
+        "crash": "controller: crashed with SIGSEGV (cycle 7)",
+        "forbidden": "controller: forbidden command for wheelset 2: vent without hold (cycle 7)",
+        "hang": "controller: step did not return within 1 s (cycle 7)",
+        "exit": "controller: ended its process with exit code 3 (cycle 7)",
+        "destroy": "controller: destroy crashed with SIGABRT",
+    }
+    assert all(
+        reason.startswith(expected[fault]) and bool(reason) == bool(expected[fault])
+        for fault, reason in zip(faults, run.failures, strict=True)
+    ), run.failures
+    alone = run_in_process(stop_of(library="libbad.so"))
+    for place in (1, 3, 7):
+        own = run.measures[place].tobytes() + run.wheelset_measures[place].tobytes()
+        assert own == bits(alone)
+
+
+def block_of_stops(stops: list[StopInputs]) -> BlockInputs:
+    return BlockInputs(
+        [stop.program for stop in stops],
+        [stop.config for stop in stops],
+        np.array([stop.parameters for stop in stops]),
+        np.array([stop.wheelset_parameters for stop in stops]),
+        np.array([stop.rail for stop in stops]),
+        [stop.controller for stop in stops],
+    )
+
+
+def test_a_long_reason_is_shortened(workers: Workers, stop_of: StopOf) -> None:
+    with pytest.raises(ControllerError) as error:
+        workers.run(stop_of("long"))
+    assert len(str(error.value)) < 3000
+
+
+def test_something_else_than_an_answer_ends_the_stop(
+    stop_of: StopOf, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A controller may write into whatever its process has open."""
+    monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
+    with Workers() as own, pytest.raises(ControllerError, match="something else than an answer"):
+        own.run(stop_of("scribble"))

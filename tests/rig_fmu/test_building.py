@@ -1,0 +1,150 @@
+"""The file of an FMU: valid, the same every time, and without anything of the machine that built it."""
+
+from __future__ import annotations
+
+import io
+import json
+import shutil
+import subprocess
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest import __version__, rig_fmu
+from uictest.scenario import Case, load
+
+fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
+VERSIONS = pytest.mark.parametrize("version", [2, 3])
+Build = Callable[..., Path]
+
+
+@VERSIONS
+def test_fmpy_finds_nothing_wrong(build: Build, version: int) -> None:
+    from fmpy.validation import validate_fmu
+
+    assert validate_fmu(str(build(version))) == []
+
+
+@VERSIONS
+def test_the_description_says_what_other_tools_must_know(build: Build, version: int) -> None:
+    described = fmpy.read_model_description(str(build(version)))
+    simulation = described.coSimulation
+    assert not simulation.canHandleVariableCommunicationStepSize
+    assert not simulation.canBeInstantiatedOnlyOncePerProcess
+    assert described.defaultExperiment.stepSize == "0.01"
+    units = {each.name: each.unit for each in described.modelVariables}
+    assert (units["wheel_speed_1"], units["cylinder_pressure_4"], units["distance"]) == ("m/s", "Pa", "m")
+    inputs = {each.name: each.type for each in described.modelVariables if each.causality == "input"}
+    assert inputs == {f"{magnet}_{i}": "Boolean" for magnet in ("hold", "vent") for i in (1, 2, 3, 4)}
+    # Without a direct way from input to output a tool finds no algebraic loop.
+    assert all(unknown.dependencies == [] for unknown in described.outputs)
+
+
+@VERSIONS
+def test_only_functions_of_fmi_are_exported(build: Build, version: int, tmp_path: Path) -> None:
+    tool = shutil.which("nm")
+    if tool is None:
+        pytest.skip("there is no nm here")
+    library = extracted(build(version), ".so", tmp_path)
+    shown = subprocess.run(
+        [tool, "-D", "--defined-only", library], capture_output=True, text=True, check=True
+    )
+    names = [line.split()[-1] for line in shown.stdout.splitlines()]
+    assert f"fmi{version}DoStep" in names
+    assert [name for name in names if not name.startswith(f"fmi{version}")] == []
+
+
+@VERSIONS
+def test_every_function_of_co_simulation_is_there(build: Build, version: int, tmp_path: Path) -> None:
+    """As FMPy's header declares them: tools look all of them up."""
+    import ctypes
+    import re
+
+    header = Path(fmpy.__file__).parent / "c-code" / f"fmi{version}FunctionTypes.h"
+    text = header.read_text(errors="replace")
+    declared = set(re.findall(rf"\b(fmi{version}\w+?)TYPE\b", text))
+    of_model_exchange = {
+        *("fmi2SetTime", "fmi2SetContinuousStates", "fmi2GetDerivatives", "fmi2GetEventIndicators"),
+        *("fmi2GetContinuousStates", "fmi2GetNominalsOfContinuousStates", "fmi2CompletedIntegratorStep"),
+        *("fmi2EnterContinuousTimeMode", "fmi2NewDiscreteStates", "fmi2EnterEventMode"),
+    }
+    library = ctypes.CDLL(str(extracted(build(version), ".so", tmp_path)))
+    missing = {name for name in declared if not hasattr(library, name)}
+    assert len(declared) > 40
+    assert missing == (of_model_exchange if version == 2 else set())
+
+
+@VERSIONS
+def test_the_same_case_gives_the_same_bytes(build: Build, compiler: str, case: Case, version: Any) -> None:
+    assert rig_fmu.build_fmu(case, version, compiler) == build(version).read_bytes()
+
+
+def test_nothing_of_the_machine_is_in_it(build: Build, case: Case) -> None:
+    with zipfile.ZipFile(build(2)) as archive:
+        content = b"".join(archive.read(name) for name in archive.namelist())
+    for own in (str(Path.home()), str(Path.cwd()), str(case.path.parent), "/tmp/uictest"):
+        assert own.encode() not in content
+
+
+@VERSIONS
+def test_it_says_which_case_it_is(build: Build, case: Case, version: int) -> None:
+    with zipfile.ZipFile(build(version)) as archive:
+        page = archive.read("documentation/index.html").decode()
+        facts = json.loads(archive.read("resources/case.json"))
+    assert facts["case"] == "stop"
+    assert facts["uictest"] == __version__
+    assert sorted(facts["inputs"].values()) == sorted(case.inputs.values())
+    assert "stop.yaml" in facts["inputs"]
+    for text in ("A &lt;short&gt; stop", __version__, *case.inputs.values(), "0.05", "hold_1"):
+        assert text in page
+
+
+def test_an_fmu_refuses_the_description_of_another(build: Build) -> None:
+    described = fmpy.read_model_description(str(build(2)))
+    with pytest.raises(Exception, match="instantiate"):
+        fmpy.simulate_fmu(swapped_token(build(2), described.guid), stop_time=0.1)
+
+
+def swapped_token(path: Path, token: str) -> str:
+    other = path.with_name("other.fmu")
+    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(other, "w") as changed:
+        for name in archive.namelist():
+            content = archive.read(name)
+            if name == "modelDescription.xml":
+                content = content.replace(token.encode(), b"{0}")
+            changed.writestr(name, content)
+    return str(other)
+
+
+def test_a_seed_beyond_the_integers_of_fmi_2_is_refused(compiler: str, case: Case) -> None:
+    [other] = load([case.path], seed=2**31)
+    with pytest.raises(ValueError, match=r"seed 2147483648 is above 2147483647.*--seed"):
+        rig_fmu.build_fmu(other, 2, compiler)
+    assert zipfile.is_zipfile(io.BytesIO(rig_fmu.build_fmu(other, 3, compiler)))
+
+
+def test_without_a_compiler_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CC", raising=False)
+    with pytest.raises(rig_fmu.CannotBuildError, match=r"no C compiler \(cc or gcc or clang\): install gcc"):
+        rig_fmu.usable_compiler()
+
+
+def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    broken = tmp_path / "broken-cc"
+    broken.write_text("#!/bin/sh\necho 'cannot find crti.o' >&2\nexit 1\n")
+    broken.chmod(0o755)
+    monkeypatch.setenv("CC", str(broken))
+    with pytest.raises(rig_fmu.CannotBuildError, match=r"broken-cc cannot link .*: cannot find crti.o"):
+        rig_fmu.usable_compiler()
+
+
+def extracted(path: Path, suffix: str, folder: Path) -> Path:
+    with zipfile.ZipFile(path) as archive:
+        [name] = [name for name in archive.namelist() if name.endswith(suffix)]
+        return Path(archive.extract(name, folder))

@@ -1,0 +1,174 @@
+"""A stop that is stepped through FMPy is the stop of `run`, to the bit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from uictest import rig
+from uictest.scenario import Case
+
+VERSIONS = pytest.mark.parametrize("version", [2, 3])
+MakeInstance = Callable[..., Any]
+PascalPerBar = 1e5
+
+
+@VERSIONS
+def test_a_stop_has_the_bits_of_run(
+    instance: MakeInstance, controller_outside: Callable[[Case], Any], case: Case, version: int
+) -> None:
+    ran = rig.simulate(case, record_every=0.01)
+    assert ran.recording is not None
+    stepped = instance(version).run(controller_outside(case))
+    assert stepped.history == ran.recording["speed"][1:].tolist()
+    assert stepped.end["braking_distance"] == ran.measures.braking_distance
+    assert stepped.end["braking_time"] == ran.measures.braking_time
+    assert stepped.end["stopped"]
+    for fmu_name, channel in (
+        ("true_wheel_speed", "wheel_speed"),
+        ("slide", "slide"),
+        ("adhesion", "adhesion"),
+        ("wheel_load", "wheel_load"),
+        ("tank_pressure", "tank_pressure"),
+        ("clamping_force", "clamping_force"),
+        ("brake_torque", "brake_torque"),
+    ):
+        for number in (1, 2, 3, 4):
+            recorded = ran.recording[f"{channel}_{number}"][-1]
+            assert stepped.end[f"{fmu_name}_{number}"] == recorded, (fmu_name, number)
+
+
+@VERSIONS
+def test_the_sensors_show_the_brake_command(instance: MakeInstance, version: int) -> None:
+    rig_instance = instance(version)
+    assert rig_instance["train_speed"] == pytest.approx(40 / 3.6)
+    assert rig_instance.four("wheel_speed") == pytest.approx([40 / 3.6] * 4, rel=0.02)
+    assert rig_instance.four("speed_valid") == [True] * 4
+    assert rig_instance["brake_demand"] == 0.0
+    for _ in range(300):
+        rig_instance.step()
+    assert rig_instance["brake_demand"] == pytest.approx(1.0)
+    assert min(rig_instance.four("cylinder_pressure")) > 2 * PascalPerBar
+
+
+@VERSIONS
+def test_two_instances_do_not_disturb_each_other(instance: MakeInstance, version: int) -> None:
+    alone, first, second = (instance(version) for _ in range(3))
+    for _ in range(200):
+        alone.step()
+    for cycle in range(200):
+        first.step()
+        second.step(hold=[1] * 4, vent=[cycle % 2] * 4)
+    assert first["train_speed"] == alone["train_speed"]
+    assert second["train_speed"] > alone["train_speed"]
+
+
+@VERSIONS
+def test_reset_gives_the_same_stop_and_forgets_the_seed(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    marks = []
+    for seed in ({}, {"seed": 6}, {"seed": 5}, {}):
+        if marks:
+            each.fmu.reset()
+            each.begin(**seed)
+        for _ in range(150):
+            each.step()
+        marks.append(each.four("wheel_speed"))
+    assert marks[0] == marks[2] == marks[3] != marks[1]
+
+
+@VERSIONS
+def test_the_seed_may_be_set_before_or_in_the_initialization(instance: MakeInstance, version: int) -> None:
+    early, late, neither = instance(version, seed=6), instance(version, late=True, seed=6), instance(version)
+    assert early.four("wheel_speed") == late.four("wheel_speed") != neither.four("wheel_speed")
+
+
+@VERSIONS
+def test_going_back_to_an_earlier_state(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    for _ in range(100):
+        each.step()
+    get, put, free = (
+        (each.fmu.getFMUstate, each.fmu.setFMUstate, each.fmu.freeFMUstate)
+        if version == 2
+        else (each.fmu.getFMUState, each.fmu.setFMUState, each.fmu.freeFMUState)
+    )
+    kept, marks = get(), []
+    for _ in range(2):
+        for _ in range(100):
+            each.step()
+        marks.append((each["train_speed"], each["time"]))
+        put(kept)
+        each.steps = 100
+    free(kept)
+    assert marks[0] == marks[1]
+
+
+@VERSIONS
+def test_after_the_end_time_goes_on_and_the_outputs_stay(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    while not each["ended"]:
+        each.step()
+    distance, time = each["distance"], each["time"]
+    each.step()
+    assert (each["distance"], each["stopped"]) == (distance, True)
+    assert each["time"] == pytest.approx(time + 0.01)
+
+
+@VERSIONS
+def test_a_simulation_may_begin_at_any_time(instance: MakeInstance, version: int) -> None:
+    late, early = instance(version, start_time=100.0), instance(version)
+    for _ in range(50):
+        late.step()
+        early.step()
+    assert late["time"] == pytest.approx(100.5)
+    assert late["train_speed"] == early["train_speed"]
+
+
+@VERSIONS
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"size": 0.02}, "the communication step is 0.02 s; it must be the controller cycle, 0.01 s"),
+        ({"size": 0.0}, "the communication step is 0 s; it must be the controller cycle, 0.01 s"),
+        ({"vent": [0, 0, 1, 0]}, "vent_3 without hold_3 is forbidden: both are true in order to vent"),
+    ],
+)
+def test_a_step_that_the_rig_cannot_take_is_an_error(
+    instance: MakeInstance, version: int, wrong: dict[str, Any], message: str
+) -> None:
+    each = instance(version)
+    with pytest.raises(Exception, match="DoStep"):
+        each.step(**wrong)
+    assert each.messages == [message]
+    each.step()
+    assert each["time"] == pytest.approx(0.01)
+
+
+@VERSIONS
+def test_a_step_at_another_time_is_an_error(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    each.steps = 5
+    with pytest.raises(Exception, match="DoStep"):
+        each.step()
+    assert each.messages == ["the communication point is 0.05 s; the last step ended at 0 s"]
+
+
+@VERSIONS
+def test_a_parameter_is_fixed_once_the_stop_has_begun(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    setter = each.fmu.setInteger if version == 2 else each.fmu.setInt64
+    with pytest.raises(Exception, match="Set"):
+        setter([each.variables["seed"].valueReference], [1])
+    assert each.messages == ["a parameter can only be set before the end of the initialization"]
+
+
+@VERSIONS
+def test_an_output_cannot_be_set(instance: MakeInstance, version: int) -> None:
+    each = instance(version)
+    setter = each.fmu.setReal if version == 2 else each.fmu.setFloat64
+    with pytest.raises(Exception, match="Set"):
+        setter([each.variables["train_speed"].valueReference], [1.0])
+    assert "cannot be set" in each.messages[0]

@@ -1,0 +1,74 @@
+"""The gymnasium environment is the rig behind other names."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+gymnasium = pytest.importorskip("gymnasium", reason="the extra gym is not installed")
+
+import uictest.gym  # noqa: E402
+from uictest.stepping import RigState  # noqa: E402
+
+Write = Callable[..., Path]
+
+
+def made(path: Path, **options: Any) -> Any:
+    return gymnasium.make("uictest/Rig-v0", scenario=path, **options).unwrapped
+
+
+def test_gymnasium_finds_nothing_to_complain_about(write_scenario: Write) -> None:
+    from gymnasium.utils.env_checker import check_env
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(made(write_scenario()))
+
+
+def test_an_episode_is_a_stop(write_scenario: Write) -> None:
+    env = made(write_scenario())
+    _, start = env.reset(seed=3)
+    rewards, distances, ended = [], [start["distance"]], False
+    while not ended:
+        observation, reward, terminated, truncated, info = env.step(np.array([0, 0, 0, 0]))
+        rewards.append(reward)
+        distances.append(info["distance"])
+        ended = terminated or truncated
+        assert observation in env.observation_space
+    assert (terminated, truncated) == (True, False)
+    assert info["outcome"] == env.rig.result().outcome
+    # Everything locks, so that more than the distance is taken off.
+    assert sum(rewards) < -distances[-1]
+
+
+def test_an_action_vents_its_wheelset_and_no_other(write_scenario: Write) -> None:
+    env = made(write_scenario())
+    env.reset(seed=1)
+    for _ in range(300):
+        env.step(np.array([2, 0, 1, 0]))
+    vented, filled, held, _ = env.rig.state.tank_pressure
+    assert vented == pytest.approx(held, abs=2e4)
+    assert filled > vented + 2e5
+
+
+def test_a_reward_of_ones_own(write_scenario: Write) -> None:
+    def shortest(before: RigState, after: RigState) -> float:
+        return before.time - after.time
+
+    env = made(write_scenario(), reward=shortest)
+    env.reset(seed=1)
+    assert env.step(np.array([0, 0, 0, 0]))[1] == pytest.approx(-0.01)
+
+
+def test_a_stop_without_a_locked_wheelset_costs_its_distance() -> None:
+    four = (20.0, 20.0, 20.0, 20.0)
+    before = RigState(1.0, 10.0, 20.0, four, *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
+    after = RigState(1.01, 10.2, 20.0, four, *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
+    locked = RigState(1.01, 10.2, 20.0, (0.0, 0.0, 20.0, 20.0), *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
+    assert uictest.gym.distance_and_locks(before, after) == pytest.approx(-0.2)
+    assert uictest.gym.distance_and_locks(before, locked) == pytest.approx(-0.4)

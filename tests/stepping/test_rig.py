@@ -1,0 +1,156 @@
+"""`uictest.Rig`: what a program of its own gets, and what it is told when it calls wrongly."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import uictest
+from uictest import campaign
+from uictest.controllers import Outputs
+from uictest.evaluation import CaseResult, result_document
+from uictest.scenario import ScenarioErrors, load
+
+Write = Callable[..., Path]
+TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
+
+
+def drive(rig: uictest.Rig, controller: Any) -> CaseResult:
+    """Step a stop to its end with a controller outside."""
+    inputs = rig.reset()
+    while not rig.stopped:
+        hold, vent = controller.magnets(inputs.wheel_speed)
+        inputs = rig.step(Outputs(hold, vent, controller.reference_speed))
+    return rig.result()
+
+
+def test_a_stop_has_result_and_recording_of_run(
+    write_scenario: Write, controller_outside: Callable[[Any], Any]
+) -> None:
+    path = write_scenario()
+    rig = uictest.Rig(path, record=100)
+    [case] = load([path])
+    run = campaign.run_case(case, campaign.RecordingRequest("all", every=0.01))
+    assert result_document([drive(rig, controller_outside(case))]) == result_document([run.result])
+    recorded, of_run = rig.recording(), run.recording
+    assert of_run is not None
+    assert recorded.units == of_run.units | {"diagnosis": "1"}
+    assert recorded.metadata == of_run.metadata
+    for name in of_run.channels:
+        np.testing.assert_array_equal(recorded[name], of_run[name])
+
+
+def test_the_controller_that_the_scenario_names_plays_no_part_but_its_cycle_time_holds(
+    write_scenario: Write,
+) -> None:
+    marks = []
+    for name in ("threshold", "slip-band"):
+        rig = uictest.Rig(write_scenario(f"controller: {{extends: {name}, cycle_time: 20 ms}}\n"))
+        rig.reset()
+        for _ in range(100):
+            inputs = rig.step()
+        assert inputs.time == pytest.approx(2.0)
+        assert rig.cycle_time == 0.02
+        marks.append(rig.state)
+    assert marks[0] == marks[1]
+
+
+def test_seed_decides_the_noise(write_scenario: Write) -> None:
+    rig = uictest.Rig(write_scenario("seed: 7\n"))
+    first, again, other = rig.reset(), rig.reset(7), rig.reset(8)
+    assert first == again
+    assert first.wheel_speed != other.wheel_speed
+
+
+def test_inputs_are_plain_numbers(write_scenario: Write) -> None:
+    inputs = uictest.Rig(write_scenario()).reset()
+    assert {type(value) for value in (*inputs.wheel_speed, *inputs.cylinder_pressure)} == {float}
+
+
+def test_the_state_is_the_true_one(write_scenario: Write) -> None:
+    rig = uictest.Rig(write_scenario())
+    rig.reset()
+    assert (rig.state.time, rig.state.distance) == (0.0, 0.0)
+    assert rig.state.train_speed == pytest.approx(30 / 3.6)
+    for _ in range(300):
+        inputs = rig.step()
+    assert max(rig.state.slide) > 0.2
+    assert rig.state.wheel_speed == pytest.approx(inputs.wheel_speed, abs=0.1)
+    assert rig.state.distance < 30 / 3.6 * rig.state.time
+
+
+def test_one_of_several_cases_is_chosen_by_its_id(write_scenario: Write) -> None:
+    path = write_scenario(TWO_CASES)
+    assert uictest.Rig(path, "stop[command=90]").case.parameters == {"brake.command": "90 %"}
+    with pytest.raises(
+        ValueError, match=r"2 cases: pass case= one of stop\[command=80\], stop\[command=90\]"
+    ):
+        uictest.Rig(path)
+    with pytest.raises(ValueError, match=r"no case 'stop\[command=91\]'; did you mean"):
+        uictest.Rig(path, "stop[command=91]")
+
+
+def test_an_invalid_file_is_reported_as_check_does(write_scenario: Write) -> None:
+    with pytest.raises(ScenarioErrors, match=r"stop.yaml:5:\d+: brake.command"):
+        uictest.Rig(write_scenario("brake: {command: 200 %}\n"))
+
+
+def test_calls_out_of_order_are_refused(write_scenario: Write) -> None:
+    rig = uictest.Rig(write_scenario("simulation: {maximum_duration: 60 s}\n"))
+    for call in (rig.step, lambda: rig.stopped, lambda: rig.state, rig.result):
+        with pytest.raises(RuntimeError, match=r"call reset\(\)"):
+            call()
+    rig.reset()
+    with pytest.raises(RuntimeError, match=r"not ended after 0 s: call step\(\)"):
+        rig.result()
+    with pytest.raises(RuntimeError, match="record=100"):
+        rig.recording()
+    while not rig.stopped:
+        rig.step()
+    assert rig.stands
+    with pytest.raises(RuntimeError, match=r"ended after .* s: call reset\(\)"):
+        rig.step()
+    rig.reset()
+    assert not rig.stopped
+
+
+@pytest.mark.parametrize(
+    ("commands", "message"),
+    [
+        ({"hold": [0, 0, 0], "vent": [0] * 4}, "hold has 3 values, expected 4"),
+        ({"hold": [0] * 4, "vent": [0, math.nan, 0, 0]}, r"vent\[1\] is nan, expected 0 or 1"),
+        ({"hold": [0, 0, 2, 0]}, r"hold\[2\] is 2, expected 0 or 1"),
+        ({"hold": 1}, "hold is 1, expected 4 values"),
+        ({"vent": [0, 0, 0, 1]}, r"vent\[3\] is 1 and hold\[3\] is 0, which is forbidden"),
+        ({"diagnosis": 2**32}, "diagnosis is 4294967296, expected a whole number of 32 bits"),
+    ],
+)
+def test_commands_that_no_valve_has_leave_the_stop_where_it_is(
+    write_scenario: Write, commands: dict[str, Any], message: str
+) -> None:
+    rig = uictest.Rig(write_scenario())
+    rig.reset()
+    before = rig.state
+    with pytest.raises(ValueError, match=message):
+        rig.step(**commands)
+    assert rig.state == before
+    assert rig.step().cycle == 1
+
+
+@pytest.mark.parametrize("seed", [-1, 2**32, 1.5])
+def test_a_seed_out_of_range_is_refused(write_scenario: Write, seed: Any) -> None:
+    with pytest.raises(ValueError, match="expected a whole number from 0 to 4294967295"):
+        uictest.Rig(write_scenario()).reset(seed)
+
+
+def test_the_package_is_imported_without_the_rig() -> None:
+    program = "import sys, uictest; uictest.__version__; print({'numpy', 'pydantic'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"

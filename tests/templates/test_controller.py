@@ -1,0 +1,69 @@
+"""A first controller is sound as it is written: it conforms and stops a train; in C it is the same one."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from uictest import campaign, conformance, templates
+from uictest.conformance.bench import Bench
+from uictest.scenario import load, load_controller
+
+
+def written(language: templates.Language, folder: Path) -> Path:
+    """Write the files, build them where they must be built, and return the part."""
+    folder.mkdir()
+    for name, text in templates.controller_files(language).items():
+        (folder / name).write_text(text, "utf-8")
+    if language == "c":
+        compiler = shutil.which("gcc") or shutil.which("cc")
+        if compiler is None:
+            pytest.skip("no C compiler")
+        strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared"]
+        subprocess.run([compiler, "-O2", *strict, "-o", "libwsp.so", "wsp.c"], cwd=folder, check=True)
+    return folder / "my-wsp.yaml"
+
+
+@pytest.fixture(params=["python", "c"])
+def part(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    """The part of a first controller, ready to run."""
+    return written(request.param, tmp_path / request.param)
+
+
+def test_it_conforms_untouched(part: Path) -> None:
+    examination = conformance.examine(
+        conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]), {})
+    )
+    judged = [each for each in examination.findings if each.id != "in-time"]  # the machine's, not its own
+    assert {each.status for each in judged} == {"pass"}, judged
+
+
+def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part: Path) -> None:
+    [case] = load([part.parent / "slip-120.yaml"])
+    result = campaign.run_case(case, campaign.RecordingRequest("none", every=1.0)).result
+    assert result.outcome == "pass", result
+    assert {each.id for each in result.criteria} >= {"initial-adhesion", "minimum-slide", "locked-wheels"}
+
+
+def test_both_languages_give_the_same_answers(tmp_path: Path) -> None:
+    answers = []
+    for language in ("python", "c"):
+        part = load_controller(str(written(language, tmp_path / language)))  # type: ignore[arg-type]
+        with Bench(conformance.subject_of(language, part, {})) as bench:
+            answers.append([each.drives[0].outputs for each in bench.every_situation()])
+    for one, other in zip(*answers, strict=True):
+        assert one.tobytes() == other.tobytes()
+
+
+def test_make_builds_what_the_part_names(tmp_path: Path) -> None:
+    if shutil.which("make") is None or shutil.which("cc") is None:
+        pytest.skip("no make, or no C compiler")
+    folder = tmp_path / "made"
+    folder.mkdir()
+    for name, text in templates.controller_files("c").items():
+        (folder / name).write_text(text, "utf-8")
+    subprocess.run(["make", "-s"], cwd=folder, check=True)
+    assert load_controller(str(folder / "my-wsp.yaml"))
