@@ -32,6 +32,8 @@ from uictest.scenario import Scenario, load
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
 HEADER = Path(uictest.__file__).parent / "controllers"
+TWIN = "threshold"
+"""The built-in controller that each candidate is timed beside."""
 SCENARIO = SCENARIOS / "slide-80.yaml"
 CASE = "slide-80[compensation=full]"
 CASES = 128
@@ -153,12 +155,11 @@ def timed(
     run: RunStop,
     limit: Limit,
     turns: int,
-    twin: str = "threshold",
     clock: Clock = time.perf_counter,
 ) -> None:
     """Time the stop with a controller from outside in turns with its built-in twin, and print a line."""
     with build(Path.cwd()) as written:
-        ours, theirs = inputs_of(outside(written, twin)), inputs_of(twin)
+        ours, theirs = inputs_of(outside(written, TWIN)), inputs_of(TWIN)
         bits = [each.measures.tobytes() for each in (run(ours), run_in_process(theirs))]
         comparison = side_by_side(lambda: run(ours), lambda: run_in_process(theirs), turns, clock)
     _print(name, comparison, limit, "same bits" if bits[0] == bits[1] else "OTHER BITS")
@@ -170,12 +171,11 @@ def timed_block(
     run: Callable[[BlockInputs], Any],
     limit: Limit,
     turns: int,
-    twin: str = "threshold",
     clock: Clock = time.perf_counter,
 ) -> None:
     """Time a block of stops in turns with its built-in twin in lanes, and print a line."""
     with build(Path.cwd()) as written:
-        ours, theirs = Block.of(outside(written, twin), run), Block.of(twin, run_block)
+        ours, theirs = Block.of(outside(written, TWIN), run), Block.of(TWIN, run_block)
         bits = [each.run().measures.tobytes() for each in (ours, theirs)]
         comparison = side_by_side(ours.run, theirs.run, turns, clock)
     _print(name, comparison, limit, "same bits" if bits[0] == bits[1] else "OTHER BITS")
