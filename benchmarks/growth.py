@@ -57,7 +57,8 @@ def timed_sweep(cases: int, jobs: int) -> Run:
         file.write_text(_SWEEP.format(scenario=scenario, cases=cases))
         began = time.perf_counter()
         process = subprocess.Popen(
-            [PROGRAM, "sweep", file, "-q", "-n", str(jobs), "-o", folder], stdout=subprocess.DEVNULL
+            [PROGRAM, "sweep", file, "-q", "-n", str(jobs), "-o", folder, "--trust", SCENARIO.parents[1]],
+            stdout=subprocess.DEVNULL,
         )
         _, status, usage = os.wait4(process.pid, 0)
         seconds = time.perf_counter() - began

@@ -51,7 +51,7 @@ class Column(np.ndarray):
 def different_stops(stop: Stop) -> tuple[Any, Any, NDArray[np.float64]]:
     """Return parameters, those of wheelsets and friction laws of stops on rails from slippery to good."""
     parameters = np.repeat(stop.parameters.reshape(1), STOPS).view(stop.parameters.dtype)
-    parameters["case_key"] = np.arange(STOPS)
+    parameters["noise_key"] = np.arange(STOPS)
     rails = np.tile(stop.rail[:, :1], (STOPS, 1, 1))
     rails[:, FRICTIONS, 0] = np.linspace(0.10, 0.30, STOPS)
     return parameters, np.tile(stop.wheelset_parameters, (STOPS, 1)), rails

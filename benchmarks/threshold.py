@@ -24,8 +24,9 @@ class Threshold:
 
     def step(self, inputs: Inputs) -> Outputs:
         """Decide on the coming cycle."""
-        for wheelset, speed in zip(self._wheelsets, inputs.wheel_speed, strict=True):
-            wheelset.measured_speed = speed
+        readings = zip(self._wheelsets, inputs.wheel_speed, inputs.speed_valid, strict=True)
+        for wheelset, speed, valid in readings:
+            wheelset.measured_speed, wheelset.speed_valid = speed, int(valid)
         _THRESHOLD.decide(self._train, self._wheelsets, self._parameters)
         commands = [wheelset.valve_command for wheelset in self._wheelsets]
         vent = [command == VENT for command in commands]

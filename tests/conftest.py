@@ -35,7 +35,7 @@ class ControllerOutside:
     def magnets(self, wheel_speeds: Sequence[float]) -> tuple[list[int], list[int]]:
         """Return the state of the holding and of the venting magnets for one cycle."""
         for wheelset, speed in zip(self.wheelsets, wheel_speeds, strict=True):
-            wheelset.measured_speed = speed
+            wheelset.measured_speed, wheelset.speed_valid = speed, 1
         self.controller.decide(self.train, self.wheelsets, self.parameters)
         commands = [wheelset.valve_command for wheelset in self.wheelsets]
         return [int(each != FILL) for each in commands], [int(each == VENT) for each in commands]

@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from uictest.faults import FAULT_KINDS, FaultKind
 from uictest.measures import MEASURES
 from uictest.scenario.model import Scenario
 from uictest.scenario.parts.brake import BrakeSystem
@@ -26,7 +27,10 @@ from uictest.scenario.parts.vehicle import Vehicle
 from uictest.scenario.yaml.model import Part, PartReference
 from uictest.scenario.yaml.quantities import Quantity
 from uictest.scenario.yaml.quantity_field import QuantityField
+from uictest.series import SeriesFile
+from uictest.series_measures import SERIES_MEASURES
 from uictest.sweep.plan.model import Distribution, Sample
+from uictest.sweep.plan.tail_model import KDryRequest, QuantileRequest
 from uictest.units import KINDS
 
 HEADINGS = ("key", "written as", "default", "range", "meaning")
@@ -41,6 +45,7 @@ PARTS: dict[str, type[BaseModel]] = {
     "rail": RailCondition,
     "measures": MeasureDefinitions,
     "criterion": Criterion,
+    "series": SeriesFile,
 }
 _COURSES = {"grows": "can only grow", "falls": "can only fall", "settles": "is final once there is one"}
 _OF_EVERY_PART = frozenset(Part.model_fields)
@@ -84,9 +89,51 @@ def measures_table() -> str:
     return table(("measure", "unit", "of", "meaning", "until standstill it", "definitions it needs"), rows)
 
 
+def series_measures_table() -> str:
+    """Return the measures that a criterion with `scope: series` can bound."""
+    rows = [
+        (
+            f"`{name}`",
+            "" if measure.unit == "1" else measure.unit,
+            measure.meaning,
+            "all stops together" if measure.pooled else f"the {measure.worse} one of the speeds",
+            "yes" if measure.figure else "",
+        )
+        for name, measure in SERIES_MEASURES.items()
+    ]
+    return table(("measure", "unit", "meaning", "of several speeds", "`of the dry stop`"), rows)
+
+
+def faults_table() -> str:
+    """Return every kind of fault that a scenario can inject."""
+    rows = [
+        (f"`{kind.part}`", f"`{kind.name}`", _value_of(kind), kind.description)
+        for kind in FAULT_KINDS.values()
+    ]
+    return table(("part", "kind", "value", "what it does"), rows)
+
+
+def _value_of(kind: FaultKind) -> str:
+    value = kind.value
+    if value is None:
+        return "none"
+    words = f"{value.kind}, {value.at_least} to {value.at_most}"
+    return f"{words}; without one {value.without}" if value.without else words
+
+
 def sample_table() -> str:
     """Return the fields of a sample, its parameters left out."""
     return table(HEADINGS, list(_rows(Sample, "", frozenset({"parameters"}))))
+
+
+def quantiles_table() -> str:
+    """Return the fields of a request for quantiles."""
+    return table(HEADINGS, list(_rows(QuantileRequest, "", frozenset())))
+
+
+def k_dry_table() -> str:
+    """Return the fields of a request for K_dry."""
+    return table(HEADINGS, list(_rows(KDryRequest, "", frozenset())))
 
 
 def distributions_table() -> str:

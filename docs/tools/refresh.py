@@ -23,7 +23,11 @@ _TABLES: dict[str, Callable[..., str]] = {
     "part": fields.part_table,
     "units": fields.units_table,
     "measures": fields.measures_table,
+    "series-measures": fields.series_measures_table,
+    "faults": fields.faults_table,
     "sample": fields.sample_table,
+    "quantiles": fields.quantiles_table,
+    "k_dry": fields.k_dry_table,
     "distributions": fields.distributions_table,
 }
 

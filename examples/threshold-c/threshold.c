@@ -7,6 +7,9 @@
  * slide nothing shows the train's speed; after a while one of them is PROBING: vented until it rolls and
  * shows that speed.
  *
+ * Readings beyond what a wheelset on a rail can do are rejected. A wheelset without a speed that can be
+ * believed has no part in the estimate and gets the commands of the other wheelset of its bogie.
+ *
  * All thresholds are parameters of the scenario, in SI units: see threshold.yaml. Compile with
  * -ffp-contract=off, or some processors round a product and a sum at once and the last bits differ.
  */
@@ -42,6 +45,11 @@ typedef struct {
     double fill_pulse_on;               /* s */
     double fill_pulse_off;              /* s */
     double refill_time;                 /* of filling in pulses, s */
+    double largest_acceleration;        /* change of speed that a wheelset can have, m/s2 */
+    double jump_tolerance;              /* jump of a reading that is accepted besides, m/s */
+    double distrust_time;               /* of more rejected than plausible readings before it has no speed, s */
+    double stuck_time;                  /* without a change of the reading, likewise, s */
+    double trust_time;                  /* of sound readings before it has one again, s */
 } Parameters;
 
 #define PARAMETER(name) {#name, offsetof(Parameters, name)}
@@ -55,13 +63,21 @@ static const struct {
     PARAMETER(holding_deceleration), PARAMETER(rolling_time), PARAMETER(sounding_interval),
     PARAMETER(sounding_time), PARAMETER(recovery_share), PARAMETER(vent_watchdog), PARAMETER(hold_limit),
     PARAMETER(fill_pulse_on), PARAMETER(fill_pulse_off), PARAMETER(refill_time),
+    PARAMETER(largest_acceleration), PARAMETER(jump_tolerance), PARAMETER(distrust_time),
+    PARAMETER(stuck_time), PARAMETER(trust_time),
 };
 
 typedef enum { FREE, VENTING, HOLDING, REFILLING, PROBING } Mode;
 
 typedef struct {
-    double speed;               /* as measured, m/s */
-    double previous_speed;      /* in the cycle before, m/s */
+    double reading;             /* of the speed sensor, m/s */
+    bool valid;                 /* the sensor reports no fault */
+    double speed;               /* newest plausible reading, m/s */
+    int64_t rejected_cycles;    /* since that */
+    int64_t doubtful_cycles;    /* by which rejected readings have outnumbered plausible ones */
+    int64_t unchanged_cycles;   /* for which it has been the same */
+    bool distrusted;            /* the wheelset counts as without a speed */
+    int64_t sound_cycles;       /* of plausible readings near the estimate while it is distrusted */
     double acceleration;        /* low-pass filtered, m/s2 */
     Mode mode;
     int64_t mode_cycles;        /* since the mode began */
@@ -84,13 +100,63 @@ static double smaller(double a, double b) { return a < b ? a : b; }
 
 /* ---- one wheelset ---- */
 
-/* Differentiate the measured speed and filter the acceleration (first order). */
-static void differentiate(Wheelset *wheelset, const Parameters *p)
+static double slip_threshold_at(double reference, const Parameters *p)
 {
-    double change = (wheelset->speed - wheelset->previous_speed) / p->cycle_time;
-    double weight = p->cycle_time / (p->cycle_time + p->acceleration_filter_time);
-    wheelset->acceleration += weight * (change - wheelset->acceleration);
-    wheelset->previous_speed = wheelset->speed;
+    return p->slip_threshold + p->slide_threshold * reference;
+}
+
+static double recovered_slip_at(double reference, const Parameters *p)
+{
+    return p->recovery_share * slip_threshold_at(reference, p);
+}
+
+/* Take over a plausible reading; the time since the one before, or 0 where it is rejected. */
+static double take_over(Wheelset *wheelset, const Parameters *p)
+{
+    double elapsed = (double)(wheelset->rejected_cycles + 1) * p->cycle_time;
+    double jump = fabs(wheelset->reading - wheelset->speed);
+    if (!wheelset->valid || jump > p->jump_tolerance + p->largest_acceleration * elapsed) {
+        wheelset->rejected_cycles += 1;
+        wheelset->doubtful_cycles += 1;
+        return 0.0;
+    }
+    bool still = jump == 0.0 && wheelset->reading > p->minimum_speed;
+    wheelset->unchanged_cycles = still ? wheelset->unchanged_cycles + 1 : 0;
+    wheelset->speed = wheelset->reading;
+    wheelset->rejected_cycles = 0;
+    if (wheelset->doubtful_cycles > 0)
+        wheelset->doubtful_cycles -= 1;
+    return elapsed;
+}
+
+/* Take over a plausible reading, differentiate it and filter the acceleration (first order). */
+static void read_speed(Wheelset *wheelset, const Parameters *p)
+{
+    double before = wheelset->speed;
+    double elapsed = take_over(wheelset, p);
+    if (elapsed > 0.0) {
+        double change = (wheelset->speed - before) / elapsed;
+        double weight = p->cycle_time / (p->cycle_time + p->acceleration_filter_time);
+        wheelset->acceleration += weight * (change - wheelset->acceleration);
+    }
+}
+
+static bool stands_still(const Wheelset *wheelset, const Parameters *p)
+{
+    return (double)wheelset->unchanged_cycles * p->cycle_time > p->stuck_time;
+}
+
+static bool is_lost(const Wheelset *wheelset, const Parameters *p)
+{
+    return !wheelset->valid || (double)wheelset->doubtful_cycles * p->cycle_time > p->distrust_time;
+}
+
+static void regain_trust(Wheelset *wheelset, double reference, const Parameters *p)
+{
+    bool near = fabs(reference - wheelset->speed) <= recovered_slip_at(reference, p);
+    wheelset->sound_cycles = near && wheelset->doubtful_cycles == 0 ? wheelset->sound_cycles + 1 : 0;
+    if ((double)wheelset->sound_cycles * p->cycle_time > p->trust_time)
+        wheelset->distrusted = false;
 }
 
 /* Whether a wheelset has been free for so long that it must roll. */
@@ -131,10 +197,10 @@ static Mode after_venting(const Wheelset *wheelset, double slip, double referenc
 }
 
 /* The mode after a hold: refill once the wheel has caught up, else vent again. */
-static Mode after_holding(const Wheelset *wheelset, double slip, double reference, double threshold,
-                          double time_in_mode, const Parameters *p)
+static Mode after_holding(const Wheelset *wheelset, double slip, double reference, double time_in_mode,
+                          const Parameters *p)
 {
-    if (slip < p->recovery_share * threshold)
+    if (slip < recovered_slip_at(reference, p))
         return REFILLING;
     bool deep = slip > p->deep_slide * reference;
     if (wheelset->acceleration < (deep ? 0.0 : -p->vent_deceleration))
@@ -147,17 +213,16 @@ static Mode after_holding(const Wheelset *wheelset, double slip, double referenc
 static Mode next_mode(const Wheelset *wheelset, double reference, const Parameters *p)
 {
     double slip = reference - wheelset->speed;
-    double threshold = p->slip_threshold + p->slide_threshold * reference;
     double time_in_mode = (double)(wheelset->mode_cycles + 1) * p->cycle_time;
-    if (reference < p->minimum_speed)
+    if (reference < p->minimum_speed || wheelset->distrusted)
         return FREE;
     if (wheelset->mode == PROBING)
         return shows_speed(wheelset, p) || time_in_mode > p->vent_watchdog ? REFILLING : PROBING;
     if (wheelset->mode == VENTING)
         return after_venting(wheelset, slip, reference, time_in_mode, p);
     if (wheelset->mode == HOLDING)
-        return after_holding(wheelset, slip, reference, threshold, time_in_mode, p);
-    if (slides(wheelset, slip, threshold, p))
+        return after_holding(wheelset, slip, reference, time_in_mode, p);
+    if (slides(wheelset, slip, slip_threshold_at(reference, p), p))
         return VENTING;
     return wheelset->mode == REFILLING && time_in_mode <= p->refill_time ? REFILLING : FREE;
 }
@@ -178,7 +243,27 @@ static bool fills(const Wheelset *wheelset, const Parameters *p)
 
 /* ---- the train ---- */
 
-/* Estimate the train's speed from the fastest wheelset. While some wheelset rolls the estimate follows the
+/* Decide which wheelsets have a speed. A reading that stands still is a fault only where those of two others
+ * change: a single one may slide while the train runs on at one speed. */
+static void watch(Controller *c)
+{
+    const Parameters *p = &c->parameters;
+    int changing = 0;
+    for (int i = 0; i < WHEELSETS; i++)
+        changing += !c->wheelsets[i].distrusted && !stands_still(&c->wheelsets[i], p);
+    for (int i = 0; i < WHEELSETS; i++) {
+        Wheelset *wheelset = &c->wheelsets[i];
+        if ((changing >= 2 && stands_still(wheelset, p)) || is_lost(wheelset, p)) {
+            wheelset->distrusted = true;
+            wheelset->sound_cycles = 0;
+            wheelset->doubtful_cycles = 0;
+        } else if (wheelset->distrusted) {
+            regain_trust(wheelset, c->reference_speed, p);
+        }
+    }
+}
+
+/* Estimate the train's speed from the fastest wheelset that is trusted. While some wheelset rolls the estimate follows the
  * fastest one, falling at most as fast as a train can. While all of them slide it falls more slowly, so that
  * it does not sink with them; a probed wheelset then lowers it, at most to the speed that the train can have
  * reached by then. Only a wheelset that rolls shows that the train is too slow for protection. */
@@ -188,7 +273,10 @@ static void estimate_speed(Controller *c)
     double fastest = 0.0;
     bool rolling = false, probed = false;
     for (int i = 0; i < WHEELSETS; i++) {
-        fastest = larger(fastest, c->wheelsets[i].speed);
+        if (c->wheelsets[i].distrusted)
+            continue;
+        if (c->wheelsets[i].doubtful_cycles == 0)
+            fastest = larger(fastest, c->wheelsets[i].speed);
         rolling = rolling || rolls(&c->wheelsets[i], p);
         probed = probed || shows_speed(&c->wheelsets[i], p);
     }
@@ -207,15 +295,21 @@ static void estimate_speed(Controller *c)
     c->reference_speed = larger(fastest, estimate);
 }
 
-/* Start probing the next wheelset when none has shown the train's speed for too long. */
+/* Start probing the next trusted wheelset when none has shown the train's speed for too long. */
 static void probe(Controller *c)
 {
     for (int i = 0; i < WHEELSETS; i++)
         if (c->wheelsets[i].mode == PROBING)
             return;
-    if ((double)c->blind_cycles * c->parameters.cycle_time > c->parameters.sounding_interval) {
-        c->probed = (c->probed + 1) % WHEELSETS;
-        enter(&c->wheelsets[c->probed], PROBING);
+    if ((double)c->blind_cycles * c->parameters.cycle_time <= c->parameters.sounding_interval)
+        return;
+    for (int k = 1; k <= WHEELSETS; k++) {
+        int candidate = (c->probed + k) % WHEELSETS;
+        if (!c->wheelsets[candidate].distrusted) {
+            c->probed = candidate;
+            enter(&c->wheelsets[candidate], PROBING);
+            return;
+        }
     }
 }
 
@@ -287,7 +381,7 @@ int32_t uictest_reset(void *controller)
     c->blind_cycles = 0;
     c->probed = WHEELSETS - 1;
     for (int i = 0; i < WHEELSETS; i++)
-        c->wheelsets[i] = (Wheelset){.previous_speed = c->initial_speed, .mode = FREE};
+        c->wheelsets[i] = (Wheelset){.speed = c->initial_speed, .mode = FREE};
     return 0;
 }
 
@@ -296,15 +390,18 @@ int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_out
     Controller *c = controller;
     const Parameters *p = &c->parameters;
     for (int i = 0; i < WHEELSETS; i++) {
-        c->wheelsets[i].speed = inputs->wheel_speed[i];
-        differentiate(&c->wheelsets[i], p);
+        c->wheelsets[i].reading = inputs->wheel_speed[i];
+        c->wheelsets[i].valid = inputs->speed_valid[i] != 0;
+        read_speed(&c->wheelsets[i], p);
     }
+    watch(c);
     estimate_speed(c);
     for (int i = 0; i < WHEELSETS; i++)
         enter(&c->wheelsets[i], next_mode(&c->wheelsets[i], c->reference_speed, p));
     probe(c);
     for (int i = 0; i < WHEELSETS; i++) {
-        const Wheelset *wheelset = &c->wheelsets[i];
+        int other = i + 1 - 2 * (i % 2);
+        const Wheelset *wheelset = &c->wheelsets[c->wheelsets[i].distrusted ? other : i];
         outputs->vent[i] = wheelset->mode == VENTING || wheelset->mode == PROBING;
         bool pause = wheelset->mode == REFILLING && !fills(wheelset, p);
         outputs->hold[i] = outputs->vent[i] || wheelset->mode == HOLDING || pause;

@@ -18,7 +18,8 @@ def make_case() -> MakeCase:
 
     def make(case_id: str, *tags: str, file: str = "a.yaml", expect: str = "pass") -> Any:
         controller = SimpleNamespace(program=None)
-        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller)
+        named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
+        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller, **named)
         return SimpleNamespace(id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={})
 
     return make

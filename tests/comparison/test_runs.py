@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from uictest.comparison import Tolerances, compare_runs
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report import RunContent
 
 MakeRun = Callable[..., RunContent]
@@ -16,7 +17,7 @@ def test_a_run_and_itself_do_not_differ(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(), DEFAULT)
     assert found.agrees
     assert (list(found.differences), list(found.notes)) == ([], [])
-    assert found.compared == 1 + 1 + 11 + 2 * 6
+    assert found.compared == 1 + 1 + len(STOP_COLUMNS) + 2 * len(WHEELSET_COLUMNS)
 
 
 def test_a_figure_that_moved_is_named_with_both_values(make_run: MakeRun) -> None:

@@ -35,7 +35,7 @@ def test_the_default_controller_conforms() -> None:
 
 def test_the_simplest_controller_has_no_watchdog() -> None:
     examination = built_in("slip-band")
-    assert missed(examination) == {"ends-vents"}
+    assert missed(examination) == {"ends-vents", "lost-sensor"}
     assert examination.status == "fail"
 
 

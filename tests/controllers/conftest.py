@@ -30,8 +30,12 @@ class Bench:
 
     def commands(self, *speeds: float) -> list[int]:
         """Commands of one cycle in which the sensors read these speeds, m/s."""
-        for wheelset, speed in zip(self.wheelsets, speeds, strict=True):
-            wheelset.measured_speed = speed
+        return self.commands_of(*speeds, valid=(1, 1, 1, 1))
+
+    def commands_of(self, *speeds: float, valid: tuple[int, ...]) -> list[int]:
+        """Commands of one cycle in which some sensors may report a fault."""
+        for wheelset, speed, sound in zip(self.wheelsets, speeds, valid, strict=True):
+            wheelset.measured_speed, wheelset.speed_valid = speed, sound
         self.controller.decide(self.train, self.wheelsets, self.parameters)
         return [wheelset.valve_command for wheelset in self.wheelsets]
 
@@ -46,7 +50,9 @@ def _shipped(name: str) -> dict[str, Any]:
 
 
 def _threshold(speed: float, **changes: float) -> Bench:
-    fixed = {"cycle_time": CYCLE, "reference_deceleration": 1.8}
+    """With speeds that jump or stand still, as no wheelset's do: any of them is plausible unless changed."""
+    any_speed = {"largest_acceleration": 1e4, "jump_tolerance": 100.0, "stuck_time": 60.0}
+    fixed = {"cycle_time": CYCLE, "reference_deceleration": 1.8, **any_speed}
     return Bench(
         CONTROLLERS["threshold"], SimpleNamespace(**{**_shipped("threshold"), **fixed, **changes}), speed
     )

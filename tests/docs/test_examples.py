@@ -14,6 +14,7 @@ from uictest.field_data import load_map
 from uictest.rig.bench.loading import load_bench
 from uictest.scenario import ScenarioErrors
 from uictest.scenario.references import KIND_OF_FOLDER
+from uictest.series import load_series
 from uictest.sweep import load_sweep
 
 REPOSITORY = Path(__file__).parents[2]
@@ -30,6 +31,7 @@ LOADERS: dict[str, Callable[[Path], Any]] = {
     "bench": load_bench,
     "channel-map": lambda path: load_map(str(path)),
     "sweep": load_sweep,
+    "series": load_series,
 }
 
 

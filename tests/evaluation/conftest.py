@@ -56,6 +56,8 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
         criteria=profiles,
         measures=MeasureDefinitions.model_validate(_written("standard", "measures")),
         expect=settings["expect"],
+        requirements=(),
+        test_case=None,
     )
 
 

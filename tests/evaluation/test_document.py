@@ -26,17 +26,28 @@ MEASURES = [
     "braking_distance_m",
     "braking_time_s",
     "mean_deceleration_mps2",
+    "build_up_time_s",
+    "deceleration_distance_m",
+    "developed_deceleration_mps2",
     "initial_adhesion_g",
+    "adhesion_utilisation",
     "minimum_deceleration_mps2",
     "maximum_deceleration_mps2",
+    "deceleration_bogie_1_mps2",
+    "deceleration_bogie_2_mps2",
     "reservoir_minimum_bar",
     "air_consumed_nl",
+    "reservoir_margin_bar",
     "energy_residual",
     "air_residual",
     "air_energy_residual",
 ]
 WHEELSET = [
+    "adhesion_utilisation",
     "maximum_slide",
+    "sliding_time_s",
+    "slid_distance_m",
+    "contact_energy_kj",
     "locked_time_s",
     "valve_actuations",
     "maximum_clamping_force_n",
@@ -83,6 +94,21 @@ def test_which_controller_answered_in_which_stop_is_there_only_where_it_is_known
     assert [list(case) for case in others] == [CASE, CASE]
     back, *_ = results_of(document)
     assert (back.controller_version, back.case_sha256) == ("wsp 1.2", "ab" * 32)
+
+
+def test_requirements_are_there_only_where_some_are_named_and_come_back(results) -> None:
+    first = results[0]
+    verdict = dataclasses.replace(first.criteria[0], requirements=("BR-2", "BR-1"))
+    ids = {"requirements": ("BR-9",), "test_case": "WSP-TC-7"}
+    named = dataclasses.replace(first, criteria=(verdict, *first.criteria[1:]), **ids)
+    document = json.loads(to_json(result_document([named, *results[1:]])))
+    case, *others = document["cases"]
+    assert list(case) == [*CASE, "requirements", "test_case"]
+    assert [list(each) for each in others] == [CASE, CASE]
+    assert [each.get("requirements") for each in case["criteria"][:2]] == [["BR-2", "BR-1"], None]
+    back, *_ = results_of(document)
+    assert (back.requirements, back.test_case) == (("BR-9",), "WSP-TC-7")
+    assert back.criteria[0].requirements == ("BR-2", "BR-1")
 
 
 def test_results_come_back_from_their_document(results) -> None:

@@ -9,6 +9,7 @@ from uictest.evaluation import (
     Sensitivity,
     Verdict,
     VerdictInterval,
+    WrittenVerdict,
     from_json_form,
     to_json_form,
 )
@@ -29,7 +30,7 @@ FIELDS = [
     "measure",
     "definitions",
 ]
-VERDICTS = TypeAdapter(list[Verdict], config=ConfigDict(extra="forbid"))
+VERDICTS = TypeAdapter(list[WrittenVerdict], config=ConfigDict(extra="forbid"))
 SLIDE = Sensitivity(
     "low_speed_cutoff",
     "km/h",
@@ -65,7 +66,7 @@ def read_back(form: dict[str, Any]) -> Verdict:
 
 def test_the_json_form_has_the_fields_of_the_interface_and_comes_back() -> None:
     form = form_of(verdict())
-    assert list(form) == FIELDS
+    assert list(form) == [*FIELDS, "requirements"]
     assert read_back(form) == verdict()
 
 

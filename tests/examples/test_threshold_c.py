@@ -79,14 +79,16 @@ def test_it_answers_as_the_built_in_controller_does_to_any_speeds(
     threshold_library: Path, parameters_of: Callable[[Case], dict[str, float]], shipped: list[Case], seed: int
 ) -> None:
     """Speeds that no rig gives reach the modes that shipped stops do not: probing, watchdogs."""
-    parameters = parameters_of(shipped[0])
+    parameters = {**parameters_of(shipped[0]), "sounding_interval": 0.1}
     built_in = BuiltIn({**parameters, "cycle_time": 0.01}, 30.0)
     instance = opened_library(threshold_library, parameters, 30.0)
     try:
         instance.reset()
-        for cycle, speeds in enumerate(wandering_speeds(seed)):
-            assert asked(instance, cycle, speeds) == built_in.asked(speeds), f"cycle {cycle}"
+        for cycle, (speeds, valid) in enumerate(zip(wandering_speeds(seed), failing(seed), strict=True)):
+            expected = built_in.asked(speeds, valid)
+            assert asked(instance, cycle, speeds, valid) == expected, f"cycle {cycle}"
         assert built_in.modes == {0, 1, 2, 3, 4}
+        assert built_in.distrusted == {0, 1}
     finally:
         instance.close()
 
@@ -95,8 +97,17 @@ def wandering_speeds(seed: int) -> Array:
     """Four speeds over 60 s that slide, lock and catch up by chance, m/s."""
     random = np.random.default_rng(seed)
     train = np.maximum(30.0 - 0.5 * 0.01 * np.arange(6000), 0.0)
-    share = np.clip(np.cumsum(random.normal(0.0, 0.02, (6000, 4)), axis=0) + 0.8, 0.0, 1.0)
+    share = np.clip(np.cumsum(random.normal(0.0, 0.012, (6000, 4)), axis=0) + 1.0, 0.0, 1.0)
     return np.asarray(train[:, None] * share + np.abs(random.normal(0.0, 0.005, (6000, 4))))
+
+
+def failing(seed: int) -> NDArray[np.int64]:
+    """For each cycle whether the four sensors are valid; each fails a few times for about a second."""
+    random = np.random.default_rng(seed + 100)
+    valid = np.ones((6000, 4), np.int64)
+    for begin, wheelset in zip(random.integers(0, 5900, 8), random.integers(0, 4, 8), strict=True):
+        valid[begin : begin + 100, wheelset] = 0
+    return valid
 
 
 class BuiltIn:
@@ -107,13 +118,15 @@ class BuiltIn:
         self.train = SimpleNamespace()
         self.wheelsets = [SimpleNamespace() for _ in range(4)]
         self.modes: set[int] = set()
+        self.distrusted: set[int] = set()
         threshold.begin(self.train, self.wheelsets, speed)  # type: ignore[arg-type]
 
-    def asked(self, speeds: Array) -> tuple[list[int], list[int], float]:
-        for wheelset, speed in zip(self.wheelsets, speeds.tolist(), strict=True):
-            wheelset.measured_speed = speed
+    def asked(self, speeds: Array, valid: NDArray[np.int64]) -> tuple[list[int], list[int], float]:
+        for wheelset, speed, sound in zip(self.wheelsets, speeds.tolist(), valid.tolist(), strict=True):
+            wheelset.measured_speed, wheelset.speed_valid = speed, sound
         threshold.decide(self.train, self.wheelsets, self.parameters)  # type: ignore[arg-type]
         self.modes |= {wheelset.mode for wheelset in self.wheelsets}
+        self.distrusted |= {wheelset.distrusted for wheelset in self.wheelsets}
         commands = [wheelset.valve_command for wheelset in self.wheelsets]
         hold, vent = [int(each != FILL) for each in commands], [int(each == VENT) for each in commands]
         return hold, vent, self.train.reference_speed
@@ -125,9 +138,12 @@ def opened_library(library: Path, parameters: dict[str, float], speed: float) ->
     return open_controller(program, Config(4, 0.01, speed, (0.46,) * 4, parameters))
 
 
-def asked(instance: ControllerInstance, cycle: int, speeds: Array) -> tuple[list[int], list[int], float]:
+def asked(
+    instance: ControllerInstance, cycle: int, speeds: Array, valid: NDArray[np.int64]
+) -> tuple[list[int], list[int], float]:
     exchange: Any = np.zeros(1, EXCHANGE)[0]
     exchange["cycle"], exchange["time"], exchange["wheel_speed"] = cycle, cycle * 0.01, speeds
+    exchange["speed_valid"] = valid
     address = exchange.__array_interface__["data"][0]
     assert STEP(instance.step_address)(instance.handle, address, address + OUTPUTS_AT) == 0
     return exchange["hold"].tolist(), exchange["vent"].tolist(), float(exchange["reference_speed"])

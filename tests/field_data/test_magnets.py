@@ -52,8 +52,8 @@ def test_magnets_of_a_stop_count_the_actuations_of_its_valves(
 
     commands = [f"valve_command_{n}" for n in (1, 2, 3, 4)]
     magnets = {name: channel for name, channel in channels.items() if name not in commands}
-    expected = observe(prepared(channels), case.scenario.measures)
-    found = observe(prepared(with_valve_commands(magnets)), case.scenario.measures)
+    expected = observe(prepared(channels), case.scenario)
+    found = observe(prepared(with_valve_commands(magnets)), case.scenario)
     actuations = expected.wheelset_measures.valve_actuations
     assert actuations.min() > 0
     np.testing.assert_array_equal(found.wheelset_measures.valve_actuations, actuations)

@@ -30,6 +30,13 @@ RESOLUTION: dict[str, Callable[[float], float]] = {
     "minimum_deceleration_mps2": lambda interval: 1.0 * interval,
     "maximum_deceleration_mps2": lambda interval: 1.0 * interval,
     "reservoir_minimum_bar": lambda interval: 0.1 * interval,
+    "reservoir_margin_bar": lambda interval: 10.0 * (interval - 0.01) + 0.02,
+    "build_up_time_s": lambda interval: 0.05 * interval,
+    "deceleration_distance_m": lambda interval: 0.5 * interval,
+    "developed_deceleration_mps2": lambda interval: 0.02 * interval,
+    "adhesion_utilisation": lambda interval: 0.5 * interval,
+    "deceleration_bogie_1_mps2": lambda interval: 0.2 * interval,
+    "deceleration_bogie_2_mps2": lambda interval: 0.2 * interval,
 }
 LOCKED = 10.0
 """Sampling intervals by which the time in a handful of locks may be off."""
@@ -67,6 +74,10 @@ def _compare(actual: Any, expected: Any, interval: float) -> None:
         "locked_time_s": LOCKED * (interval - 0.01) + 1e-6,
         "valve_actuations": 0 if interval == 0.01 else 2,
         "maximum_slide": 2.0 * (interval - 0.01) + 1e-6,
+        "sliding_time_s": 10.0 * (interval - 0.01) + 1e-6,
+        "slid_distance_m": 100.0 * (interval - 0.01) + 1e-3,
+        "contact_energy_kj": 60.0 * interval,
+        "adhesion_utilisation": 1.0 * interval,
     }
     for one, other in zip(actual.wheelsets, expected.wheelsets, strict=True):
         for column, tolerance in tolerances.items():

@@ -49,7 +49,7 @@ def _of_part(part: str, channels: Channels) -> Channels:
 
 
 def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
-    observed = observe(stop, case.scenario.measures)
+    observed = observe(stop, case.scenario)
     records = observed.measures, observed.wheelset_measures
     return {name: measure.read(*records, DEFINITION).values for name, measure in MEASURES.items()}
 
@@ -58,7 +58,7 @@ def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(
     channels: Channels, case: Case, prepared: Any
 ) -> None:
     """A measure whose channels nobody states would be judged on whatever is there."""
-    late = observe(prepared(_of_part("from 3", channels)), case.scenario.measures)
+    late = observe(prepared(_of_part("from 3", channels)), case.scenario)
     of_a_train = {name for name, measure in MEASURES.items() if not measure.of_simulation}
     assert late.coverage.missing.keys() == of_a_train - {"standstill"}
 
@@ -150,7 +150,7 @@ def test_a_valve_that_vents_before_and_after_a_gap_did_not_open_twice(
     vents[100:200] = 2.0
     vents[150:160] = np.nan
     channels["valve_command_1"] = replace(command, samples=vents)
-    observed = observe(prepared(channels), case.scenario.measures)
+    observed = observe(prepared(channels), case.scenario)
     assert observed.wheelset_measures[0].valve_actuations == 1.0
 
 
@@ -160,7 +160,7 @@ def test_locks_on_either_side_of_a_gap_are_not_one(case: Case, channels: Channel
     samples = np.where((time > 1.0) & (time < 2.6), 0.0, channels["speed"].samples)
     channels["wheel_speed_1"] = replace(wheel, samples=samples)
     broken = _keep(channels, (time < 1.6) | (time > 2.0))
-    observed = observe(prepared(broken), case.scenario.measures)
+    observed = observe(prepared(broken), case.scenario)
     assert observed.wheelset_measures[0].longest_lock == pytest.approx(0.6, abs=0.03)
 
 

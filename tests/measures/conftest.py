@@ -32,6 +32,9 @@ _DEFINITION = {
     "moving_speed": 2.8,
     "deceleration_filter": 0.5,
     "developed_time": 2.0,
+    "rising_share": 0.05,
+    "developed_share": 0.95,
+    "reduced_share": 0.9,
 }
 
 

@@ -129,9 +129,8 @@ def test_a_brake_never_developed_has_no_least_deceleration(stop, wheelsets) -> N
 def test_before_standstill_a_stop_has_no_braking_distance_to_report(stop) -> None:
     running = stop(stopped=0.0, braking_distance=np.nan, braking_time=np.nan, end_distance=2500.0)
     columns = stop_column_values(running, DEFINED)
-    assert all(
-        np.isnan(columns[name]) for name in ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2")
-    )
+    final = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "developed_deceleration_mps2")
+    assert all(np.isnan(columns[name]) for name in final)
 
 
 def test_a_count_is_a_whole_number_unless_nothing_was_counted(wheelsets) -> None:
@@ -164,7 +163,7 @@ def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() ->
         assert column.unit == "1" or column.name.endswith(f"_{endings.get(column.unit, column.unit.lower())}")
     pure = {column.name for column in columns if column.unit == "1"}
     balances = {"energy_residual", "air_residual", "air_energy_residual"}
-    assert pure == {*balances, "maximum_slide", "valve_actuations"}
+    assert pure == {*balances, "adhesion_utilisation", "maximum_slide", "valve_actuations"}
 
 
 def test_importing_the_catalogue_imports_no_numpy() -> None:

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.measures import STOP_MEASURES, WINDOW_SECONDS, begin_train, begin_window, note_standstill
+from uictest.measures import (
+    STOP_MEASURES,
+    WINDOW_SECONDS,
+    begin_build_up,
+    begin_train,
+    begin_utilisation,
+    begin_window,
+    note_standstill,
+    observe_reservoir_margin,
+)
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
@@ -18,6 +27,8 @@ def begun(held_before: float) -> np.ndarray:
     train = np.full(STOP_MEASURES.itemsize // 8, held_before).view(STOP_MEASURES)
     begin_train(train[0], 0.5, 1.0, 30.0, 7e5)
     begin_window(train[0])
+    begin_build_up(train[0], 3.8e5, 0.0)
+    begin_utilisation(train[0])
     return train.view(np.float64)
 
 
@@ -76,6 +87,14 @@ def test_extremes_of_the_filtered_deceleration(samples: Any, stop: Stop) -> None
 
 def test_lowest_pressure_of_the_reservoir(samples: Any, stop: Stop) -> None:
     assert stop[0].reservoir_minimum_pressure == samples.reservoir_pressure.min()
+
+
+def test_margin_of_the_reservoir_is_its_smallest_over_the_cylinders() -> None:
+    train = np.zeros(1, STOP_MEASURES)[0]
+    begin_train(train, 0.0, 0.0, 30.0, 8e5)
+    for reservoir, cylinder in ((8e5, 0.0), (7.2e5, 3.8e5), (np.nan, 3.8e5), (7.0e5, 1.0e5)):
+        observe_reservoir_margin(train, reservoir, cylinder)
+    assert train.reservoir_margin == pytest.approx(3.4e5)
 
 
 def test_last_sample_and_count(samples: Any, stop: Stop) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import SPEED_CLASSES, WHEELSET_MEASURES, begin_slides, begin_wheelset
+from uictest.measures import SPEED_CLASSES, WHEELSET_MEASURES, begin_contact, begin_slides, begin_wheelset
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
@@ -28,6 +28,7 @@ def begun(held_before: float) -> np.ndarray:
     wheelset = np.full(WHEELSET_MEASURES.itemsize // 8, held_before).view(WHEELSET_MEASURES)
     begin_wheelset(wheelset[0])
     begin_slides(wheelset[0])
+    begin_contact(wheelset[0])
     return wheelset.view(np.float64)
 
 

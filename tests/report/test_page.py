@@ -201,3 +201,37 @@ def test_two_swept_keys_are_shown_as_a_map(make_content: MakeContent, make_resul
 
 def test_an_incomplete_run_says_so(make_content: MakeContent, make_result: MakeResult) -> None:
     assert "selected cases were not run" in page_html(make_content(make_result(), complete=False))
+
+
+def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them(
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: MakeVerdict,
+    make_recording: MakeRecording,
+) -> None:
+    verdict = make_verdict(requirements=("BR-CRITERION",))
+    named = make_result(requirements=("BR-CASE",), test_case="WSP-TC-7", criteria=(verdict,))
+    failed = make_result(id="b", outcome="fail", requirements=("BR-CASE",), criteria=())
+    traces = {named.id: trace_of(make_recording())}
+    page = Page(page_html(make_content(named, failed, traces=traces)))
+    table = page.text.partition("\nRequirements\n")[2].partition("\nStops\n")[0]
+    cells = " ".join(table.split())
+    assert "not met BR-CASE 2 b (fail) 2 cases" in cells
+    assert "met BR-CRITERION 1 dry-120[command=90] by braking-distance" in cells
+    row, stop = page.text.partition("\nRequirements\n")[0], page.text.partition("\nStops\n")[2]
+    assert "WSP-TC-7: BR-CASE" in row
+    assert "BR-CRITERION" in stop
+    assert re.search(r"test case\s*WSP-TC-7\s*requirements\s*BR-CASE", stop)
+
+
+def test_ids_of_requirements_are_shown_as_text(
+    make_content: MakeContent, make_result: MakeResult, hostile: str
+) -> None:
+    """A results.json from elsewhere may hold anything."""
+    result = make_result(requirements=(hostile,), test_case=hostile)
+    page = Page(page_html(make_content(result)))
+    assert page.count("b") == 0
+
+
+def test_a_page_without_requirements_does_not_speak_of_them(drawn: str) -> None:
+    assert 'id="requirements"' not in drawn

@@ -21,7 +21,10 @@ def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: 
 
     for case in scenarios:
         parameters, wheelset_parameters, rail, *_ = assemble(case)
-        assert all(np.isfinite(parameters[name]).all() for name in PARAMETERS.names or ())
+        endless = {name for name in PARAMETERS.names or () if name.startswith("fault_")}
+        finite = set(PARAMETERS.names or ()) - endless
+        assert all(np.isfinite(parameters[name]).all() for name in finite)
+        assert not any(np.isnan(parameters[name]).any() for name in endless)
         assert all(np.isfinite(wheelset_parameters[name]).all() for name in WHEELSET_PARAMETERS.names)
         assert np.isfinite(rail).all()
 
@@ -207,13 +210,6 @@ def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig: Any,
     gaps = np.array([wheelbase, 2.0 * p.half_pivot_distance - wheelbase])
     assert gaps.max() * p.rail_points_per_metre == pytest.approx(POINTS - MARGIN)
     assert gaps.min() * p.rail_points_per_metre > 1.0
-
-
-def test_cases_of_one_scenario_draw_different_noise(scenarios: Any) -> None:
-    from uictest.rig.assembly import assemble
-
-    keys = [int(assemble(case)[0].case_key) for case in scenarios]
-    assert len(set(keys)) == len(keys)
 
 
 SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', parameters: {lower_slide: %s}}"

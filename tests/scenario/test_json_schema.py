@@ -14,7 +14,11 @@ from uictest.scenario.model import Scenario
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "schema" / "scenario.schema.json"
-SHIPPED = [path for path in sorted((ROOT / "scenarios").glob("*.yaml")) if ".sweep" not in path.suffixes]
+SHIPPED = [
+    path
+    for path in sorted((ROOT / "scenarios").glob("*.yaml"))
+    if not {".sweep", ".series"} & set(path.suffixes)
+]
 HEAD: dict[str, Any] = {"schema": "uictest/scenario/1", "name": "stop", "initial_speed": "120 km/h"}
 
 

@@ -36,7 +36,7 @@ def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
 
 @pytest.mark.parametrize(
     "path",
-    [path for path in sorted(FOLDER.glob("*.yaml")) if ".sweep" not in path.suffixes],
+    [path for path in sorted(FOLDER.glob("*.yaml")) if not {".sweep", ".series"} & set(path.suffixes)],
     ids=lambda path: path.stem,
 )
 def test_a_file_is_named_after_its_scenario_and_explains_itself(path: Path) -> None:

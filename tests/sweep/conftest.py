@@ -43,8 +43,10 @@ def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def write_and_load(text: str = GRID, *overrides: str, **options: Any) -> Plan:
-        Path("study.sweep.yaml").write_text(HEAD + text)
+    def write_and_load(
+        text: str = GRID, *overrides: str, scenario: str = "stop.yaml", **options: Any
+    ) -> Plan:
+        Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + text)
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load
@@ -66,12 +68,17 @@ def formula(
     measures["braking_time"] = measures["end_time"] = speed / (9.81 * friction)
     measures["braking_distance"] = measures["end_distance"] = speed**2 / (2.0 * 9.81 * friction)
     for name in (
+        "build_up_time",  # the brake is there at once
+        "build_up_distance",
         "end_speed",
         "energy_residual",
         "air_residual",
         "air_energy_residual",
         "air_consumed",
         "reservoir_minimum_pressure",
+        "reservoir_margin",
+        "deceleration_bogie_1",
+        "deceleration_bogie_2",
     ):
         measures[name] = 0.0
     # Wheels lock at high pressure on slippery rail: the only thing that a stop can fail by.

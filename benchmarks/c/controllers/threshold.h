@@ -15,19 +15,85 @@ static inline void begin_threshold(Car *car, Wheelset *wheelsets, double speed)
     car->blind_cycles = 0;
     car->probed = 3;
     for (int i = 0; i < 4; i++) {
-        wheelsets[i].previous_speed = speed;
+        wheelsets[i].plausible_speed = speed;
+        wheelsets[i].rejected_cycles = 0;
+        wheelsets[i].doubtful_cycles = 0;
+        wheelsets[i].unchanged_cycles = 0;
+        wheelsets[i].distrusted = 0;
+        wheelsets[i].sound_cycles = 0;
         wheelsets[i].measured_acceleration = 0.0;
         wheelsets[i].mode = FREE;
         wheelsets[i].mode_cycles = 0;
     }
 }
 
-static inline void differentiate(Wheelset *wheelset, const Parameters *p)
+static inline double slip_threshold_at(double reference, const Parameters *p)
 {
-    double change = (wheelset->measured_speed - wheelset->previous_speed) / p->cycle_time;
-    double share = p->cycle_time / (p->cycle_time + p->acceleration_filter_time);
-    wheelset->measured_acceleration += share * (change - wheelset->measured_acceleration);
-    wheelset->previous_speed = wheelset->measured_speed;
+    return p->slip_threshold + p->slide_threshold * reference;
+}
+
+static inline double take_over(Wheelset *wheelset, const Parameters *p)
+{
+    double elapsed = (double)(wheelset->rejected_cycles + 1) * p->cycle_time;
+    double jump = fabs(wheelset->measured_speed - wheelset->plausible_speed);
+    if (wheelset->speed_valid == 0 || jump > p->jump_tolerance + p->largest_acceleration * elapsed) {
+        wheelset->rejected_cycles += 1;
+        wheelset->doubtful_cycles += 1;
+        return 0.0;
+    }
+    bool still = jump == 0.0 && wheelset->measured_speed > p->minimum_speed;
+    wheelset->unchanged_cycles = still ? wheelset->unchanged_cycles + 1 : 0;
+    wheelset->plausible_speed = wheelset->measured_speed;
+    wheelset->rejected_cycles = 0;
+    if (wheelset->doubtful_cycles > 0)
+        wheelset->doubtful_cycles -= 1;
+    return elapsed;
+}
+
+static inline void read_speed(Wheelset *wheelset, const Parameters *p)
+{
+    double before = wheelset->plausible_speed;
+    double elapsed = take_over(wheelset, p);
+    if (elapsed > 0.0) {
+        double change = (wheelset->plausible_speed - before) / elapsed;
+        double share = p->cycle_time / (p->cycle_time + p->acceleration_filter_time);
+        wheelset->measured_acceleration += share * (change - wheelset->measured_acceleration);
+    }
+}
+
+static inline bool stands_still(const Wheelset *wheelset, const Parameters *p)
+{
+    return (double)wheelset->unchanged_cycles * p->cycle_time > p->stuck_time;
+}
+
+static inline bool is_lost(const Wheelset *wheelset, const Parameters *p)
+{
+    double doubtful_time = (double)wheelset->doubtful_cycles * p->cycle_time;
+    return wheelset->speed_valid == 0 || doubtful_time > p->distrust_time;
+}
+
+static inline void regain_trust(Wheelset *wheelset, double reference, const Parameters *p)
+{
+    bool near = fabs(reference - wheelset->plausible_speed) <= p->recovery_share * slip_threshold_at(reference, p);
+    wheelset->sound_cycles = near && wheelset->doubtful_cycles == 0 ? wheelset->sound_cycles + 1 : 0;
+    if ((double)wheelset->sound_cycles * p->cycle_time > p->trust_time)
+        wheelset->distrusted = 0;
+}
+
+static inline void watch(Wheelset *wheelsets, double reference, const Parameters *p)
+{
+    int changing = 0;
+    for (int i = 0; i < 4; i++)
+        changing += wheelsets[i].distrusted == 0 && !stands_still(&wheelsets[i], p);
+    for (int i = 0; i < 4; i++) {
+        if ((changing >= 2 && stands_still(&wheelsets[i], p)) || is_lost(&wheelsets[i], p)) {
+            wheelsets[i].distrusted = 1;
+            wheelsets[i].sound_cycles = 0;
+            wheelsets[i].doubtful_cycles = 0;
+        } else if (wheelsets[i].distrusted == 1) {
+            regain_trust(&wheelsets[i], reference, p);
+        }
+    }
 }
 
 static inline bool rolls(const Wheelset *wheelset, const Parameters *p)
@@ -51,7 +117,10 @@ static inline void estimate_speed(Car *car, const Wheelset *wheelsets, const Par
     double fastest = 0.0;
     bool rolling = false, probed = false;
     for (int i = 0; i < 4; i++) {
-        fastest = maximum(fastest, wheelsets[i].measured_speed);
+        if (wheelsets[i].distrusted == 1)
+            continue;
+        if (wheelsets[i].doubtful_cycles == 0)
+            fastest = maximum(fastest, wheelsets[i].plausible_speed);
         rolling = rolling || rolls(&wheelsets[i], p);
         probed = probed || shows_speed(&wheelsets[i], p);
     }
@@ -112,10 +181,10 @@ static inline int64_t after_holding(const Wheelset *wheelset, double slip, doubl
 
 static inline int64_t next_mode(const Wheelset *wheelset, double reference, const Parameters *p)
 {
-    double slip = reference - wheelset->measured_speed;
-    double threshold = p->slip_threshold + p->slide_threshold * reference;
+    double slip = reference - wheelset->plausible_speed;
+    double threshold = slip_threshold_at(reference, p);
     double time_in_mode = (double)(wheelset->mode_cycles + 1) * p->cycle_time;
-    if (reference < p->minimum_speed)
+    if (reference < p->minimum_speed || wheelset->distrusted == 1)
         return FREE;
     if (wheelset->mode == PROBING)
         return shows_speed(wheelset, p) || time_in_mode > p->vent_watchdog ? REFILLING : PROBING;
@@ -147,22 +216,31 @@ static inline void probe(Car *car, Wheelset *wheelsets, const Parameters *p)
     for (int i = 0; i < 4; i++)
         if (wheelsets[i].mode == PROBING)
             return;
-    if ((double)car->blind_cycles * p->cycle_time > p->sounding_interval) {
-        car->probed = (car->probed + 1) % 4;
-        enter(&wheelsets[car->probed], PROBING);
+    if ((double)car->blind_cycles * p->cycle_time <= p->sounding_interval)
+        return;
+    for (int k = 1; k < 5; k++) {
+        int64_t candidate = (car->probed + k) % 4;
+        if (wheelsets[candidate].distrusted == 0) {
+            car->probed = candidate;
+            enter(&wheelsets[candidate], PROBING);
+            return;
+        }
     }
 }
 
 static inline void decide_by_threshold(Car *car, Wheelset *wheelsets, const Parameters *p)
 {
     for (int i = 0; i < 4; i++)
-        differentiate(&wheelsets[i], p);
+        read_speed(&wheelsets[i], p);
+    watch(wheelsets, car->reference_speed, p);
     estimate_speed(car, wheelsets, p);
     for (int i = 0; i < 4; i++)
         enter(&wheelsets[i], next_mode(&wheelsets[i], car->reference_speed, p));
     probe(car, wheelsets, p);
-    for (int i = 0; i < 4; i++)
-        wheelsets[i].valve_command = threshold_command(&wheelsets[i], p);
+    for (int i = 0; i < 4; i++) {
+        int other = i + 1 - 2 * (i % 2);
+        wheelsets[i].valve_command = threshold_command(&wheelsets[wheelsets[i].distrusted ? other : i], p);
+    }
 }
 
 #endif

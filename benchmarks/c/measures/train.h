@@ -20,8 +20,10 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     for (int second = 0; second <= WINDOW_SECONDS; second++)
         m->speed_after_sliding[second] = NAN;
     m->reservoir_minimum_pressure = reservoir_pressure;
+    m->reservoir_margin = INFINITY;
     m->air_consumed = m->energy_residual = m->air_residual = m->air_energy_residual = NAN;
     m->samples = 1.0;
+    m->fault_time = m->reference_excess = NAN;
 }
 
 static inline void observe_deceleration(Measures *m, const Parameters *p, double time, double speed)
@@ -65,6 +67,11 @@ static inline void observe_train(Measures *m, const Parameters *p, double time, 
     m->end_distance = distance;
     m->end_speed = speed;
     m->samples += 1.0;
+}
+
+static inline void observe_reservoir_margin(Measures *m, double reservoir_pressure, double highest_cylinder_pressure)
+{
+    m->reservoir_margin = minimum(reservoir_pressure - highest_cylinder_pressure, m->reservoir_margin);
 }
 
 static inline void finish(Measures *m, double time, double distance)

@@ -12,9 +12,12 @@ static inline void begin_wheelset(WheelsetMeasures *m)
     for (int k = 0; k < SPEED_CLASSES; k++)
         m->maximum_slide_above[k] = NAN;
     m->first_sliding_time = NAN;
+    m->sliding = 0.0;
     m->sliding_duration = m->locked_time = m->longest_lock = m->lock = 0.0;
     m->valve_actuations = m->venting = m->maximum_clamping_force = 0.0;
     m->air_vented = m->maximum_disc_temperature = NAN;
+    m->faulty = m->release = 0.0;
+    m->longest_release = NAN;
 }
 
 static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Parameters *p, int place, double time,
@@ -29,6 +32,7 @@ static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Par
         m->maximum_slide_above[k] = slide;
     if (!(slide > p->sliding_slide && slip > p->sliding_slip))
         return;
+    m->sliding = 1.0;
     m->sliding_duration += time - train->end_time;
     if (!(m->first_sliding_time <= time))
         m->first_sliding_time = time;
@@ -57,6 +61,7 @@ static inline void observe_wheelset(WheelsetMeasures *m, Measures *train, const 
         m->valve_actuations += 1.0;
     m->venting = venting;
     m->maximum_clamping_force = maximum(m->maximum_clamping_force, clamping_force);
+    m->sliding = 0.0;
     if (speed > p->moving_speed) {
         observe_slide(m, train, p, place, time, speed, speed - wheel_speed);
         observe_lock(m, p, time - train->end_time, wheel_speed);

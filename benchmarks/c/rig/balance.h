@@ -60,6 +60,13 @@ static inline double stored_energy(const Car *car, const Bogie *bogies, const Wh
     return energy;
 }
 
+static inline double rail_work(const Wheelset *wheelset, const Parameters *p)
+{
+    double turned = kinetic_energy(p->wheelset_inertia, wheelset->rotation);
+    double turned_first = kinetic_energy(p->wheelset_inertia, p->initial_speed / wheelset->wheel_radius);
+    return wheelset->brake_heat + wheelset->contact_loss + (turned - turned_first);
+}
+
 static inline double energy_residual(const Car *car, const Bogie *bogies, const Wheelset *wheelsets,
                                      const Parameters *p)
 {

@@ -17,7 +17,7 @@ typedef struct {
 static inline double noise(const Parameters *p, int64_t cycle, int channel)
 {
     uint32_t word_0 = (uint32_t)cycle, word_1 = (uint32_t)channel;
-    threefry((uint32_t)p->seed, (uint32_t)p->case_key, &word_0, &word_1);
+    threefry((uint32_t)p->seed, (uint32_t)p->noise_key, &word_0, &word_1);
     return bell(word_0, word_1);
 }
 

@@ -2,6 +2,8 @@
 #ifndef OBSERVATION_H
 #define OBSERVATION_H
 
+#include "../measures/build_up.h"
+#include "../measures/contact.h"
 #include "../measures/train.h"
 #include "../measures/wheelset.h"
 #include "balance.h"
@@ -11,29 +13,49 @@ static inline void begin_stop_measures(const Car *car, Measures *measures, Wheel
                                        const Parameters *p)
 {
     begin_measures(measures, car->time, car->position, car->speed, car->reservoir_pressure - p->atmospheric_pressure);
-    for (int i = 0; i < 4; i++)
+    begin_build_up(measures, p->commanded_pressure, car->line_pressure - p->atmospheric_pressure);
+    begin_utilisation(measures);
+    for (int i = 0; i < 4; i++) {
         begin_wheelset(&wheelset_measures[i]);
+        begin_contact(&wheelset_measures[i]);
+    }
+}
+
+static inline void observe_wheelset_and_contact(const Car *car, const Wheelset *wheelset, Measures *measures,
+                                                WheelsetMeasures *observed, const Parameters *p, int place, double time,
+                                                double speed, int stands)
+{
+    observe_wheelset(observed, measures, p, place, time, speed, wheelset->rotation * wheelset->wheel_radius,
+                     stands ? observed->venting : wheelset->venting, stands ? 0.0 : wheelset->clamping_force);
+    double force = highest_creep_force(speed, wheelset->wheel_load, wheelset->friction, wheelset->contact_stiffness, p);
+    observe_contact(observed, measures, p, time, speed, wheelset->pressure - p->atmospheric_pressure,
+                    car->line_pressure - p->atmospheric_pressure, rail_work(wheelset, p), wheelset->contact_loss,
+                    2.0 * force);
 }
 
 static inline void observe_cycle(const Car *car, const Wheelset *wheelsets, Measures *measures,
                                  WheelsetMeasures *wheelset_measures, const Parameters *p)
 {
+    int stands = car->stopped > 0.0;
     double reservoir = car->reservoir_pressure - p->atmospheric_pressure;
-    if (car->stopped > 0.0) {
-        observe_train(measures, p, car->stop_time, car->stop_position, 0.0, reservoir);
-        finish(measures, car->stop_time, car->stop_position);
-        return;
-    }
+    double time = stands ? car->stop_time : car->time;
+    double position = stands ? car->stop_position : car->position;
+    double speed = stands ? 0.0 : car->speed;
     for (int i = 0; i < 4; i++)
-        observe_wheelset(&wheelset_measures[i], measures, p, i + 1, car->time, car->speed,
-                         wheelsets[i].rotation * wheelsets[i].wheel_radius, wheelsets[i].venting,
-                         wheelsets[i].clamping_force);
-    observe_train(measures, p, car->time, car->position, car->speed, reservoir);
+        observe_wheelset_and_contact(car, &wheelsets[i], measures, &wheelset_measures[i], p, i + 1, time, speed, stands);
+    double leading = maximum(wheelsets[0].compensated_pressure, wheelsets[1].compensated_pressure);
+    double trailing = maximum(wheelsets[2].compensated_pressure, wheelsets[3].compensated_pressure);
+    observe_reservoir_margin(measures, reservoir, maximum(leading, trailing));
+    observe_build_up(measures, p, time, position, speed, car->line_pressure - p->atmospheric_pressure);
+    observe_train(measures, p, time, position, speed, reservoir);
+    if (stands)
+        finish(measures, time, position);
 }
 
 static inline void close_stop_measures(const Car *car, const Bogie *bogies, const Wheelset *wheelsets,
                                        Measures *measures, WheelsetMeasures *wheelset_measures, const Parameters *p)
 {
+    close_contacts(measures, wheelset_measures, p->total_mass);
     measures->air_consumed = car->consumed_air;
     measures->energy_residual = energy_residual(car, bogies, wheelsets, p);
     measures->air_residual = air_residual(car, wheelsets);

@@ -20,6 +20,8 @@ static inline void start_wheelset(Wheelset *wheelset, const Parameters *p)
     wheelset->speed = p->initial_speed;
     wheelset->rotation = p->initial_speed / wheelset->wheel_radius;
     wheelset->wheel_load = p->static_wheel_load;
+    wheelset->speed_valid = 1;
+    wheelset->held_speed = p->initial_speed;
     wheelset->pad_friction = wheelset->reference_pad_friction;
     wheelset->disc_temperature = p->initial_disc_temperature;
     wheelset->disc_surface_temperature = p->initial_disc_temperature;

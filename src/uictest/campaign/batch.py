@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from uictest import controllers, evaluation, rig, scenario
 from uictest.campaign.case import CaseRun, RecordingRequest, run_case
 from uictest.campaign.parts import PartsOfCases, with_parts
+from uictest.campaign.repeats import CaseAssembly, Stop, StopRun, run_repeat, stops_of
 from uictest.campaign.threaded_map import ThreadedMap
 
 
@@ -29,10 +30,12 @@ def run_cases(
     in_process: bool = False,
     real_time: bool = False,
     on_result: Callable[[CaseRun], None] = lambda case_run: None,
+    on_stop: Callable[[], None] = lambda: None,
 ) -> BatchResult:
     """Run the cases on `jobs` threads, and return the results in the order of the cases.
 
-    A KeyboardInterrupt ends the batch; finished results are kept.
+    The stops of a case that repeats its stop run side by side as well. A KeyboardInterrupt ends the batch;
+    the results of cases all of whose stops are finished are kept.
 
     Args:
         cases: to run.
@@ -44,6 +47,7 @@ def run_cases(
         in_process: whether controllers from outside run in this process, which they can then crash.
         real_time: whether their cycles are paced by the clock; all must be programs at a socket.
         on_result: called in this thread, once per case, in the order of the cases.
+        on_stop: called in this thread, once per stop.
     """
     batch = BatchResult()
     request = recording or RecordingRequest()
@@ -55,17 +59,35 @@ def run_cases(
 
     with rig.Workers() as workers:
         run = _runner(workers, in_process=in_process, real_time=real_time)
-        case_runs = ThreadedMap(lambda case: run_case(case, request, run), cases, jobs=jobs)
+        stop_runs = ThreadedMap(lambda stop: _run_stop(stop, request, run), stops_of(cases), jobs=jobs)
+        assembly = CaseAssembly(request)
         try:
-            with case_runs:
-                _report_until(maxfail, case_runs, report)
+            with stop_runs:
+                _report_until(maxfail, _assembled(stop_runs, assembly, on_stop), report)
         except KeyboardInterrupt:
             batch.interrupted = True
             # Before the child processes end: their stops would come out as errors.
-            for case_run in case_runs.finished():
+            for case_run in _assembled(stop_runs.finished(), assembly, on_stop):
                 report(case_run)
             controllers.interrupt_turns()
     return batch
+
+
+def _run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs) -> StopRun:
+    if stop.case.scenario.repeat > 1:
+        return run_repeat(stop, request, run)
+    return StopRun(stop, run_case(stop.case, request, run))
+
+
+def _assembled(
+    stop_runs: Iterable[StopRun], assembly: CaseAssembly, on_stop: Callable[[], None]
+) -> Iterator[CaseRun]:
+    """Yield each case once its last stop is there; at the end those that an interrupt kept from that."""
+    for stop_run in stop_runs:
+        assembly.add(stop_run)
+        on_stop()
+        yield from assembly.complete()
+    yield from assembly.complete()
 
 
 def _runner(workers: rig.Workers, *, in_process: bool, real_time: bool) -> rig.RunInputs:

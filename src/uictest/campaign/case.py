@@ -34,18 +34,24 @@ class CaseRun:
 
 
 def run_case(case: scenario.Case, request: RecordingRequest, run: rig.RunInputs | None = None) -> CaseRun:
-    """Simulate and judge one case. An exception becomes a result with the outcome `error`.
+    """Simulate and judge one stop of a case, that of its own seed.
 
-    `run` runs the stop, see :func:`uictest.rig.simulate`.
+    An exception becomes a result with the outcome `error`. `run` runs the stop, see
+    :func:`uictest.rig.simulate`.
     """
     started = perf_counter()
     try:
         return _simulate_and_judge(case, request, started, run)
     except Exception as error:
-        result = evaluation.error_result(case, _reason(error), perf_counter() - started)
-        if isinstance(error, ControllerError):
-            result = replace(result, case_sha256=rig.sha256_of_case(case))
-        return CaseRun(result, traceback=traceback.format_exc())
+        return failed_run(case, error, perf_counter() - started)
+
+
+def failed_run(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
+    """Return the result of a stop that ended in an exception after so many seconds: outcome `error`."""
+    result = evaluation.error_result(case, _reason(error), duration)
+    if isinstance(error, ControllerError):
+        result = replace(result, case_sha256=rig.sha256_of_case(case))
+    return CaseRun(result, traceback="".join(traceback.format_exception(error)))
 
 
 def _simulate_and_judge(

@@ -9,7 +9,7 @@ from typing import Any
 
 import typer
 
-from uictest import campaign, scenario
+from uictest import campaign, scenario, series
 from uictest.cli.exit_codes import InvalidInputError
 from uictest.report import TableColumn, aligned, columns_not_shown, counted, fitted, printable
 from uictest.scenario import yaml
@@ -35,9 +35,15 @@ def load_cases(
     seed: int | None,
     trusted: Sequence[Path] | None = None,
 ) -> list[scenario.Case]:
-    """Return all cases of the scenarios. Raises InvalidInputError with every diagnostic of every file."""
+    """Return all cases of the scenarios. Raises InvalidInputError with every diagnostic of every file.
+
+    Series among the paths are left to others.
+    """
+    places = [path for path in scenario_paths(paths) if not path.name.endswith(scenario.SERIES_SUFFIXES)]
+    if not places:
+        return []
     try:
-        return scenario.load(scenario_paths(paths), tuple(overrides or ()), seed, trusted or ())
+        return scenario.load(places, tuple(overrides or ()), seed, trusted or ())
     except yaml.ScenarioErrors as errors:
         raise InvalidInputError(str(errors)) from errors
 
@@ -57,11 +63,12 @@ def select_by_options(
     return selected
 
 
-def nothing_selected(cases: Sequence[scenario.Case]) -> str:
-    """Return the message for an empty selection, with the number of cases and their tags."""
-    tags = sorted({tag for case in cases for tag in case.scenario.tags})
-    known = ", ".join(tags) or "none"
-    return f"uictest: nothing selected among {counted(len(cases), 'case')}; their tags: {known}"
+def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
+    """Return the message for an empty selection, with the number of cases and series and their tags."""
+    of_series = {tag for each in planned for tag in each.file.tags}
+    tags = sorted({tag for case in cases for tag in case.scenario.tags} | of_series)
+    among = f"{counted(len(cases), 'case')}{f' and {len(planned)} series' if planned else ''}"
+    return f"uictest: nothing selected among {among}; their tags: {', '.join(tags) or 'none'}"
 
 
 def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import IntEnum
 
-from uictest import campaign
+from uictest import campaign, series
 
 
 class ExitCode(IntEnum):
@@ -32,6 +33,13 @@ def of_batch(batch: campaign.BatchResult) -> ExitCode:
     if any(result.outcome == "error" for result in batch.results):
         return ExitCode.ERROR
     return ExitCode.MET if all(result.met for result in batch.results) else ExitCode.MISSED
+
+
+def of_series(results: Sequence[series.SeriesResult]) -> ExitCode:
+    """Return the exit code of series: error before one that is not as expected."""
+    if any(result.outcome == "error" for result in results):
+        return ExitCode.ERROR
+    return ExitCode.MET if all(result.met for result in results) else ExitCode.MISSED
 
 
 def worst(*codes: ExitCode) -> ExitCode:

@@ -16,15 +16,15 @@ Advance = Callable[[], None]
 
 
 @contextlib.contextmanager
-def progress(total: int, *, quiet: bool) -> Iterator[Advance]:
-    """Lend a function to call after each of `total` cases; what it shows goes to stderr."""
+def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advance]:
+    """Lend a function to call after each of `total` cases, or what `unit` says; it shows them on stderr."""
     if quiet:
         yield lambda: None
     elif interactive(sys.stderr):
         with _bar(total) as advance:
             yield advance
     else:
-        with _heartbeat(total) as advance:
+        with _heartbeat(total, unit) as advance:
             yield advance
 
 
@@ -40,14 +40,14 @@ def _bar(total: int) -> Iterator[Advance]:
 
 
 @contextlib.contextmanager
-def _heartbeat(total: int) -> Iterator[Advance]:
+def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
     done: list[None] = []
     ended = threading.Event()
     started = monotonic()
 
     def beat() -> None:
         while not ended.wait(HEARTBEAT):
-            message(f"uictest: {len(done)} of {total} cases after {monotonic() - started:.0f} s")
+            message(f"uictest: {len(done)} of {total} {unit} after {monotonic() - started:.0f} s")
 
     thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
     thread.start()

@@ -56,6 +56,9 @@ def case_differences(
     """Yield one item per quantity of a case compared: None where both results are the same."""
     case_id = first.id
     yield _texts(case_id, "outcome", first.outcome, second.outcome)
+    if first.repeats or second.repeats:
+        yield _texts(case_id, "stops", *map(_stops, (first, second)))
+        yield compare_numbers(case_id, "share_passed", _share(first), _share(second), tolerances)
     verdicts, others = _verdicts(first), _verdicts(second)
     for name in dict.fromkeys([*verdicts, *others]):
         yield _texts(case_id, f"criterion {name}", verdicts.get(name, "none"), others.get(name, "none"))
@@ -67,6 +70,17 @@ def case_differences(
 
 def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference | None:
     return None if first == second else Difference(case_id, quantity, first, second, within=False)
+
+
+def _stops(result: evaluation.CaseResult) -> str:
+    """Return how many stops a case has and under which rule they come out."""
+    repeats = result.repeats
+    return "1" if repeats is None else f"{len(repeats.stops)}, rule {report.rule_text(repeats)}"
+
+
+def _share(result: evaluation.CaseResult) -> float:
+    repeats = result.repeats
+    return float(result.outcome == "pass") if repeats is None else repeats.share
 
 
 def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:

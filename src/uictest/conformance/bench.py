@@ -78,6 +78,13 @@ class Bench:
         listed = ", ".join(str(wheelset + 1) for wheelset in wheelsets)
         return self._once(f"wheelset {listed} locked", partial(situations.locked, wheelsets=wheelsets))
 
+    def sensor_lost(self, wheelset: int) -> Answers:
+        """Answers while the speed sensor of one wheelset reports a fault."""
+        return self._once(
+            f"speed sensor of wheelset {wheelset + 1} lost",
+            partial(situations.sensor_lost, wheelset=wheelset),
+        )
+
     def anything(self) -> Answers:
         """Answers to random inputs: of a new controller, after a reset, and of a second one."""
         return self._once("anything", situations.anything, REPEATED)
@@ -90,6 +97,7 @@ class Bench:
             *map(self.one_slides, places),
             *map(self.locked, places),
             self.locked(*places),
+            *map(self.sensor_lost, places),
             self.anything(),
         ]
 

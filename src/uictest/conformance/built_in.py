@@ -27,8 +27,9 @@ class PlainInstance(CalledInstance):
 
     def step(self, inputs: Inputs) -> Outputs:
         """Decide as in a stop."""
-        for wheelset, speed in zip(self._wheelsets, inputs.wheel_speed, strict=True):
-            wheelset.measured_speed = speed
+        readings = zip(self._wheelsets, inputs.wheel_speed, inputs.speed_valid, strict=True)
+        for wheelset, speed, valid in readings:
+            wheelset.measured_speed, wheelset.speed_valid = speed, int(valid)
         self._controller.decide(self._train, self._wheelsets, self._parameters)
         commands = [wheelset.valve_command for wheelset in self._wheelsets]
         return Outputs(

@@ -123,6 +123,13 @@ def _not_vented_for_ever(bench: Bench) -> Observation:
     return Observation(max(times), words)
 
 
+def _survives_lost_sensor(bench: Bench) -> Observation:
+    cycle_time = bench.subject.config.cycle_time
+    times = [_longest(bench.sensor_lost(each).vent != 0) * cycle_time for each in range(WHEELSETS)]
+    words = f"any vent while the sensor of wheelset 1 to 4 reports a fault and all roll: {_listed(times)}"
+    return Observation(max(times), words)
+
+
 def _longest(active: Any) -> int:
     """Return the most cycles in a row in which a wheelset is active; shape of active (cycles, wheelsets)."""
     longest, run = 0, np.zeros(active.shape[1], int)
@@ -164,6 +171,7 @@ CHECKS: Final = (
     Check("spares-rolling", "The others are not vented.", 0, "cycles", _spares_rolling),
     Check("gives-back", "A wheelset that rolls again gets its brake back.", 3.0, "s", _gives_back),
     Check("ends-vents", "No wheelset is vented for ever.", 10.0, "s", _not_vented_for_ever),
+    Check("lost-sensor", "No wheelset is vented for long without a speed.", 10.0, "s", _survives_lost_sensor),
     Check("reference-speed", "The reference speed is that of the train.", 3.0, "m/s", _reference_speed),
     Check(
         "in-time", "Answers come within the cycle.", 100.0, "% of the cycle", _answers_in_time, advisory=True

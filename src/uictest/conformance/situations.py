@@ -37,6 +37,8 @@ ROLLS_AGAIN: Final = 6.0
 """Time at which a wheelset that has slid rolls again, s; chosen."""
 REACCELERATION: Final = 10.0
 """Of a wheelset on the way back to rolling, m/s2; chosen."""
+SENSOR_FAILS: Final = 2.0
+"""Time at which a speed sensor reports a fault, s; chosen."""
 _SLIDING_UNTIL: Final = 14.0
 _LOCKED_FOR: Final = 20.0
 _STANDSTILL: Final = 3.0
@@ -87,6 +89,16 @@ def locked(cycle_time: float, wheelsets: Sequence[int]) -> Situation:
     train, speeds = _braking(cycle_time, _LOCKED_FOR)
     speeds[list(wheelsets)] = 0.0
     return _situation(cycle_time, train, speeds)
+
+
+def sensor_lost(cycle_time: float, wheelset: int) -> Situation:
+    """One speed sensor reports a fault and reads zero while every wheelset rolls."""
+    train, speeds = _braking(cycle_time, _LOCKED_FOR)
+    lost = _times(_LOCKED_FOR, cycle_time) >= SENSOR_FAILS
+    speeds[wheelset, lost] = 0.0
+    situation = _situation(cycle_time, train, speeds)
+    situation.inputs["speed_valid"][lost, wheelset] = 0
+    return situation
 
 
 def anything(cycle_time: float, cycles: int = 3000) -> Situation:

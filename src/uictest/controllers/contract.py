@@ -76,6 +76,7 @@ class ControlledWheelset(Record):
     """What every controller reads and sets of a wheelset; a controller adds what it remembers."""
 
     measured_speed: float  # circumferential, as the sensor gives it, m/s
+    speed_valid: int  # 0 where the speed sensor reports a fault, else 1
     valve_command: int  # newest command: FILL, HOLD or VENT
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from uictest import scenario
+from uictest.ensemble import Ensemble
 from uictest.units import in_unit, value_text
 
 
@@ -30,49 +31,80 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
         rail_condition=resolved.rail.condition.name,
         wsp=resolved.rig.wsp,
         position=resolved.brake.position,
-        command=float(resolved.brake.command),
-        gradient=float(resolved.rail.gradient),
+        command=resolved.brake.command,
+        gradient=resolved.rail.gradient,
         topology=resolved.rig.topology,
     )
 
 
-def why_not_applicable(
+@dataclass(frozen=True, slots=True)
+class UnmetCondition:
+    """A condition of a criterion that a stop does not meet: names, or a nominal value in `unit`."""
+
+    what: str
+    value: str | float
+    accepted: Sequence[str] | scenario.Nominal
+    unit: str = ""
+
+    def in_case(self, number: int) -> UnmetCondition:
+        """Return the condition in one case of an ensemble."""
+        if not isinstance(self.value, Ensemble):
+            return self
+        return replace(self, value=self.value[number].item())
+
+    def __str__(self) -> str:
+        """Return what the stop has and what the criterion is for."""
+        if not isinstance(self.accepted, scenario.Nominal):
+            return f"{self.what} is {self.value}, the criterion is for {' or '.join(self.accepted)}"
+        shown, nominal, tolerance = (
+            in_unit(float(number), self.unit)
+            for number in (self.value, self.accepted.value, self.accepted.tolerance)
+        )
+        return (
+            f"{self.what} is {value_text(shown, self.unit)}, the criterion is for {nominal:.4g} +-"
+            f" {value_text(tolerance, self.unit)}"
+        )
+
+
+def unmet_conditions(
     applies: scenario.Applicability, conditions: TestConditions, initial_speed: float | None
-) -> str:
-    """Return why a criterion does not apply to a stop from `initial_speed` (m/s); empty where it does.
+) -> list[UnmetCondition]:
+    """Return the conditions that a stop from `initial_speed` (m/s) does not meet: none where it applies.
 
-    An initial speed that is not known (None) is no reason.
+    An initial speed that is not known (None) meets every condition.
     """
-    reasons = [
-        _other_than("rail", conditions.rail_condition, applies.rail_condition),
-        _other_than("WSP", conditions.wsp, applies.wsp),
-        _other_than("brake position", conditions.position, applies.brake_position),
-        _other_than("topology", conditions.topology, applies.topology),
-        ""
-        if initial_speed is None
-        else _outside("initial speed", initial_speed, applies.initial_speed, "km/h"),
-        _outside("brake command", conditions.command, applies.command, "%"),
-        _outside("gradient", conditions.gradient, applies.gradient, "permille"),
+    names = (
+        ("rail", conditions.rail_condition, applies.rail_condition),
+        ("WSP", conditions.wsp, applies.wsp),
+        ("brake position", conditions.position, applies.brake_position),
+        ("topology", conditions.topology, applies.topology),
+    )
+    numbers = (
+        ("initial speed", initial_speed, applies.initial_speed, "km/h"),
+        ("brake command", conditions.command, applies.command, "%"),
+        ("gradient", conditions.gradient, applies.gradient, "permille"),
+    )
+    unmet = [
+        *(
+            UnmetCondition(what, name, accepted)
+            for what, name, accepted in names
+            if accepted is not None and name not in accepted
+        ),
+        *(
+            UnmetCondition(what, number, accepted, unit)
+            for what, number, accepted, unit in numbers
+            if number is not None and accepted is not None and not _within(number, accepted)
+        ),
     ]
-    return "; ".join(reason for reason in reasons if reason)
+    if conditions.rail_condition in (applies.rail_condition_other_than or ()):
+        unmet.append(UnmetCondition("rail", conditions.rail_condition, ("any other",)))
+    return unmet
 
 
-def _other_than(what: str, value: str, accepted: Sequence[str] | None) -> str:
-    if accepted is None or value in accepted:
-        return ""
-    return f"{what} is {value}, the criterion is for {' or '.join(accepted)}"
-
-
-def _outside(what: str, value: float, accepted: scenario.Nominal | None, unit: str) -> str:
-    if accepted is None or _within(value, accepted):
-        return ""
-    shown, nominal, tolerance = (
-        in_unit(number, unit) for number in (value, accepted.value, accepted.tolerance)
-    )
-    return (
-        f"{what} is {value_text(shown, unit)}, the criterion is for {nominal:.4g} +-"
-        f" {value_text(tolerance, unit)}"
-    )
+def applies_to(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bool:
+    """Return whether a criterion applies to the stop that a resolved scenario states."""
+    conditions = test_conditions_of(resolved)
+    return not unmet_conditions(criterion.applies, conditions, float(resolved.initial_speed))
 
 
 def _within(value: float, accepted: scenario.Nominal) -> bool:

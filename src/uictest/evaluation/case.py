@@ -32,14 +32,16 @@ JUDGED_KEYS = (
     "criteria",
     "measures",
     "expect",
+    "requirements",
+    "test_case",
 )
 """Keys of a scenario at or below which :func:`evaluate` reads; all else reaches it through the measures."""
 
-_FINITE_IN_STOPS: Final = (
+FINITE_IN_STOPS: Final = (
     *("end_time", "end_distance", "end_speed"),
     *(each.finite_field for each in MEASURES.values() if each.finite_field and not each.of_wheelsets),
 )
-_FINITE_IN_WHEELSETS: Final = tuple(
+FINITE_IN_WHEELSETS: Final = tuple(
     each.finite_field for each in MEASURES.values() if each.finite_field and each.of_wheelsets
 )
 """Fields of the records that hold a number after every simulated stop; the others may be NaN."""
@@ -76,11 +78,12 @@ def evaluate(
     verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
     verdicts = [*verdicts, *missed_deadlines(response_times)]
     outcome, reason = outcome_of(verdicts)
-    of_stop = stop_column_values(measures, _column_definition(case.scenario))
+    of_stop = stop_column_values(measures, column_definition(case.scenario))
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
     if coverage is not None:
-        unknown = _unknown_columns(coverage)
-        of_stop, *of_wheelsets = (_without(unknown, columns) for columns in (of_stop, *of_wheelsets))
+        of_stop = _without(_unknown_columns(coverage, of_wheelsets=False), of_stop)
+        unknown = _unknown_columns(coverage, of_wheelsets=True)
+        of_wheelsets = [_without(unknown, columns) for columns in of_wheelsets]
     return CaseResult(
         id=case.id,
         scenario=case.path.as_posix(),
@@ -92,6 +95,8 @@ def evaluate(
         measures=of_stop,
         wheelsets=tuple(of_wheelsets),
         response_times=response_times,
+        requirements=case.scenario.requirements,
+        test_case=case.scenario.test_case or "",
         duration=duration,
     )
 
@@ -118,7 +123,10 @@ def evaluate_simulated(
 
 
 def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:
-    """Return the result of a case whose simulation failed: outcome `error`, why, and nothing judged."""
+    """Return the result of a case whose simulation failed: outcome `error`, why, and nothing judged.
+
+    It names the requirements of its criteria as its own: none of them is verified.
+    """
     return CaseResult(
         id=case.id,
         scenario=case.path.as_posix(),
@@ -126,11 +134,13 @@ def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> Cas
         expect=case.scenario.expect,
         outcome="error",
         reason=reason,
+        requirements=scenario.named_requirements(case.scenario),
+        test_case=case.scenario.test_case or "",
         duration=duration,
     )
 
 
-def _column_definition(resolved: scenario.Scenario) -> dict[str, float]:
+def column_definition(resolved: scenario.Scenario) -> dict[str, float]:
     """Return the definitions that columns use: those of the first criterion that has them, else the defaults.
 
     A column then agrees with the verdict of that criterion.
@@ -147,10 +157,10 @@ def _stated(resolved: scenario.Scenario, name: str, default: float) -> float:
     return default
 
 
-def _unknown_columns(coverage: Coverage) -> set[str]:
-    """Return the columns whose measure lacks data in a record, for any wheelset."""
-    columns = (measure.column for name, measure in MEASURES.items() if name in coverage.missing)
-    return {column.name for column in columns if column}
+def _unknown_columns(coverage: Coverage, *, of_wheelsets: bool) -> set[str]:
+    """Return the columns of stops or of wheelsets whose measure lacks data in a record, for any wheelset."""
+    lacking = (measure for name, measure in MEASURES.items() if name in coverage.missing)
+    return {each.column.name for each in lacking if each.column and each.of_wheelsets == of_wheelsets}
 
 
 def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:
@@ -158,9 +168,9 @@ def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str,
 
 
 def _not_finite(measures: StopMeasures, wheelsets: Wheelsets) -> Iterator[str]:
-    yield from (name for name in _FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
+    yield from (name for name in FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
     for number, wheelset in enumerate(wheelsets, start=1):
-        for name in _FINITE_IN_WHEELSETS:
+        for name in FINITE_IN_WHEELSETS:
             if not math.isfinite(getattr(wheelset, name)):
                 yield f"{name}_{number}"
 

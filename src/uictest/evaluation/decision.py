@@ -10,7 +10,7 @@ from uictest import scenario
 from uictest.evaluation.bounds import Bounds, deciding
 from uictest.evaluation.coverage import MissingData, ObservedStop
 from uictest.evaluation.verdict import Status
-from uictest.measures import MEASURES, Course
+from uictest.measures import MEASURES, Course, MeasureValue
 from uictest.units import in_unit, value_text, with_unit
 
 
@@ -37,20 +37,34 @@ def decide(
     criterion passes or fails only if it does so wherever in their intervals the values lie.
     """
     unit, course = criterion.unit, criterion.course
-    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
-    values = [in_unit(number, unit) for number in observed.values]
+    observed = read_measure(criterion, definition, stop)
+    values = list(observed.values)
     settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
     if observed.unavailable_reason:
         return _without_value(observed.unavailable_reason, missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
-        return Decision("inconclusive", None, f"the record holds {len(values)} wheelsets")
+        return too_few_wheelsets(len(values))
     if missing:
         return _PartlyKnown(values, missing, course, bounds, needed, unit).decision()
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
-    return _decided(status, value, bounds, _why(values, value, bounds, needed, unit))
+    return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit))
+
+
+def read_measure(
+    criterion: scenario.Criterion, definition: Mapping[str, float], stop: ObservedStop
+) -> MeasureValue:
+    """Return the value of a criterion's measure in the criterion's unit."""
+    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
+    values = tuple(in_unit(number, criterion.unit) for number in observed.values)
+    return MeasureValue(values, observed.unavailable_reason)
+
+
+def too_few_wheelsets(count: int) -> Decision:
+    """Return the decision on a stop in which not as many wheelsets as needed have a value."""
+    return Decision("inconclusive", None, f"the record holds {count} wheelsets")
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +137,8 @@ def _listed(missing: Sequence[MissingData]) -> str:
     return "; ".join(dict.fromkeys(gap.reason for gap in missing))
 
 
-def _why(values: list[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:
+def why_decided(values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:
+    """Return why known values, in `unit`, keep or miss their bounds; `value` is the one that decides."""
     demand = with_unit(str(bounds), unit)
     if len(values) == 1:
         return "" if bounds.hold(value) else _missed(value, bounds, demand, unit)

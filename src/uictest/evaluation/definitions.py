@@ -20,6 +20,8 @@ def definition_texts(
     measures while the stop was observed, have none.
     """
     bound = with_unit(str(bounds_of(criterion)), criterion.unit)
+    if criterion.of_dry_stop:
+        bound = f"{bound} of the dry stop"
     texts = {"clause": criterion.clause, "measure": criterion.meaning, "bound": bound}
     if aggregation := criterion.aggregation:
         texts["wheelsets"] = aggregation

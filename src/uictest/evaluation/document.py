@@ -16,26 +16,29 @@ from uictest.evaluation.result import CaseResult
 SCHEMA = "uictest/result/1"
 
 
-_OF_SOME: Final = ("response_times", "controller_version", "case_sha256")
-"""Fields that the form of a result has only where there is something in them."""
+_OF_SOME: Final = (
+    *("response_times", "controller_version", "case_sha256"),
+    *("requirements", "test_case", "repeats"),
+)
+"""Fields that the form of a result or a verdict has only where there is something in them."""
 
 
 def _without_empty(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-    form: dict[str, Any] = write(result)
+    form = _filled(write(result))
+    return {**form, "criteria": [_filled(verdict) for verdict in form["criteria"]]}
+
+
+def _filled(form: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in form.items() if value or name not in _OF_SOME}
 
 
 # In code these three default to those of a case that was not simulated.
-_CASES: Final = TypeAdapter(
-    list[
-        Annotated[
-            CaseResult,
-            required("criteria", "measures", "wheelsets"),
-            WrapSerializer(_without_empty),
-        ]
-    ],
-    config=ConfigDict(extra="forbid", defer_build=True),
-)
+WrittenCaseResult = Annotated[
+    CaseResult, required("criteria", "measures", "wheelsets"), WrapSerializer(_without_empty)
+]
+"""A result as documents hold it."""
+
+_CASES: Final = TypeAdapter(list[WrittenCaseResult], config=ConfigDict(extra="forbid", defer_build=True))
 
 
 def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:

@@ -6,7 +6,14 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any, TypeVar
 
-from pydantic import BeforeValidator, PlainSerializer, TypeAdapter, ValidationError
+from pydantic import (
+    BeforeValidator,
+    PlainSerializer,
+    SerializerFunctionWrapHandler,
+    TypeAdapter,
+    ValidationError,
+    WrapSerializer,
+)
 
 _Content = TypeVar("_Content")
 
@@ -38,6 +45,16 @@ Number = Annotated[float, BeforeValidator(nan_for_none), PlainSerializer(finite_
 
 OptionalNumber = Annotated[float | None, PlainSerializer(finite_or_none)]
 """A number that may be absent: NaN, infinity and None are null in JSON; null reads as None."""
+
+
+def absent_if_empty(*names: str) -> WrapSerializer:
+    """Return the serializer of a form that has these fields only where there is something in them."""
+
+    def filled(content: object, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        form: dict[str, Any] = write(content)
+        return {name: value for name, value in form.items() if value or name not in names}
+
+    return WrapSerializer(filled)
 
 
 def required(*names: str) -> BeforeValidator:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from uictest import scenario
-from uictest.evaluation.applicability import TestConditions, test_conditions_of, why_not_applicable
+from uictest.evaluation.applicability import TestConditions, test_conditions_of, unmet_conditions
 from uictest.evaluation.bounds import Bounds, bounds_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, decide
 from uictest.evaluation.definitions import applied_definitions, definition_texts
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import Sensitivity, Verdict
-from uictest.measures import StopMeasures, Wheelsets
+from uictest.measures import StopMeasures, Wheelsets, is_nan
 
 
 def judge(
@@ -48,7 +47,7 @@ def judge(
         for criterion in profile.criteria:
             verdict = _judge(criterion, conditions, stop, resolved.measures, explain=explain)
             if explain:
-                verdict = _with_definitions(verdict, criterion, profile, resolved.measures)
+                verdict = with_definitions(verdict, criterion, profile, resolved.measures)
             verdicts.append(verdict)
     return verdicts
 
@@ -62,17 +61,30 @@ def _judge(
     explain: bool,
 ) -> Verdict:
     bounds = bounds_of(criterion)
-    undecided = _before_judging(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
-    if undecided is not None:
-        return _verdict(criterion, bounds, undecided)
+    decided = undecided(criterion, conditions, stop, observation)
+    if decided is not None:
+        return verdict_of(criterion, bounds, decided)
+    return verdict_by(
+        criterion, bounds, lambda stated: decide(criterion, bounds, stated, stop), explain=explain
+    )
+
+
+def verdict_by(
+    criterion: scenario.Criterion,
+    bounds: Bounds,
+    decide_by: Callable[[Mapping[str, float]], Decision],
+    *,
+    explain: bool,
+) -> Verdict:
+    """Return the verdict of a criterion that applies; `decide_by` decides it by given definitions (SI)."""
     stated = criterion.definition.stated()
-    decision = decide(criterion, bounds, stated, stop)
+    decision = decide_by(stated)
     if not explain or decision.status == "inconclusive":
-        return _verdict(criterion, bounds, decision)
-    return _verdict(criterion, bounds, decision, *_sensitivities(criterion, bounds, stated, stop))
+        return verdict_of(criterion, bounds, decision)
+    return verdict_of(criterion, bounds, decision, *_sensitivities(criterion, stated, decide_by))
 
 
-def _with_definitions(
+def with_definitions(
     verdict: Verdict,
     criterion: scenario.Criterion,
     profile: scenario.Criteria,
@@ -86,14 +98,26 @@ def _with_definitions(
     )
 
 
-def _before_judging(
+def undecided(
+    criterion: scenario.Criterion,
+    conditions: TestConditions,
+    stop: ObservedStop,
+    observation: scenario.MeasureDefinitions,
+) -> Decision | None:
+    """Return the decision on a criterion that its measure has no part in; None where it has."""
+    if criterion.needs_series:
+        return Decision("not_applicable", None, "judged over the stops of a series")
+    return _not_applicable(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
+
+
+def _not_applicable(
     criterion: scenario.Criterion, conditions: TestConditions, stop: ObservedStop
 ) -> Decision | None:
     """Return the decision on a criterion that does not apply, or may not apply; None where it applies."""
     unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed
-    initial_speed = None if unknown else float(stop.measures.initial_speed)
-    if reason := why_not_applicable(criterion.applies, conditions, initial_speed):
-        return Decision("not_applicable", None, reason)
+    initial_speed = None if unknown else stop.measures.initial_speed
+    if unmet := unmet_conditions(criterion.applies, conditions, initial_speed):
+        return Decision("not_applicable", None, "; ".join(map(str, unmet)))
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if unknown and criterion.applies.initial_speed is not None:
@@ -108,30 +132,33 @@ def _unobserved(
     if stop.coverage is not None and stop.coverage.no_initial_speed:
         return None
     moving_speed = observation.moving_speed
-    never_faster = stop.measures.initial_speed < moving_speed and math.isnan(
-        stop.measures.maximum_deceleration  # kept from the first sample at this speed on
-    )
-    if never_faster and "moving_speed" in criterion.observed_by:
+    if "moving_speed" not in criterion.observed_by:
+        return None
+    # The deceleration is kept from the first sample at this speed on.
+    if stop.measures.initial_speed < moving_speed and is_nan(stop.measures.maximum_deceleration):
         reason = f"the train never reached `moving_speed` ({moving_speed.text}), above which this is observed"
         return Decision("not_applicable", None, reason)
     return None
 
 
 def _sensitivities(
-    criterion: scenario.Criterion, bounds: Bounds, stated: dict[str, float], stop: ObservedStop
+    criterion: scenario.Criterion,
+    stated: dict[str, float],
+    decide_by: Callable[[Mapping[str, float]], Decision],
 ) -> Iterator[Sensitivity]:
     for name, parameter in criterion.definition.parameters().items():
 
         def at(value: float, name: str = name) -> Decision:
-            return decide(criterion, bounds, {**stated, name: value}, stop)
+            return decide_by({**stated, name: value})
 
         lower, upper = parameter.range
         yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
 
 
-def _verdict(
+def verdict_of(
     criterion: scenario.Criterion, bounds: Bounds, decision: Decision, *sensitivities: Sensitivity
 ) -> Verdict:
+    """Return a decision as a verdict, without definitions."""
     return Verdict(
         id=criterion.id,
         layer=criterion.layer,
@@ -144,6 +171,7 @@ def _verdict(
         reason=decision.reason,
         sensitivity=sensitivities,
         measure=criterion.measure,
+        requirements=criterion.requirements,
     )
 
 

@@ -2,47 +2,24 @@
 
 from __future__ import annotations
 
-import math
-import sys
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import partial
-from typing import Annotated, Literal
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Protocol, TypeVar
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
 from uictest.controllers import ResponseTimes
-from uictest.evaluation.json_form import json_form
+from uictest.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
 from uictest.evaluation.parameters import EffectivePart
-from uictest.evaluation.verdict import Layer, Status, Verdict, relative_margin
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-
-Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
-Expectation = Literal["pass", "fail", "invalid"]
-
-
-def _columns(content: object, known: Collection[str]) -> dict[str, float]:
-    """Return the numbers of a document in these columns; null and what an earlier version lacked as NaN."""
-    if not isinstance(content, Mapping) or not content or not set(content) <= set(known):
-        raise ValueError(f"Input should have columns out of {', '.join(known)}")
-    if not all(value is None or _is_number(value) for value in content.values()):
-        raise ValueError("Input should hold numbers only")
-    return {name: math.nan if (value := content.get(name)) is None else value for name in known}
-
-
-def _is_number(value: object) -> bool:
-    # JSON writes whole numbers of any length; one beyond the largest float is no measure.
-    return type(value) is float or (type(value) is int and abs(value) <= sys.float_info.max)
-
-
-_finite = PlainSerializer(json_form)
-CaseMeasures = Annotated[Mapping[str, float], PlainValidator(partial(_columns, known=STOP_COLUMNS)), _finite]
-"""What a result reports of a stop: :data:`~uictest.measures.STOP_COLUMNS` -> number, NaN: not reached."""
-
-CaseWheelsetMeasures = Annotated[
-    Mapping[str, float], PlainValidator(partial(_columns, known=WHEELSET_COLUMNS)), _finite
-]
-"""What it reports of one wheelset: :data:`~uictest.measures.WHEELSET_COLUMNS` -> number, NaN: not reached."""
+from uictest.evaluation.repeats import WrittenRepeats, is_expected
+from uictest.evaluation.verdict import (
+    Layer,
+    Status,
+    Verdict,
+    WrittenVerdict,
+    relative_margin,
+    with_outcome_of,
+)
 
 
 def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
@@ -73,9 +50,14 @@ class CaseResult:
     failed. `parts` maps a role (`controller`, ...) to the part that the case was run with; it is empty where
     an earlier version wrote the result. `response_times` are those of a controller in a stop that was paced
     by the clock. `controller_version` is what a controller from outside said of itself in this stop, and
-    `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`. The
-    document has these three only where there is something in them. `duration` (seconds of wall clock) is for
-    progress and JUnit only, never part of the document: a result must not depend on the machine.
+    `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
+    `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
+    `test_case` is its id in a test management tool. The document has these five, and `repeats`, only where
+    there is something in them. `duration` (seconds of wall clock) is for progress and JUnit only, never part
+    of the document: a result must not depend on the machine.
+
+    A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
+    them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
     """
 
     id: str
@@ -84,23 +66,70 @@ class CaseResult:
     expect: Expectation
     outcome: Outcome
     reason: str = ""
-    criteria: tuple[Verdict, ...] = ()
+    criteria: tuple[WrittenVerdict, ...] = ()
     measures: CaseMeasures | None = None
     wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
     parts: NamedParts = field(default_factory=dict)
     response_times: ResponseTimes | None = None
     controller_version: str = ""
     case_sha256: str = ""
+    requirements: tuple[str, ...] = ()
+    test_case: str = ""
+    repeats: WrittenRepeats | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
     def met(self) -> bool:
         """Whether the outcome is the expected one; a skipped case counts as `pass`."""
-        return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
+        return is_expected(self.outcome, self.expect)
+
+    @property
+    def drawn_stop(self) -> CaseResult:
+        """The result of the stop that is recorded and drawn: of a repeated case the first, else this."""
+        if self.repeats is None:
+            return self
+        first = self.repeats.stops[0]
+        pairs = ((verdict, first.verdict(verdict.id)) for verdict in self.criteria)
+        return replace(
+            self,
+            outcome=first.outcome,
+            reason=first.reason,
+            criteria=tuple(with_outcome_of(verdict, own) for verdict, own in pairs if own is not None),
+            measures=first.measures,
+            wheelsets=first.wheelsets,
+            repeats=None,
+        )
 
 
 def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
-    """Return the outcome of a stop and why.
+    """Return the outcome of a stop and why."""
+    outcome, deciding = deciding_verdicts(verdicts)
+    return outcome, reason_of(outcome, ((verdict.id, verdict.reason) for verdict in deciding))
+
+
+def reason_of(outcome: Outcome, deciding: Iterable[tuple[str, str]]) -> str:
+    """Return why a stop has an outcome, from the ids of the verdicts that decide it and their reasons."""
+    reasons = "; ".join(f"{criterion}: {reason}" for criterion, reason in deciding)
+    return reasons or ("no criterion" if outcome == "skipped" else "")
+
+
+class Decided(Protocol):
+    """What of a verdict decides the outcome."""
+
+    @property
+    def layer(self) -> Layer:
+        """What its criterion is for."""
+
+    @property
+    def status(self) -> Status:
+        """What the criterion says of the stop."""
+
+
+AnyDecided = TypeVar("AnyDecided", bound=Decided)
+
+
+def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[AnyDecided]]:
+    """Return the outcome of a stop and the verdicts that decide it, none where it passes.
 
     A failed validity criterion makes the stop invalid: it does not count as a test, whatever its
     requirements. Otherwise a failed requirement fails the stop, unless a validity criterion is inconclusive:
@@ -108,24 +137,22 @@ def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
     applicable criterion is skipped.
     """
     verdicts = list(verdicts)
-    if reasons := _reasons(verdicts, ("fail",), "validity"):
-        return "invalid", reasons
-    reasons = _reasons(verdicts, ("fail",), "requirement")
-    if reasons and not _reasons(verdicts, ("inconclusive",), "validity"):
-        return "fail", reasons
-    if any(verdict.status == "inconclusive" for verdict in verdicts):
-        return "inconclusive", _reasons(verdicts, ("fail", "inconclusive"))
-    if not any(verdict.status == "pass" for verdict in verdicts):
-        return "skipped", _reasons(verdicts, ("not_applicable",)) or "no criterion"
-    return "pass", ""
+    if failed := _with_status(verdicts, ("fail",), "validity"):
+        return "invalid", failed
+    failed = _with_status(verdicts, ("fail",), "requirement")
+    if failed and not _with_status(verdicts, ("inconclusive",), "validity"):
+        return "fail", failed
+    if _with_status(verdicts, ("inconclusive",)):
+        return "inconclusive", _with_status(verdicts, ("fail", "inconclusive"))
+    if not _with_status(verdicts, ("pass",)):
+        return "skipped", _with_status(verdicts, ("not_applicable",))
+    return "pass", []
 
 
-def _reasons(verdicts: list[Verdict], statuses: Sequence[Status], layer: Layer | None = None) -> str:
-    return "; ".join(
-        f"{verdict.id}: {verdict.reason}"
-        for verdict in verdicts
-        if verdict.status in statuses and layer in (None, verdict.layer)
-    )
+def _with_status(
+    verdicts: Sequence[AnyDecided], statuses: Sequence[Status], layer: Layer | None = None
+) -> list[AnyDecided]:
+    return [verdict for verdict in verdicts if verdict.status in statuses and layer in (None, verdict.layer)]
 
 
 def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:

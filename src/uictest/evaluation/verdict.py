@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.evaluation.json_form import Number, OptionalNumber
+from uictest.evaluation.json_form import Number, OptionalNumber, absent_if_empty
 
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.
@@ -92,13 +92,40 @@ class AppliedDefinition:
 
 
 @dataclass(frozen=True, slots=True)
+class OverStops:
+    """How one criterion came out over the stops of a repeated case: how many stops have each status.
+
+    `lowest` and `highest` are those of its values over the stops; None where no stop has a value.
+    """
+
+    passed: int = 0
+    failed: int = 0
+    inconclusive: int = 0
+    not_applicable: int = 0
+    lowest: OptionalNumber = None
+    highest: OptionalNumber = None
+
+    @property
+    def stops(self) -> int:
+        """The number of stops."""
+        return self.passed + self.failed + self.inconclusive + self.not_applicable
+
+    @property
+    def turns(self) -> bool:
+        """Whether the verdict is not the same in all stops."""
+        return max(self.passed, self.failed, self.inconclusive, self.not_applicable) < self.stops
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
-    """One criterion's verdict on one stop.
+    """One criterion's verdict on one stop, or over the stops of a repeated case.
 
     `value`, `lower`, `upper` and `margin` are in `unit`; None where a bound is not set or there is no value.
     `margin` is the distance to the nearest bound, positive on the good side. For a criterion over wheelsets
     `value` is the one of the wheelset that decides. `measure` and `definitions` hold the name of the measure
     and the definitions that are numbers. `definition` maps each definition to its text, for people only.
+    `requirements` holds the ids of those that the criterion verifies.
+    `over_stops` is None but for a repeated case, in which `value` is the median over the stops.
     """
 
     id: str
@@ -114,23 +141,35 @@ class Verdict:
     sensitivity: tuple[WrittenSensitivity, ...] = ()
     measure: str = ""
     definitions: tuple[AppliedDefinition, ...] = ()
+    requirements: tuple[str, ...] = ()
+    over_stops: OverStops | None = None
 
     @property
     def firm(self) -> bool:
-        """Whether the verdict stays the same over the stated range of every definition."""
-        return not any(sensitivity.flips for sensitivity in self.sensitivity)
+        """Whether the verdict stays the same over the stated range of every definition, and in every stop."""
+        flips = any(sensitivity.flips for sensitivity in self.sensitivity)
+        return not flips and (self.over_stops is None or not self.over_stops.turns)
 
     def defined(self, name: str) -> float | None:
         """Return the SI value of a definition, None where the verdict has none of this name."""
         return next((each.value for each in self.definitions if each.name == name), None)
 
 
+def with_outcome_of(verdict: Verdict, other: Verdict) -> Verdict:
+    """Return a verdict with the definitions of `verdict` and all that depends on the stop from `other`."""
+    return replace(other, definition=verdict.definition, definitions=verdict.definitions)
+
+
+WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops")]
+"""In JSON what only some verdicts have is absent from the others."""
+
+
 def relative_margin(verdict: Verdict) -> float | None:
     """Return the margin over the bound, negative where the bound is missed; None where there is none.
 
     All criteria share this scale. A criterion that is met exactly, as that of standstill is, only says yes
-    or no and has no margin. A verdict that flips within the range of a definition has none to spare: at
-    most 0.
+    or no and has no margin. A verdict that flips within the range of a definition, or from stop to stop of a
+    repeated case, has none to spare: at most 0.
     """
     if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm):
         return None

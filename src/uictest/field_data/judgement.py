@@ -20,7 +20,7 @@ def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult
     The definition of every verdict states how the record was prepared and what is wrong with it. The
     recording carries the metadata that a simulated one has.
     """
-    observed = observe(stop, case.scenario.measures)
+    observed = observe(stop, case.scenario)
     result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
     preparation = {**stop.choices, **_defects(stop.defects)}
     criteria = tuple(

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from uictest import evaluation, scenario
 from uictest.field_data.channels import WHEELSETS
+from uictest.field_data.rail_contact import RailContact, rail_contact
 from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.support import coverage_of
 from uictest.measures import (
@@ -20,13 +21,20 @@ from uictest.measures import (
     WHEELSET_MEASURES,
     WINDOW_SECONDS,
     MeasureDefinition,
+    begin_build_up,
+    begin_contact,
     begin_slides,
     begin_train,
+    begin_utilisation,
     begin_wheelset,
     begin_window,
+    close_contacts,
     keep_slide,
     keep_window,
     note_standstill,
+    observe_build_up,
+    observe_contact,
+    observe_reservoir_margin,
     observe_train,
     observe_wheelset,
 )
@@ -44,15 +52,24 @@ class Observed:
     coverage: evaluation.Coverage
 
 
-def observe(stop: RecordedStop, definition: scenario.MeasureDefinitions) -> Observed:
-    """Return the measures of a recorded stop under a scenario's definitions."""
+def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
+    """Return the measures of a recorded stop under the definitions and the conditions of a scenario.
+
+    The rail condition gives the creep curve of the wheelsets, brake command and position the pressure that is
+    commanded.
+    """
     # Plain objects in the loop: attributes of numpy records take ten times as long outside compiled code.
-    train = SimpleNamespace(speed_after_sliding=[float("nan")] * (WINDOW_SECONDS + 1))
-    wheelsets = [SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES) for _ in WHEELSETS]
+    train: Any = SimpleNamespace(speed_after_sliding=[float("nan")] * (WINDOW_SECONDS + 1))
+    wheelsets: list[Any] = [SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES) for _ in WHEELSETS]
     defined = SimpleNamespace(
-        **{name: float(getattr(definition, name)) for name in fields_of(MeasureDefinition)}
+        **{name: float(getattr(judged_under.measures, name)) for name in fields_of(MeasureDefinition)}
     )
-    _observe(stop, train, wheelsets, defined)
+    contact = rail_contact(stop.recording, judged_under.rail.condition)
+    samples = _samples_of(stop.recording, contact)
+    commanded = float(judged_under.brake.commanded_pressure)
+    _begin(samples, train, wheelsets, commanded)
+    _observe(stop, samples, train, wheelsets, defined)
+    close_contacts(train, wheelsets, contact.mass)
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):
         _copy(wheelset, record)
@@ -69,29 +86,42 @@ class _Samples:
     distance: list[float]
     speed: list[float]
     reservoir: list[float]
+    line: list[float]
+    highest_cylinder: list[float]
     wheel_speed: list[list[float]]
     venting: list[list[float]]
     force: list[list[float]]
     disc_temperature: list[list[float]]
+    tank: list[list[float]]
+    rail_work: list[list[float]]
+    contact_loss: list[list[float]]
+    highest_force: list[list[float]]
 
 
-def _samples_of(recording: Recording) -> _Samples:
+def _samples_of(recording: Recording, contact: RailContact) -> _Samples:
     time, distance, speed = (recording[name].tolist() for name in (TIME, "distance", "speed"))
+    cylinders = [_channel(recording, f"cylinder_pressure_{n}") for n in WHEELSETS]
     return _Samples(
         time,
         distance,
         speed,
         _channel(recording, "reservoir_pressure").tolist(),
+        _channel(recording, "brake_line_pressure").tolist(),
+        np.fmax.reduce(cylinders).tolist(),
         [_channel(recording, f"wheel_speed_{n}").tolist() for n in WHEELSETS],
         [_venting(_channel(recording, f"valve_command_{n}")).tolist() for n in WHEELSETS],
         [_channel(recording, f"clamping_force_{n}").tolist() for n in WHEELSETS],
         [_channel(recording, f"disc_surface_temperature_{n}").tolist() for n in WHEELSETS],
+        [_channel(recording, f"tank_pressure_{n}").tolist() for n in WHEELSETS],
+        contact.rail_work.T.tolist(),
+        contact.contact_loss.T.tolist(),
+        contact.highest_force.T.tolist(),
     )
 
 
-def _observe(stop: RecordedStop, train: Any, wheelsets: list[Any], definition: Any) -> None:
-    samples = _samples_of(stop.recording)
-    _begin(samples, train, wheelsets)
+def _observe(
+    stop: RecordedStop, samples: _Samples, train: Any, wheelsets: list[Any], definition: Any
+) -> None:
     end = inf if stop.standstill is None else stop.standstill[0]
     for k in range(1, len(samples.time)):
         time, speed = samples.time[k], samples.speed[k]
@@ -99,6 +129,8 @@ def _observe(stop: RecordedStop, train: Any, wheelsets: list[Any], definition: A
             break
         for i, wheelset in enumerate(wheelsets):
             _observe_wheelset(samples, k, i, wheelset, train, definition)
+        observe_reservoir_margin(train, samples.reservoir[k], samples.highest_cylinder[k])
+        observe_build_up(train, definition, time, samples.distance[k], speed, samples.line[k])
         observe_train(train, definition, time, samples.distance[k], speed, samples.reservoir[k])
         keep_window(train, train)
     if stop.standstill is not None:
@@ -107,11 +139,14 @@ def _observe(stop: RecordedStop, train: Any, wheelsets: list[Any], definition: A
         note_standstill(train, True, *stop.standstill)
 
 
-def _begin(samples: _Samples, train: Any, wheelsets: list[Any]) -> None:
+def _begin(samples: _Samples, train: Any, wheelsets: list[Any], commanded_pressure: float) -> None:
     begin_train(train, samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir[0])
+    begin_build_up(train, commanded_pressure, samples.line[0])
+    begin_utilisation(train)
     begin_window(train)
     for wheelset in wheelsets:
         begin_wheelset(wheelset)
+        begin_contact(wheelset)
         begin_slides(wheelset)
 
 
@@ -128,6 +163,18 @@ def _observe_wheelset(samples: _Samples, k: int, i: int, wheelset: Any, train: A
         samples.venting[i][k],
         samples.force[i][k],
         samples.disc_temperature[i][k],
+    )
+    observe_contact(
+        wheelset,
+        train,
+        definition,
+        samples.time[k],
+        speed,
+        samples.tank[i][k],
+        samples.line[k],
+        samples.rail_work[i][k],
+        samples.contact_loss[i][k],
+        samples.highest_force[i][k],
     )
     if isnan(speed - wheel_speed):
         # A lock before a gap and one after it need not be the same lock.

@@ -1,4 +1,11 @@
+from .build_up import begin_build_up as begin_build_up, observe_build_up as observe_build_up
 from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS
+from .contact import (
+    begin_contact as begin_contact,
+    begin_utilisation as begin_utilisation,
+    close_contacts as close_contacts,
+    observe_contact as observe_contact,
+)
 from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELSET_MEASURES
 from .measure import (
     Course as Course,
@@ -9,7 +16,10 @@ from .measure import (
     StopColumn as StopColumn,
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,
+    is_finite as is_finite,
+    is_nan as is_nan,
 )
+from .reaction import observe_reaction as observe_reaction, observe_reference as observe_reference
 from .records import (
     SPEED_CLASSES as SPEED_CLASSES,
     WINDOW_SECONDS as WINDOW_SECONDS,
@@ -30,6 +40,7 @@ from .train import (
     begin_window as begin_window,
     keep_window as keep_window,
     note_standstill as note_standstill,
+    observe_reservoir_margin as observe_reservoir_margin,
     observe_train as observe_train,
 )
 from .wheelset import (

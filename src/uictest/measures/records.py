@@ -33,11 +33,26 @@ class StopMeasures(Record):
     sliding_wheelset: float  # which one, 1..4
     speed_after_sliding: Annotated[MutableSequence[float], WINDOW_SECONDS + 1]  # at 0, 1, .. s after it, m/s
     reservoir_minimum_pressure: float  # Pa
+    reservoir_margin: float  # lowest over the highest cylinder pressure, Pa
+    commanded_pressure: float  # of the brake line, Pa
+    line_pressure: float  # of the brake line at the last sample, Pa
+    rise_time: float  # when it began to rise, s
+    rise_distance: float  # m
+    rise_speed: float  # m/s
+    build_up_time: float  # equivalent, s
+    build_up_distance: float  # run until then, m
+    exploited_work: float  # of the rail on all wheelsets while it limits the brake, J
+    available_work: float  # that it could have done meanwhile, J
+    adhesion_utilisation: float  # share of the two over the whole stop
+    deceleration_bogie_1: float  # mean, given by the rail through the leading bogie, m/s2
+    deceleration_bogie_2: float
     air_consumed: float  # taken from the reservoir, kg
     energy_residual: float  # share of the initial kinetic energy
     air_residual: float  # share of the air taken from the reservoir
     air_energy_residual: float  # share of the enthalpy of that air
     samples: float
+    fault_time: float  # first cycle with a fault while the train moves, s
+    reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
 
 
 class WheelsetMeasures(Record):
@@ -47,7 +62,15 @@ class WheelsetMeasures(Record):
     maximum_slide: float  # train moving
     maximum_slide_above: Annotated[MutableSequence[float], SPEED_CLASSES]  # train faster than 0, 10, .. km/h
     first_sliding_time: float  # s
+    sliding: float  # 1 while it slides
     sliding_duration: float  # s
+    slid_distance: float  # run while it slides, m
+    contact_energy: float  # turned into heat in its contacts while it slides, J
+    contact_loss: float  # until the last sample, sliding or not, J
+    rail_work: float  # of the rail on it until the last sample, J
+    exploited_work: float  # of the rail on it while the rail limits the brake, J
+    available_work: float  # that the rail could have done meanwhile, J
+    adhesion_utilisation: float  # share of the two over the whole stop
     locked_time: float  # s
     longest_lock: float  # s
     lock: float  # length of the lock that lasts at present, s
@@ -56,6 +79,9 @@ class WheelsetMeasures(Record):
     maximum_clamping_force: float  # of one caliper, N
     air_vented: float  # kg
     maximum_disc_temperature: float  # of the friction surface, where modelled, K
+    faulty: float  # 1 once one of its parts has had a fault
+    release: float  # time without brake force that lasts at present, s
+    longest_release: float  # while its speed sensor was faulty, s
 
 
 class MeasureDefinition(Record):
@@ -73,3 +99,10 @@ class MeasureDefinition(Record):
     deceleration_filter: float = from_scenario("measures.deceleration_filter")
     # Time after the command from which the smallest deceleration is kept, s.
     developed_time: float = from_scenario("measures.developed_time")
+    # Shares of the commanded pressure at which the line pressure counts as rising and as developed.
+    rising_share: float = from_scenario("measures.rising_share")
+    developed_share: float = from_scenario("measures.developed_share")
+    # Share of the line pressure below which a tank counts as held down by its WSP valve.
+    reduced_share: float = from_scenario("measures.reduced_share")
+    # Share of the largest clamping force below which a wheelset counts as without brake force.
+    released_share: float = from_scenario("measures.released_share")

@@ -19,18 +19,23 @@ from uictest.measures.measure import (
 from uictest.measures.records import StopMeasures, WheelsetMeasures
 from uictest.units import in_unit
 
-_ORDER: Final = ["stopping", "adhesion", "deceleration", "slide", "locking", "caliper", "air", "balances"]
+_ORDER: Final = [
+    *("stopping", "build_up", "adhesion", "utilisation", "deceleration", "bogies"),
+    *("slide", "flats", "locking", "caliper", "air", "reservoir", "balances"),
+]
 """Order of the modules in results and lists; modules not named here follow in the order of their names."""
 
 
 def measures_in(package: ModuleType) -> dict[str, Measure]:
     """Return the measures in the modules of a package by name: those of stops, then those of wheelsets.
 
-    Raises ValueError where two have the same name or the same column.
+    Raises ValueError where two have the same name, or two of stops or of wheelsets the same column.
     """
     measures = sorted(_declared_in(package), key=lambda measure: measure.of_wheelsets)
     _reject_duplicates("measures", (measure.name for measure in measures))
-    _reject_duplicates("columns", (measure.column.name for measure in measures if measure.column))
+    for columns in (StopColumn, WheelsetColumn):
+        own = (measure.column.name for measure in measures if isinstance(measure.column, columns))
+        _reject_duplicates("columns", own)
     return {measure.name: measure for measure in measures}
 
 

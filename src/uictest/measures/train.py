@@ -3,7 +3,7 @@
 from uictest.measures.records import WINDOW_SECONDS, MeasureDefinition, StopMeasures
 from uictest.physics import maximum, minimum, select
 
-NAN = float("nan")
+NAN, INFINITY = float("nan"), float("inf")
 
 
 def begin_train(
@@ -25,11 +25,14 @@ def begin_train(
     measures.sliding_time = NAN
     measures.sliding_wheelset = NAN
     measures.reservoir_minimum_pressure = reservoir_pressure
+    measures.reservoir_margin = INFINITY
     measures.air_consumed = NAN
     measures.energy_residual = NAN
     measures.air_residual = NAN
     measures.air_energy_residual = NAN
     measures.samples = 1.0
+    measures.fault_time = NAN
+    measures.reference_excess = NAN
 
 
 def begin_window(measures: StopMeasures) -> None:
@@ -55,6 +58,15 @@ def observe_train(
     measures.end_distance = distance
     measures.end_speed = speed
     measures.samples += 1.0
+
+
+def observe_reservoir_margin(
+    measures: StopMeasures, reservoir_pressure: float, highest_cylinder_pressure: float
+) -> None:
+    """Observe how far the reservoir lies above the cylinder of the highest pressure (Pa)."""
+    margin = reservoir_pressure - highest_cylinder_pressure
+    # A sample that is NaN, where a recording has a gap, leaves the smallest as it is.
+    measures.reservoir_margin = minimum(margin, measures.reservoir_margin)
 
 
 def keep_window(measures: StopMeasures, samples: StopMeasures) -> None:

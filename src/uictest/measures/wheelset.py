@@ -13,6 +13,7 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.maximum_slide = 0.0
     measures.slide = 0.0
     measures.first_sliding_time = NAN
+    measures.sliding = 0.0
     measures.sliding_duration = 0.0
     measures.locked_time = 0.0
     measures.longest_lock = 0.0
@@ -22,6 +23,9 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.maximum_clamping_force = 0.0
     measures.air_vented = NAN
     measures.maximum_disc_temperature = NAN
+    measures.faulty = 0.0
+    measures.release = 0.0
+    measures.longest_release = NAN
 
 
 def begin_slides(measures: WheelsetMeasures) -> None:
@@ -107,6 +111,7 @@ def _observe_sliding(
     measures: WheelsetMeasures, train: StopMeasures, slides: bool, number: int, time: float, interval: float
 ) -> None:
     """Add up the time spent sliding, and note which wheelset slid first and when."""
+    measures.sliding = select(slides, 1.0, 0.0)
     measures.sliding_duration += select(slides, interval, 0.0)
     # Before the first sliding the times are NaN; the minimum then gives the other number.
     first = minimum(measures.first_sliding_time, time)

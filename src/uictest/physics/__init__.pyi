@@ -1,4 +1,5 @@
 from .arithmetic import (
+    clamp as clamp,
     floor as floor,
     fma as fma,
     maximum as maximum,
@@ -30,6 +31,10 @@ from .flow import (
     mass_flow as mass_flow,
     orifice_law as orifice_law,
     reduced_flow as reduced_flow,
+)
+from .friction_maximum import (
+    FITTED_TERMS as FITTED_TERMS,
+    highest_creep_force as highest_creep_force,
 )
 from .hysteresis import force_after as force_after, line as line, phase_share as phase_share
 from .module_air import (

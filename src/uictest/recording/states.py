@@ -12,6 +12,8 @@ STATES: Final = MappingProxyType(
         "hold_magnet": MappingProxyType({"off": 0, "on": 1}),
         "vent_magnet": MappingProxyType({"off": 0, "on": 1}),
         "diagnosis": MappingProxyType({}),
+        "active_faults": MappingProxyType({}),
+        "speed_valid": MappingProxyType({"no": 0, "yes": 1}),
         "brake_command": MappingProxyType({"released": 0, "applied": 1}),
     }
 )

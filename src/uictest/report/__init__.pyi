@@ -38,6 +38,7 @@ from .manifest import (
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
+from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .run_contents import read_run as read_run, run_content as run_content
 from .run_folder import RunFolder as RunFolder, latest_run as latest_run, point_latest as point_latest
 from .run_report import (
@@ -47,6 +48,10 @@ from .run_report import (
     write_recording as write_recording,
     write_reports as write_reports,
 )
+from .series.github import series_annotations as series_annotations
+from .series.lines import series_line as series_line, series_lines as series_lines
+from .series.table import series_table as series_table
+from .series.wording import series_tally as series_tally, series_word as series_word
 from .sweep.content import SweepContent as SweepContent
 from .sweep.format_registry import write_sweep_formats as write_sweep_formats
 from .sweep.formats import sweep_format_names as sweep_format_names
@@ -69,6 +74,14 @@ from .sweep.result import (
     SweepMap as SweepMap,
     SweepResult as SweepResult,
     Trend as Trend,
+)
+from .sweep.tail_text import tail_lines as tail_lines
+from .sweep.tails import (
+    DrawCount as DrawCount,
+    KDry as KDry,
+    KDryLevel as KDryLevel,
+    MeasureQuantiles as MeasureQuantiles,
+    Quantile as Quantile,
 )
 from .sweep.values import (
     DrawnInterval as DrawnInterval,
@@ -117,6 +130,7 @@ from .wording import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,
     counted as counted,
+    counted_in as counted_in,
     line_word as line_word,
     listed as listed,
     number as number,

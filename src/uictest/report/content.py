@@ -10,6 +10,8 @@ from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
 from uictest.report.difference import Difference
 from uictest.report.manifest import RunManifest
+from uictest.report.series.wording import series_tally
+from uictest.series import SeriesResult
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import PlotTrace
@@ -41,6 +43,7 @@ class RunContent:
         subjects: descriptions of cases, by id; a case may have none.
         traces: what the plots are drawn from, by id.
         baseline: the comparison with the baseline; None without one.
+        series: every series, with the results of its own cases, which are not among `results`.
 
     """
 
@@ -51,6 +54,7 @@ class RunContent:
     subjects: Mapping[str, CaseDescription] = field(default_factory=dict)
     traces: Mapping[str, PlotTrace] = field(default_factory=dict)
     baseline: BaselineComparison | None = None
+    series: Sequence[SeriesResult] = ()
 
     def subject(self, case_id: str) -> CaseDescription:
         """Return the description of a case; an empty one where there is none."""
@@ -75,4 +79,10 @@ class RunContent:
     @property
     def tally(self) -> str:
         """The counts of the run."""
-        return run_tally(self.results, self.baseline)
+        of_cases = [run_tally(self.results, self.baseline)] if self.results or not self.series else []
+        return "; ".join([*of_cases, *([series_tally(self.series)] if self.series else [])])
+
+    @property
+    def all_results(self) -> list[evaluation.CaseResult]:
+        """Every case, those of series too."""
+        return [*self.results, *(each.case for result in self.series for each in result.cases)]

@@ -12,6 +12,7 @@ from uictest.report.baseline import BaselineComparison, case_explanation, case_w
 from uictest.report.difference import Difference
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.part_wording import changes_line
+from uictest.report.repeat_wording import repeat_sentences, stops_text
 from uictest.report.wording import DIFFERS
 
 LIMIT = 1_000_000
@@ -21,11 +22,17 @@ _ALWAYS = 2_000  # bytes that a summary may have where others have filled the fi
 
 
 def case_annotations(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
-    """Yield an `::error` command for a case that misses its expectation or differs from the baseline."""
+    """Yield an `::error` command for a case that misses its expectation or differs from the baseline.
+
+    A case that is as expected while some of its stops are not has a `::notice`.
+    """
     if differences or not result.met:
         title = f"{case_word(result, differences)} {result.id}"
         lines = (*case_explanation(result, differences), *changes_line(result))
         yield annotation(result.scenario, title, "\n".join(lines))
+    elif result.repeats is not None and result.repeats.turns:
+        title = f"{stops_text(result)} {result.id}"
+        yield annotation(result.scenario, title, "\n".join(repeat_sentences(result)), level="notice")
 
 
 def missing_annotations(baseline: BaselineComparison) -> Iterator[str]:

@@ -1,25 +1,57 @@
-"""Properties of a JUnit suite: which controller from outside its cases were run with."""
+"""Properties of JUnit suites and testcases: controllers from outside, requirements, ids of test cases."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Final
 from xml.etree import ElementTree
 
 from uictest import evaluation
 from uictest.report.escaping import xml_text
 
+WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
+"""Name of the file whose testcases have properties, which the schema of Jenkins' xUnit plugin forbids."""
 
-def program_properties(program: evaluation.Program, told: Iterable[str] = ()) -> ElementTree.Element:
-    """Return `controller` and, where known, `controller.kind`, `.source`, `.version` and `.sha256`.
+_REQUIREMENT_SEPARATOR: Final = ","
 
+
+def add_suite_properties(
+    suite: ElementTree.Element,
+    program: evaluation.Program | None,
+    told: Iterable[str] = (),
+    requirements: Iterable[str] = (),
+) -> None:
+    """Add what is known of the cases of a suite: their program and the requirements that they verify.
+
+    The properties are `controller` and, where known, `controller.kind`, `.source`, `.version` and `.sha256`.
     `told` has the versions that the program said of itself in the cases of the suite, empty where it said
     none. Where its scenario or file states another one, they are `controller.told_version`.
     """
-    properties = ElementTree.Element("properties")
+    named = {} if program is None else _program_facts(program, told)
+    _add_properties(suite, named | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)})
+
+
+def add_test_properties(
+    testcase: ElementTree.Element, test_case: str, requirements: Iterable[str] = ()
+) -> None:
+    """Add the properties by which test management tools know a testcase.
+
+    Polarion reads `polarion-testcase-id`, Xray `test_key` and `requirements`.
+    """
+    ids = {"polarion-testcase-id": test_case, "test_key": test_case}
+    _add_properties(testcase, ids | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)})
+
+
+def _program_facts(program: evaluation.Program, told: Iterable[str]) -> dict[str, str]:
     facts = dataclasses.asdict(program.telling(", ".join(filter(None, told))))
-    named = {"controller": facts.pop("name"), **{f"controller.{name}": text for name, text in facts.items()}}
+    return {"controller": facts.pop("name"), **{f"controller.{name}": text for name, text in facts.items()}}
+
+
+def _add_properties(element: ElementTree.Element, named: Mapping[str, str]) -> None:
+    properties = ElementTree.Element("properties")
     for name, text in named.items():
         if text:
             ElementTree.SubElement(properties, "property", name=name, value=xml_text(text))
-    return properties
+    if len(properties):
+        element.insert(0, properties)

@@ -13,6 +13,7 @@ from uictest.report.document import read_baseline_comparison, read_subjects
 from uictest.report.manifest import read_manifest
 from uictest.report.run_report import RECORDINGS, RESULTS
 from uictest.report.traces.trace import PlotTrace, trace_of
+from uictest.series import series_results_of
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:
@@ -28,7 +29,7 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
         content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
     except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
         raise ValueError(f"{path}: not the results of a run: {error}") from error
-    drawn = read_traces(folder, content.results) if traces else {}
+    drawn = read_traces(folder, content.all_results) if traces else {}
     return dataclasses.replace(content, traces=drawn)
 
 
@@ -41,12 +42,13 @@ def run_content(document: object, name: str) -> RunContent:
         subjects = read_subjects(document)
         manifest = read_manifest(document)
         baseline = read_baseline_comparison(document)
+        series = series_results_of(document["series"]) if "series" in document else []
     except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error
     complete = document.get("complete", True)
     if not isinstance(complete, bool):
         raise ValueError(f"'complete' must be true or false, found {complete!r}")
-    return RunContent(name, results, manifest, complete, subjects, baseline=baseline)
+    return RunContent(name, results, manifest, complete, subjects, baseline=baseline, series=series)
 
 
 def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, PlotTrace]:
@@ -55,7 +57,7 @@ def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[
     Raises OSError, and ValueError where a recording is none.
     """
     return {
-        result.id: trace_of(recording.read_parquet(path), result.criteria)
+        result.id: trace_of(recording.read_parquet(path), result.drawn_stop.criteria)
         for result in results
         if (path := folder / RECORDINGS / f"{result.id}.parquet").is_file()
     }

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from uictest import evaluation, recording
+from uictest import evaluation, recording, series
 from uictest.report.content import RunContent
 from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats
@@ -45,6 +45,8 @@ def _document(content: RunContent) -> dict[str, Any]:
     }
     if content.baseline is not None:
         header["baseline"] = baseline_form(content.baseline)
+    if content.series:
+        header["series"] = series.series_document(content.series)
     return evaluation.result_document(content.results, **header)
 
 

@@ -6,7 +6,7 @@ import contextlib
 import io
 import itertools
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
@@ -24,6 +24,12 @@ LONGEST_TEXT = 32_767
 
 MOST_ROWS = 1_048_575
 """Rows a sheet can hold below its header."""
+
+MOST_COLUMNS = 16_384
+"""Columns a sheet can hold."""
+
+VERDICT_COLUMNS: Final = frozenset({"met", "verdict"})
+"""Columns of verdicts in most sheets."""
 
 _AS_WRITTEN = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
 _EPOCH = datetime(1980, 1, 1, tzinfo=UTC)
@@ -74,15 +80,26 @@ def styles_of(workbook: Workbook) -> Styles:
     }
 
 
-def write_sheet(sheet: Worksheet, rows: Sequence[Row], styles: Styles) -> None:
-    """Write rows below a header that names every column of any of them."""
-    write_table(sheet, list(dict.fromkeys(column for row in rows for column in row)), rows, styles)
+def write_sheet(
+    sheet: Worksheet, rows: Sequence[Row], styles: Styles, verdicts: Collection[str] = VERDICT_COLUMNS
+) -> None:
+    """Write rows below a header that names every column of any of them; colour the columns of verdicts."""
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    write_table(sheet, columns, rows, styles, verdicts=verdicts)
 
 
 def write_table(
-    sheet: Worksheet, columns: Sequence[str], rows: Iterable[Row], styles: Styles, most: int = MOST_ROWS
+    sheet: Worksheet,
+    columns: Sequence[str],
+    rows: Iterable[Row],
+    styles: Styles,
+    most: int = MOST_ROWS,
+    verdicts: Collection[str] = VERDICT_COLUMNS,
 ) -> int:
-    """Write up to `most` rows below a header of the columns; return how many there were to write."""
+    """Write up to `most` rows below a header of the columns; return how many there were to write.
+
+    Words in the columns of `verdicts` are coloured by their tone.
+    """
     waiting = iter(rows)
     first = list(itertools.islice(waiting, _MEASURED))
     for column, name in enumerate(columns):
@@ -95,7 +112,7 @@ def write_table(
     _keep_headings(sheet)
     if count:
         sheet.autofilter(0, 0, count, len(columns) - 1)
-    _colour_verdicts(sheet, columns, count, styles)
+    _colour_verdicts(sheet, [columns.index(name) for name in columns if name in verdicts], count, styles)
     return count
 
 
@@ -125,15 +142,24 @@ def width(name: str, values: Iterable[Cell]) -> int:
 
 _STATUSES: Final = {"pass": "good", "fail": "bad", "inconclusive": "bad"}
 """Statuses of criteria."""
-_COLOURS: Final = {word: "good" if tone(word) == "good" else "bad" for word in CASE_WORDS} | _STATUSES
+_OF_REQUIREMENTS: Final = {"met": "good", "not met": "bad"}
+_COLOURS: Final = (
+    {word: "good" if tone(word) == "good" else "bad" for word in CASE_WORDS} | _STATUSES | _OF_REQUIREMENTS
+)
 
 
-def _colour_verdicts(sheet: Worksheet, columns: Sequence[str], rows: int, styles: Styles) -> None:
-    for word, colour in _COLOURS.items():
-        for name in {"met", "verdict"} & set(columns):
-            column = columns.index(name)
+def _colour_verdicts(sheet: Worksheet, columns: Iterable[int], rows: int, styles: Styles) -> None:
+    for first, last in _runs(columns):
+        for word, colour in _COLOURS.items():
             rule: dict[str, Any] = {"type": "cell", "criteria": "==", "value": f'"{word}"'}
-            sheet.conditional_format(1, column, max(rows, 1), column, rule | {"format": styles[colour]})
+            sheet.conditional_format(1, first, max(rows, 1), last, rule | {"format": styles[colour]})
+
+
+def _runs(columns: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last number of each run of consecutive ones."""
+    for _, run in itertools.groupby(enumerate(columns), key=lambda pair: pair[1] - pair[0]):
+        numbers = [column for _, column in run]
+        yield numbers[0], numbers[-1]
 
 
 def _text(text: str) -> str:

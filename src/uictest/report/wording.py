@@ -7,6 +7,7 @@ from typing import Final, Literal
 
 from uictest import evaluation
 from uictest.report.escaping import printable
+from uictest.report.repeat_wording import repeat_sentences
 
 DIFFERS: Final = "differs"
 """The word for a case that meets its expectation and differs from the baseline."""
@@ -73,9 +74,12 @@ def definition_sentence(verdict: evaluation.Verdict) -> str:
 def explanation(result: evaluation.CaseResult) -> list[str]:
     """Return the reasons for an outcome: expectation, reason, and each criterion that decided it."""
     deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
-    # With criteria the reason of a result repeats theirs; without any it is all there is.
-    reason = [printable(result.reason)] if result.reason and not deciding else []
-    return [f"expected {result.expect}, got {result.outcome}", *reason, *deciding]
+    # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
+    # without any it is all there is.
+    alone = not deciding or result.outcome == "error"
+    reason = [printable(result.reason)] if result.reason and alone else []
+    outcome = f"expected {result.expect}, got {result.outcome}"
+    return [outcome, *repeat_sentences(result), *reason, *deciding]
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
@@ -174,3 +178,9 @@ def listed(names: Sequence[str]) -> str:
 def counted(count: int, noun: str, plural: str = "") -> str:
     """Return a count with its noun, e.g. `1 case`, `2 cases`; `plural` where it is not the noun with an s."""
     return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"
+
+
+def counted_in(cases: int, series: int) -> str:
+    """Return counts of cases and series, e.g. `2 cases, 1 series`; without any series the cases alone."""
+    of_cases = [counted(cases, "case")] if cases or not series else []
+    return ", ".join([*of_cases, *([f"{series} series"] if series else [])])

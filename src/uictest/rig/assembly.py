@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from operator import attrgetter
@@ -21,10 +20,12 @@ from uictest.rig.derived_parameters import (
 )
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE
+from uictest.rig.fault_parameters import FAULTS
 from uictest.rig.model.external_controller import EXTERNAL
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.noise_key import noise_keys
 from uictest.scenario import Case, Scenario
 
 
@@ -53,11 +54,13 @@ def assemble(case: Case) -> StopInputs:
     """Return what the rig is given for the stop of a case."""
     record, wheelsets = np.zeros(1, PARAMETERS), np.zeros(4, WHEELSET_PARAMETERS)
     values = assigned(ASSIGNMENTS, case.scenario)
-    values["case_key"] = zlib.crc32(case.id.encode())
+    values["noise_key"] = 0  # follows from the other values
     _fill(record[0], values)
     for place, assignments in enumerate(WHEELSET_ASSIGNMENTS):
         _fill(wheelsets[place], assigned(assignments, case.scenario))
-    inputs = record[0], wheelsets, friction_laws(case.scenario), controller_of(case.scenario)
+    rail = friction_laws(case.scenario)
+    record["noise_key"] = noise_keys(record, wheelsets[None], rail[None])
+    inputs = record[0], wheelsets, rail, controller_of(case.scenario)
     program = case.scenario.controller.program
     if program is None:
         return StopInputs(*inputs)
@@ -71,8 +74,8 @@ def case_sha256(
     """Return the SHA-256 that names a stop: of the bytes of the three records that the rig is given, then of
     the controller's parameters as JSON in UTF-8.
 
-    Stops with the same one are the same stop for a controller, in one version of the package: criteria and
-    texts of the scenario have no part in it, the id of the case has, because sensor noise depends on it.
+    Stops with the same one are the same stop for a controller, in one version of the package: criteria,
+    texts of the scenario and the id of the case have no part in it.
     """
     records = parameters.tobytes(), wheelset_parameters.tobytes(), np.ascontiguousarray(rail).tobytes()
     return hashlib.sha256(b"".join(records) + program.parameters.encode()).hexdigest()
@@ -117,11 +120,16 @@ def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str,
 
 
 def friction_laws(scenario: Scenario) -> NDArray[np.float64]:
-    """Return friction along the track and its factor over time, in rows of equal length."""
+    """Return friction along the track and its factor over time, in rows of equal length.
+
+    Where the friction is that of n cases (:mod:`uictest.ensemble`), so are the laws: shape (n, 4, points).
+    """
     along, over_time = friction_along_track(scenario), friction_factor_over_time(scenario)
-    laws = np.zeros((ROWS, max(len(along), len(over_time))))
-    laws[PLACES, : len(along)], laws[FRICTIONS, : len(along)] = np.array(along).T
-    laws[TIMES, : len(over_time)], laws[FACTORS, : len(over_time)] = np.array(over_time).T
+    places, frictions = zip(*along, strict=True)
+    laws = np.zeros((*np.shape(frictions[0]), ROWS, max(len(along), len(over_time))))
+    laws[..., PLACES, : len(along)] = places
+    laws[..., FRICTIONS, : len(along)] = np.moveaxis(np.array(frictions), 0, -1)
+    laws[..., TIMES, : len(over_time)], laws[..., FACTORS, : len(over_time)] = np.array(over_time).T
     return laws
 
 
@@ -148,8 +156,9 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *(_copying(field, source) for field, source in scenario_values(Parameters).items()),
     *DERIVED,
     *DISC_BRAKE,
+    *FAULTS,
     Assignment(_set_controller, ("controller",)),
 )
-"""What sets all parameters but `case_key`."""
+"""What sets all parameters but `noise_key`."""
 FRICTION_KEYS = ("rail",)
 """The keys of a scenario at or below which :func:`friction_laws` reads."""

@@ -10,11 +10,18 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from uictest.ensemble import Ensemble
 from uictest.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled_transfer_function
+from uictest.rig.highest_creep import highest_creep_law
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import MARGIN, POINTS
-from uictest.scenario import COMPENSATION_SETTINGS, WHEELSET_NUMBERS, Scenario, wheelset_value
+from uictest.scenario import (
+    COMPENSATION_SETTINGS,
+    WHEELSET_NUMBERS,
+    Scenario,
+    wheelset_value,
+)
 from uictest.units import STANDARD_GRAVITY
 
 _ALWAYS = 1.0
@@ -101,7 +108,7 @@ def _air(p: Parameters, scenario: Scenario) -> None:
     air = scenario.brake.system.air
     p.heat_capacity_volume = air.gas_constant / (air.heat_capacity_ratio - 1.0)
     p.heat_capacity_pressure = air.heat_capacity_ratio * p.heat_capacity_volume
-    p.air_coldness = coldness(float(air.temperature))
+    p.air_coldness = coldness(air.temperature)
 
 
 @_reads("brake.system.caliper_tank", "brake.system.tank")
@@ -202,14 +209,21 @@ def _wheelset(p: Parameters, scenario: Scenario) -> None:
 @_reads("vehicle")
 def _weight(p: Parameters, scenario: Scenario) -> None:
     p.gravity = STANDARD_GRAVITY
+    p.total_mass = scenario.vehicle.total_mass
     p.static_wheel_load = scenario.vehicle.total_mass * STANDARD_GRAVITY / _WHEELS
 
 
 @_reads("rail.condition.contact")
 def _contact(p: Parameters, scenario: Scenario) -> None:
-    contact = scenario.rail.condition.contact
-    area = math.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
-    p.creep_stiffness = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
+    p.creep_stiffness = scenario.rail.condition.contact.creep_stiffness
+
+
+@_reads("rail.condition")
+def _highest_creep(p: Parameters, scenario: Scenario) -> None:
+    """Numbers of :mod:`uictest.physics.friction_maximum`."""
+    p.highest_creep_scale, coefficients = highest_creep_law(scenario.rail.condition)
+    for power, coefficient in enumerate(coefficients):
+        setattr(p, f"highest_creep_{power}", coefficient)
 
 
 @_reads("rail")
@@ -246,9 +260,9 @@ def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:
     """Return places in m and friction coefficients, linear between them; a step is two points there."""
     friction = scenario.rail.friction
     if friction is None:
-        return [(0.0, float(scenario.rail.condition.friction))]
-    if isinstance(friction, float):
-        return [(0.0, float(friction))]
+        return [(0.0, scenario.rail.condition.friction)]
+    if isinstance(friction, float | Ensemble):
+        return [(0.0, friction)]
     points = [(float(point.position), float(point.friction)) for point in friction.points]
     if friction.interpolation == "linear":
         return points

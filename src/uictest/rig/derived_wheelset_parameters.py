@@ -65,7 +65,7 @@ def _caliper(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> Non
     caliper = scenario.rig.caliper
     _, _, own.squeezing_stiffness, own.releasing_stiffness, _, *compliances = stiffnesses(
         float(caliper.spring_rate),
-        float(value("caliper.load_friction")),
+        value("caliper.load_friction"),
         float(caliper.viscous_friction),
         float(caliper.contact_friction),
         float(caliper.contact_stiffness),
@@ -77,7 +77,7 @@ def _caliper(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> Non
 @_reads("wsp_valve.travel_time", keys=("simulation.time_step",))
 def _valve_travel(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> None:
     step = float(scenario.simulation.time_step)
-    own.valve_travel_per_step = min(step / max(float(value("wsp_valve.travel_time")), step), 1.0)
+    own.valve_travel_per_step = min(step / max(value("wsp_valve.travel_time"), step), 1.0)
 
 
 @_reads("wsp_valve.switching_delay", keys=("simulation.time_step", "controller.cycle_time"))
@@ -86,7 +86,7 @@ def _valve_delay(own: WheelsetParameters, value: ValueOf, scenario: Scenario) ->
     step = float(scenario.simulation.time_step)
     steps_per_cycle = round(float(scenario.controller.cycle_time) / step)
     own.valve_delay_cycles, own.valve_delay_steps = divmod(
-        round(float(value("wsp_valve.switching_delay")) / step), steps_per_cycle
+        round(value("wsp_valve.switching_delay") / step), steps_per_cycle
     )
 
 

@@ -12,7 +12,13 @@ from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.backends.native import stops_are_compiled
 from uictest.rig.external.in_process import RunInputs
 from uictest.rig.external.workers import Workers
-from uictest.rig.model.trace import CAR_CHANNELS, CONTROLLER_CHANNELS, DISC_CHANNELS, WHEELSET_CHANNELS
+from uictest.rig.model.trace import (
+    CAR_CHANNELS,
+    CONTROLLER_CHANNELS,
+    DISC_CHANNELS,
+    FAULT_CHANNELS,
+    WHEELSET_CHANNELS,
+)
 from uictest.scenario import Case
 
 
@@ -90,11 +96,14 @@ def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool)
 
 def _recorded(case: Case, *, from_outside: bool) -> tuple[dict[str, str], dict[str, str]]:
     """Return the channels of the train and of a wheelset that mean something in a stop, with their units."""
-    missing_of_train = () if from_outside else CONTROLLER_CHANNELS
-    missing_of_wheelsets = () if case.scenario.brake.models_disc_temperature else DISC_CHANNELS
+    missing = {
+        *(() if from_outside else CONTROLLER_CHANNELS),
+        *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
+        *(() if case.scenario.faults else FAULT_CHANNELS),
+    }
     return (
-        {name: unit for name, unit in CAR_CHANNELS if name not in missing_of_train},
-        {name: unit for name, unit in WHEELSET_CHANNELS if name not in missing_of_wheelsets},
+        {name: unit for name, unit in CAR_CHANNELS if name not in missing},
+        {name: unit for name, unit in WHEELSET_CHANNELS if name not in missing},
     )
 
 
@@ -103,4 +112,6 @@ def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
     facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
     if math.isfinite(finished.measures.sliding_time):
         facts["sliding_time"] = f"{finished.measures.sliding_time:.6g}"
+    if case.scenario.faults:
+        facts["faults"] = ", ".join(fault.label for fault in case.scenario.faults)
     return facts

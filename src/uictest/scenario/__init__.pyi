@@ -1,5 +1,9 @@
 from .controller_loading import load_controller as load_controller
-from .discovery import SWEEP_SUFFIXES as SWEEP_SUFFIXES, link_outside as link_outside
+from .discovery import (
+    SERIES_SUFFIXES as SERIES_SUFFIXES,
+    SWEEP_SUFFIXES as SWEEP_SUFFIXES,
+    link_outside as link_outside,
+)
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
     Setting as Setting,
@@ -8,15 +12,27 @@ from .expansion import (
     expand as expand,
 )
 from .files import Files as Files, Roots as Roots
-from .identifiers import LONGEST as LONGEST, short_keys as short_keys, value_label as value_label
-from .json_schema import SCHEMA_DRAFT as SCHEMA_DRAFT, as_draft_07 as as_draft_07, json_schema as json_schema
+from .identifiers import (
+    LONGEST as LONGEST,
+    case_id as case_id,
+    short_keys as short_keys,
+    value_label as value_label,
+)
+from .json_schema import (
+    SCHEMA_DRAFT as SCHEMA_DRAFT,
+    SchemaGenerator as SchemaGenerator,
+    as_draft_07 as as_draft_07,
+    json_schema as json_schema,
+    quantity_definitions as quantity_definitions,
+    schema_of as schema_of,
+)
 from .library_parts import (
     SourcedNumber as SourcedNumber,
     load_part as load_part,
     load_part_file as load_part_file,
     numbers as numbers,
 )
-from .loading import load as load
+from .loading import load as load, load_file as load_file
 from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
 from .part_keys import (
     PART_KEYS as PART_KEYS,
@@ -29,10 +45,17 @@ from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, 
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.external_controller import ExternalController as ExternalController
+from .parts.fault import Fault as Fault
 from .parts.friction import FrictionProfile as FrictionProfile
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.pad import PadLaw as PadLaw
 from .parts.rail import Cleaning as Cleaning, RailCondition as RailCondition
+from .parts.repeats import ShareOfStops as ShareOfStops
+from .parts.requirements import (
+    RequirementId as RequirementId,
+    RequirementIds as RequirementIds,
+    repeated_requirements as repeated_requirements,
+)
 from .parts.vehicle import Vehicle as Vehicle
 from .rail_friction import (
     CONDITION as CONDITION,
@@ -40,6 +63,8 @@ from .rail_friction import (
     sets_friction as sets_friction,
 )
 from .references import Parts as Parts, is_path as is_path
+from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
+from .requirement_list import read_requirement_list as read_requirement_list
 from .resolution import resolve as resolve
 from .values import (
     DESCRIPTIVE as DESCRIPTIVE,

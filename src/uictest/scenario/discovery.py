@@ -18,6 +18,7 @@ from uictest.scenario.yaml import (
 )
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
+SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
 _OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map")
 _OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
 
@@ -27,9 +28,9 @@ def scenario_trees(
 ) -> Iterator[tuple[Path, Map]]:
     """Yield the tree of every scenario file at or below ``paths``, once and in order; append errors.
 
-    A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), parts, bench
-    recipes, channel maps, hidden files, and files that begin with an underscore (parents only). A file that
-    is named explicitly is always read.
+    A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), series
+    (``*.series.yaml``), parts, bench recipes, channel maps, hidden files, and files that begin with an
+    underscore (parents only). A file that is named explicitly is always read.
     """
     seen: set[str] = set()
     for path, named in _candidates(paths, diagnostics):
@@ -80,7 +81,7 @@ def _may_be_scenario(name: str) -> bool:
     return (
         name.endswith((".yaml", ".yml"))
         and not name.startswith((".", "_"))
-        and not name.endswith(SWEEP_SUFFIXES)
+        and not name.endswith((*SWEEP_SUFFIXES, *SERIES_SUFFIXES))
     )
 
 

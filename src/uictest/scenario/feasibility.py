@@ -41,7 +41,7 @@ def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressur
 def braking_force(disc: Disc, wheelsets: Iterable[BrakedWheelset], clamping_force: float) -> float:
     """Return the force at the rims of all wheelsets, N, with ``clamping_force`` N at every caliper."""
     calipers, pads, radius = disc.calipers_per_wheelset, disc.pads_per_caliper, disc.mean_radius
-    return math.fsum(
+    return sum(
         each.brake_force
         * physics.torque(clamping_force, calipers, pads, each.pad_friction, radius)
         / each.wheel_radius

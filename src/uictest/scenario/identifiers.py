@@ -7,10 +7,13 @@ from typing import Final
 from uictest.scenario.expansion import Setting, Variant
 from uictest.scenario.parts.external_controller import PROGRAM_FILES
 from uictest.scenario.references import is_path
-from uictest.scenario.yaml import Map, Scalar
+from uictest.scenario.yaml import Map, Node, Scalar, Sequence
 
 LONGEST: Final = 200
 """Longest id: with an extension it must still be a file name everywhere."""
+
+FAULTS: Final = "faults"
+"""Key of the faults of a scenario."""
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
 
@@ -44,6 +47,8 @@ def value_label(setting: Setting) -> str:
 
 def _name(setting: Setting) -> str:
     node = setting.value.node
+    if setting.key == FAULTS and isinstance(node, Sequence):
+        return "+".join(map(_name_of_fault, node.items)) or "none"
     if isinstance(node, Map):
         program = next((node.get(key) for key in PROGRAM_FILES if key in node.entries), None)
         if isinstance(program, Scalar):
@@ -52,3 +57,12 @@ def _name(setting: Setting) -> str:
     if not isinstance(node, Scalar):
         return f"value{setting.number}"
     return PurePosixPath(node.text).stem if is_path(node.text) else node.text
+
+
+_NAMED_BY: Final = ("part", "kind", "value", "wheelset", "at", "until")
+
+
+def _name_of_fault(node: Node) -> str:
+    """Return what tells a fault from others: `speed-sensor-stuck-2-3s`."""
+    named = (node.get(key) for key in _NAMED_BY) if isinstance(node, Map) else ()
+    return "-".join(each.text for each in named if isinstance(each, Scalar))

@@ -1,7 +1,9 @@
 """The JSON Schema (draft-07) of a scenario file, for editors."""
 
+from collections.abc import Iterable
 from typing import Any, Final
 
+from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.scenario.model import Scenario
@@ -12,7 +14,9 @@ SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"
 _DEFINITIONS: Final = "#/definitions/"
 
 
-class _Generator(GenerateJsonSchema):
+class SchemaGenerator(GenerateJsonSchema):
+    """Generates schemas of files with quantities."""
+
     def encode_default(self, dft: Any) -> Any:
         """Defaults as a file would write them."""
         return written(dft) if isinstance(dft, Quantity) else super().encode_default(dft)
@@ -20,12 +24,22 @@ class _Generator(GenerateJsonSchema):
 
 def json_schema() -> dict[str, Any]:
     """The schema of ``uictest/scenario/1``, every field described."""
-    schema = Scenario.model_json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=_Generator)
-    definitions = {**schema.pop("$defs"), **_quantity_definitions()}
-    schema = {"$schema": SCHEMA_DRAFT, **schema, "title": "uictest scenario", "definitions": definitions}
+    schema = _schema_2020_of(Scenario, "uictest scenario")
     _loosen(schema)
     draft: dict[str, Any] = as_draft_07(schema)
     return draft
+
+
+def schema_of(model: type[BaseModel], title: str) -> dict[str, Any]:
+    """The schema of another kind of file that holds quantities and parts."""
+    draft: dict[str, Any] = as_draft_07(_schema_2020_of(model, title))
+    return draft
+
+
+def _schema_2020_of(model: type[BaseModel], title: str) -> dict[str, Any]:
+    schema = model.model_json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=SchemaGenerator)
+    definitions = {**schema.pop("$defs"), **quantity_definitions(KINDS)}
+    return {"$schema": SCHEMA_DRAFT, **schema, "title": title, "definitions": definitions}
 
 
 def _loosen(schema: dict[str, Any]) -> None:
@@ -42,11 +56,12 @@ def _loosen(schema: dict[str, Any]) -> None:
         }
 
 
-def _quantity_definitions() -> dict[str, Any]:
+def quantity_definitions(kinds: Iterable[str]) -> dict[str, Any]:
+    """The definitions that a schema refers to for its quantities with a unit, which are of these kinds."""
     return {
-        _definition_name(name): QuantityField(kind).value_or_marked()
-        for name, kind in KINDS.items()
-        if not kind.bare
+        _definition_name(name): QuantityField(KINDS[name]).value_or_marked()
+        for name in kinds
+        if not KINDS[name].bare
     }
 
 

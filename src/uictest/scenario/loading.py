@@ -63,6 +63,15 @@ def load(
     return cases
 
 
+def load_file(path: Path, overrides: Sequence[Override], files: Files) -> list[Case]:
+    """The cases of one scenario file, read by `files`. Raises ScenarioErrors with all errors of it."""
+    loader = _Loader(files, tuple(overrides))
+    cases = list(loader.cases(path, files.at(path)))
+    if loader.diagnostics:
+        raise ScenarioErrors(in_reading_order(loader.diagnostics))
+    return cases
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _ScenarioFile:
     """One scenario file: what its cases share, and the case of every id."""
@@ -183,6 +192,7 @@ def _twice(node: Node, twin: Node) -> str:
 _COMMANDS = {
     "uictest/sweep/1": "a sweep is run with `uictest sweep`",
     "uictest/bench/1": "a bench test is run with `uictest bench`",
+    "uictest/series/1": "a series is in a file that ends in .series.yaml",
 }
 """Schema of another kind of file -> how to run it."""
 

@@ -9,7 +9,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
+from uictest.faults import MOST_FAULTS
 from uictest.physics import LONGEST_DELAY_CYCLES
+from uictest.scenario.compensation_steps import unresolved_air, unresolved_cylinder
+from uictest.scenario.faults import impossible_faults, line_leak, tank_leak
 from uictest.scenario.feasibility import (
     BrakedWheelset,
     braking_force,
@@ -19,7 +22,10 @@ from uictest.scenario.feasibility import (
 from uictest.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.scenario.parts.controller import Controller
 from uictest.scenario.parts.criteria import Criteria
+from uictest.scenario.parts.fault import Fault
 from uictest.scenario.parts.measures import MeasureDefinitions
+from uictest.scenario.parts.repeats import OutcomeOfRepeats, Repeat, seeds_too_large
+from uictest.scenario.parts.requirements import RequirementId, RequirementIds, repeated_requirements
 from uictest.scenario.parts.vehicle import Vehicle
 from uictest.scenario.pole_wheels import impossible_pole_wheels
 from uictest.scenario.sections import Brake, Rail, Rig, Simulation
@@ -37,8 +43,6 @@ from uictest.scenario.yaml import (
 from uictest.units import STANDARD_GRAVITY
 
 SCENARIO_SCHEMA = "uictest/scenario/1"
-SMALLEST_SUM_AT_REST = 1e-12
-"""1 + a1 + a2 + a3 below which rounding moves the gain at rest by more than one part in ten thousand."""
 Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
 
 
@@ -61,6 +65,12 @@ class Scenario(Model):
         description="What the scenario is for.",
     )
     tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select scenarios (-m).")
+    requirements: RequirementIds = Field(
+        default=(), description="Ids of the requirements that the stop verifies."
+    )
+    test_case: RequirementId | None = Field(
+        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+    )
     extends: str | None = Field(
         default=None, description="Relative path of the parent scenario; maps merge, lists replace."
     )
@@ -76,6 +86,11 @@ class Scenario(Model):
     controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = Field(
         description="The WSP controller under test: a library name, a relative path or an inline mapping."
     )
+    faults: tuple[Fault, ...] = Field(
+        default=(),
+        max_length=MOST_FAULTS,
+        description="Faults during the stop; where two act on one number, the later in the list acts last.",
+    )
     criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = Field(
         description="One profile of criteria or a list of them."
     )
@@ -87,6 +102,8 @@ class Scenario(Model):
         description="The expected outcome; fail and invalid are for scenarios that must not pass.",
     )
     seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
+    repeat: Repeat = 1
+    outcome_of_repeats: OutcomeOfRepeats = "all"
     simulation: Simulation = Field(default=Simulation(), description="Step and longest duration.")
     matrix: dict[str, Any] | None = Field(
         default=None,
@@ -104,6 +121,7 @@ class Scenario(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values of different sections that do not fit together."""
+        yield from repeated_requirements(self.requirements)
         steps = self.controller.cycle_time / self.simulation.time_step
         if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
             yield Inconsistency(
@@ -113,8 +131,8 @@ class Scenario(Model):
                 "take a whole part of the cycle, such as 0.5 ms of 10 ms",
             )
         if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "filter":
-            yield from self._unresolved_cylinder()
-        yield from self._unresolved_air()
+            yield from unresolved_cylinder(self)
+        yield from unresolved_air(self)
         yield from self._criteria_of_the_same_name()
         yield from self._delay_too_long()
         if self.tank_volume_with_caliper > 0.0:
@@ -124,6 +142,8 @@ class Scenario(Model):
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
         yield from impossible_pole_wheels(self)
+        yield from seeds_too_large(self.seed, self.repeat)
+        yield from impossible_faults(self)
         yield from self._brake_too_strong()
         shortest = stopping_time_at_least(
             self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
@@ -145,17 +165,21 @@ class Scenario(Model):
     def _step_too_long(self) -> Iterator[Inconsistency]:
         """Yield a step that cannot follow the car on its springs, or the air behind its valves."""
         system = self.brake.system
-        smallest_tank = min(float(system.tank.volume), self.tank_volume_with_caliper)
+        smallest_tank = min(system.tank.volume, self.tank_volume_with_caliper)
         valves = [
             ValveConductances(
-                *(wheelset_value(self, number, f"wsp_valve.{way}_conductance") for way in ("fill", "vent"))
+                wheelset_value(self, number, "wsp_valve.fill_conductance"),
+                wheelset_value(self, number, "wsp_valve.vent_conductance") + tank_leak(self, number),
             )
             for number in WHEELSET_NUMBERS
         ]
         step = self.simulation.time_step
         for key, limit in (
             (("vehicle",), limit_of_vehicle(self.vehicle)),
-            (("brake", "system"), limit_of_air(system, self.rig.caliper, smallest_tank, valves)),
+            (
+                ("brake", "system"),
+                limit_of_air(system, self.rig.caliper, smallest_tank, valves, line_leak(self)),
+            ),
         ):
             if step > limit.longest:
                 yield Inconsistency(
@@ -214,50 +238,6 @@ class Scenario(Model):
             f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
             f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
         )
-
-    def _unresolved_cylinder(self) -> Iterator[Inconsistency]:
-        """Yield a step at which double precision cannot hold the gain at rest of the cylinder dynamics.
-
-        The gain is a quotient of sums that shrink with the third power of the step.
-        """
-        model = self.rig.compensation_model
-        shrink = (self.simulation.time_step / model.sampling_time) ** 3
-        sum_at_rest = shrink * (1.0 + math.fsum(model.cylinder.denominator))
-        if sum_at_rest < SMALLEST_SUM_AT_REST:
-            yield Inconsistency(
-                ("simulation", "time_step"),
-                f"{self.simulation.time_step.text} is too short for the cylinder dynamics identified at"
-                f" {model.sampling_time.text}: double precision cannot hold their gain at rest",
-                "take a longer step or rig.compensation: none",
-            )
-
-    def _unresolved_air(self) -> Iterator[Inconsistency]:
-        """Yield modelled air that a step would overheat, and a piston that sweeps a whole tank.
-
-        What flows from the wall within a step must stay below what air of atmospheric pressure can hold.
-        """
-        model, system = self.rig.compensation_model.air, self.brake.system
-        warmed = self.simulation.time_step * system.air.temperature * (system.air.heat_capacity_ratio - 1.0)
-        at_rest = system.tank.volume - model.swept_volume
-        largest = max(system.air.atmospheric_pressure * at_rest / warmed, 0.0)
-        for key, conductance in (
-            ("tank_heat_conductance", model.tank_heat_conductance),
-            ("caliper_heat_conductance", model.caliper_heat_conductance),
-        ):
-            if conductance > largest:
-                yield Inconsistency(
-                    ("rig", "compensation_model", "air", key),
-                    f"{conductance.text} is too much for {system.tank.volume.text} of air and steps of"
-                    f" {self.simulation.time_step.text}",
-                    f"at most {largest:.3g} W/K are accepted",
-                )
-        if model.swept_volume >= system.tank.volume:
-            yield Inconsistency(
-                ("rig", "compensation_model", "air", "swept_volume"),
-                f"a piston that sweeps {model.swept_volume.text} leaves no air in a tank of"
-                f" {system.tank.volume.text}",
-                "it must be below brake.system.tank.volume",
-            )
 
     @property
     def tank_volume_with_caliper(self) -> float:

@@ -54,6 +54,11 @@ class Brake(Model):
     )
 
     @property
+    def commanded_pressure(self) -> float:
+        """Pressure of the brake line once the brake is fully applied, gauge, Pa."""
+        return self.command * self.system.positions[self.position].maximum_pressure
+
+    @property
     def models_disc_temperature(self) -> bool:
         """Whether the temperature of the discs is modelled."""
         if self.disc_temperature is None:

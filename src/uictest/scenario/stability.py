@@ -34,7 +34,7 @@ class StepLimit(NamedTuple):
 
 
 class ValveConductances(NamedTuple):
-    """Sonic conductances of the WSP valve of a wheelset, m3/(s Pa)."""
+    """Sonic conductances into a tank and out of it, through its WSP valve and its leaks, m3/(s Pa)."""
 
     fill: float
     vent: float
@@ -52,7 +52,11 @@ def limit_of_vehicle(vehicle: Vehicle) -> StepLimit:
 
 
 def limit_of_air(
-    system: BrakeSystem, caliper: Caliper, smallest_tank: float, valves: Sequence[ValveConductances]
+    system: BrakeSystem,
+    caliper: Caliper,
+    smallest_tank: float,
+    valves: Sequence[ValveConductances],
+    line_leak: float = 0.0,
 ) -> StepLimit:
     """Return the longest step with which no pressure swings from step to step, and the air that limits it.
 
@@ -65,12 +69,14 @@ def limit_of_air(
         caliper: the caliper whose piston moves the air of its module.
         smallest_tank: smallest volume of air in a module, m3.
         valves: the WSP valves of all wheelsets.
+        line_leak: sonic conductance of the leaks of the brake line, m3/(s Pa).
     """
-    return min((*_vessels(system, smallest_tank, valves), _piston(system, caliper, smallest_tank)))
+    vessels = _vessels(system, smallest_tank, valves, line_leak)
+    return min((*vessels, _piston(system, caliper, smallest_tank)))
 
 
 def _vessels(
-    system: BrakeSystem, smallest_tank: float, valves: Sequence[ValveConductances]
+    system: BrakeSystem, smallest_tank: float, valves: Sequence[ValveConductances], line_leak: float
 ) -> Iterator[StepLimit]:
     relay = system.relay_valve
     steepest = orifice_law(float(system.critical_pressure_ratio), float(system.laminar_pressure_ratio))[2]
@@ -86,7 +92,7 @@ def _vessels(
         ),
         (
             system.brake_line.volume,
-            math.fsum(valve.fill for valve in valves) * steepest + through_relay,
+            (sum(valve.fill for valve in valves) + line_leak) * steepest + through_relay,
             "the air in the brake line",
             "brake_line.volume, relay_valve and wsp_valve.fill_conductance",
         ),
@@ -103,7 +109,7 @@ def _vessels(
 def _stiffness_of_air(system: BrakeSystem) -> float:
     """Adiabatic change of p V per mass of air, kappa R T in J/kg."""
     air = system.air
-    return float(air.heat_capacity_ratio * air.gas_constant * air.temperature)
+    return air.heat_capacity_ratio * air.gas_constant * air.temperature
 
 
 def _piston(system: BrakeSystem, caliper: Caliper, smallest_tank: float) -> StepLimit:
@@ -121,7 +127,8 @@ def _piston(system: BrakeSystem, caliper: Caliper, smallest_tank: float) -> Step
 
 
 def _stable_step(mass: float, stiffness: float, damping: float) -> float:
-    return (math.sqrt(damping**2 + 2.0 * stiffness * mass) - damping) / stiffness
+    root: float = (damping**2 + 2.0 * stiffness * mass) ** 0.5  # unlike `math.sqrt`, of an ensemble as well
+    return (root - damping) / stiffness
 
 
 _Coupling = tuple[float, float]
@@ -138,26 +145,26 @@ def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
         _SECONDARIES * secondary.longitudinal_damping,
     )
     side_lift = (_SECONDARIES * secondary.vertical_stiffness, _SECONDARIES * secondary.vertical_damping)
-    rod = (float(link.stiffness), float(link.damping))
+    rod = (link.stiffness, link.damping)
 
     def pitch(height: float) -> list[tuple[float, _Coupling]]:
         return [((secondary.height - height) ** 2, side_pull), ((link.height - height) ** 2, rod)]
 
     on_axles = max((bogie.height - radius) ** 2 for radius in vehicle.wheel_radii)
     return [
-        ("a wheelset on its primary suspension", float(wheelset.mass), pull),
-        ("the longitudinal motion", float(bogie.mass), _sum((2.0, pull), (1.0, side_pull), (1.0, rod))),
-        ("the bounce of a bogie", float(bogie.mass), _sum((2.0, lift), (1.0, side_lift))),
+        ("a wheelset on its primary suspension", wheelset.mass, pull),
+        ("the longitudinal motion", bogie.mass, _sum((2.0, pull), (1.0, side_pull), (1.0, rod))),
+        ("the bounce of a bogie", bogie.mass, _sum((2.0, lift), (1.0, side_lift))),
         (
             "the pitch of a bogie",
-            float(bogie.pitch_inertia),
+            bogie.pitch_inertia,
             _sum((2.0 * on_axles, pull), (2.0 * bogie.half_wheelbase**2, lift), *pitch(bogie.height)),
         ),
-        ("the longitudinal motion", float(body.mass), _sum((2.0, side_pull), (2.0, rod))),
-        ("the bounce of the body", float(body.mass), _sum((2.0, side_lift))),
+        ("the longitudinal motion", body.mass, _sum((2.0, side_pull), (2.0, rod))),
+        ("the bounce of the body", body.mass, _sum((2.0, side_lift))),
         (
             "the pitch of the body",
-            float(body.pitch_inertia),
+            body.pitch_inertia,
             _sum((2.0 * vehicle.half_pivot_distance**2, side_lift), *pitch(body.height), *pitch(body.height)),
         ),
     ]

@@ -13,11 +13,12 @@ Value = Quantity | str | int | float
 DESCRIPTIVE: Final = frozenset(
     {
         *("schema_id", "id", "name", "title", "description", "tags", "extends"),
-        *("sources", "source", "clause", "provenance"),
-        *("matrix", "zip", "include", "exclude", "expect"),
+        *("sources", "source", "clause", "scope", "provenance"),
+        *("requirements", "test_case"),
+        *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats"),
     }
 )
-"""Fields that a stop cannot depend on: names, sources and expectations."""
+"""Fields that a stop cannot depend on: names, sources, expectations and repeats."""
 
 
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:

@@ -29,7 +29,7 @@ class Rig:
         print(rig.result().outcome)
 
     The controller that the scenario names plays no part, but its cycle time holds. With `rig.wsp: bypassed`
-    the valves fill whatever is commanded.
+    the valves fill whatever is commanded. Nor does `repeat`: `reset(seed=...)` begins each further stop.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 from .plan.controllers import programs_of as programs_of
 from .plan.decimal_quantity import parse_decimal_quantity as parse_decimal_quantity
 from .plan.definition import load_sweep as load_sweep
-from .plan.nominal import drawn_ranges as drawn_ranges
+from .plan.nominal import drawn_ranges as drawn_ranges, nominal_plan as nominal_plan
 from .plan.plan import Plan as Plan
 from .plan.schema import sweep_schema as sweep_schema
 from .running.case_selection import CaseSelection as CaseSelection, select_cases as select_cases

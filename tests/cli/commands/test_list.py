@@ -59,3 +59,112 @@ def test_described_cases_keep_to_a_terminal_and_their_ids_stay_whole(
     table = [line for line in call("list", "-v").out.splitlines() if not line.startswith("not shown")]
     assert max(map(len, table)) <= int(columns)
     assert "slide-80-four-caliper" in "".join(re.split("  +", line)[0] for line in table[1:])
+
+
+OWN = """\
+criteria:
+  name: own
+  criteria:
+    - id: short
+      layer: requirement
+      measure: braking_distance
+      upper: 900 m
+      requirements: [BR-2]
+"""
+
+
+def test_requirements_are_listed_with_what_verifies_them(call: Call, scenario: Write) -> None:
+    scenario("a", "requirements: [BR-10, BR-2]\nmatrix:\n  brake.command: [80 %, 90 %]\n" + OWN)
+    scenario("b", OWN)
+    answer = call("list", "--requirements")
+    assert answer.out == (
+        "covered\tBR-2\tscenario a (2 cases); criterion short of own (3 cases)\n"
+        "covered\tBR-10\tscenario a (2 cases)\n"
+    )
+    assert (answer.code, answer.err) == (0, "uictest: 2 requirements: 2 covered\n")
+
+
+def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know(
+    call: Call, scenario: Write, workplace: Path
+) -> None:
+    scenario("a", "requirements: [BR-1, BR-X]\n")
+    (workplace / "all.txt").write_text("BR-1\nBR-2\n")
+    answer = call("list", "--requirements", "--requirement-list", "all.txt")
+    assert answer.out.splitlines() == [
+        "covered\tBR-1\tscenario a (1 case)",
+        "uncovered\tBR-2\t",
+        "unknown\tBR-X\tscenario a (1 case)",
+    ]
+    assert (answer.code, answer.err) == (0, "uictest: 3 requirements: 1 covered, 1 uncovered, 1 unknown\n")
+
+
+@pytest.mark.parametrize(("listed", "code"), [("BR-1\nBR-2\n", 1), ("BR-1\n", 0)])
+def test_an_uncovered_requirement_can_fail(
+    call: Call, scenario: Write, workplace: Path, listed: str, code: int
+) -> None:
+    scenario("a", "requirements: [BR-1, BR-X]\n")
+    (workplace / "all.txt").write_text(listed)
+    answer = call("list", "--requirements", "--requirement-list", "all.txt", "--fail-uncovered")
+    assert answer.code == code
+
+
+def test_requirements_as_json(call: Call, scenario: Write) -> None:
+    scenario("a", "requirements: [BR-1]\n" + OWN)
+    of_scenario = {"scenario": "a", "cases": ["a"], "series_ids": []}
+    of_criterion = {"criterion": "short", "profile": "own", "cases": ["a"], "series_ids": []}
+    assert json.loads(call("list", "--requirements", "--format", "json").out) == [
+        {"id": "BR-1", "status": "covered", "verified_by": [of_scenario]},
+        {"id": "BR-2", "status": "covered", "verified_by": [of_criterion]},
+    ]
+
+
+def test_requirements_of_selected_cases_only(call: Call, scenario: Write) -> None:
+    scenario("a", "requirements: [BR-1]\ntags: [wet]\n")
+    scenario("b", "requirements: [BR-2]\n")
+    assert call("list", "--requirements", "-m", "wet").out == "covered\tBR-1\tscenario a (1 case)\n"
+
+
+def test_requirements_of_the_scenario_of_a_sweep(call: Call, scenario: Write, workplace: Path) -> None:
+    scenario("a", "requirements: [BR-1]\n")
+    text = (
+        "schema: uictest/sweep/1\nname: s\nscenario: scenarios/a.yaml\ngrid: {brake.command: [80 %, 90 %]}\n"
+    )
+    (workplace / "s.sweep.yaml").write_text(text)
+    assert call("list", "s.sweep.yaml", "--requirements").out == "covered\tBR-1\tscenario a (1 case)\n"
+
+
+def test_no_requirement_at_all(call: Call, scenario: Write) -> None:
+    scenario("a")
+    answer = call("list", "--requirements")
+    assert (answer.code, answer.out) == (0, "")
+    assert answer.err == "uictest: no scenario, series or criterion names a requirement\n"
+
+
+def test_a_list_that_cannot_be_read_exits_4_and_names_the_line(
+    call: Call, scenario: Write, workplace: Path
+) -> None:
+    scenario("a")
+    (workplace / "all.txt").write_text("BR-1\nBR 2\n")
+    answer = call("list", "--requirements", "--requirement-list", "all.txt")
+    assert answer.code == 4
+    assert answer.err.startswith("all.txt:2:1: 'BR 2' is not the id of a requirement")
+
+
+@pytest.mark.parametrize("option", [["--requirement-list", "all.txt"], ["--fail-uncovered"]])
+def test_options_of_requirements_need_the_word(call: Call, scenario: Write, option: list[str]) -> None:
+    scenario("a")
+    answer = call("list", *option)
+    assert answer.code == 4
+    assert "add --requirements" in answer.err
+
+
+@pytest.mark.parametrize("columns", ["40", "80"])
+def test_requirements_keep_to_a_terminal(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    scenario("slide-80-four-caliper", "requirements: [BR-WSP-AUTHORITY-12, BR-1]\n" + OWN)
+    width = "uictest.cli.requirement_listing.terminal_width"
+    monkeypatch.setattr(width, lambda stream: int(columns))
+    lines = call("list", "--requirements").out.splitlines()
+    assert max(len(line) for line in lines if not line.startswith("not shown")) <= int(columns)
+    assert lines[0].split()[0] == "status"

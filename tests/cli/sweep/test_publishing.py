@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import html
+import json
 import re
 import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pyarrow.parquet as pq
 import pytest
+import yaml
 
 Call = Callable[..., Any]
 FOLDER = Path("reports/pads")
@@ -136,3 +139,67 @@ def test_a_case_that_cannot_be_simulated_is_named_and_not_drawn(call: Call, pads
     html = (FOLDER / "index.html").read_text()
     assert 'class="word word-odd"' in html
     assert html.count('<details class="stop"') == 3
+
+
+K_DRY = """\
+schema: uictest/sweep/1
+name: pads
+scenario: scenarios/stop.yaml
+sample:
+  size: 32
+  parameters:
+    brake.system.disc.pad_friction: {uniform: [0.36, 0.40]}
+k_dry: {measure: mean_deceleration}
+"""
+
+
+@pytest.fixture
+def k_dry(scenario: Callable[..., Path]) -> Path:
+    """A sweep of 32 stops on dry rail for K_dry."""
+    scenario("stop", "rail: {condition: dry}\n")
+    Path("pads.sweep.yaml").write_text(K_DRY)
+    return Path("pads.sweep.yaml")
+
+
+def test_k_dry_is_a_share_of_the_stop_with_the_values_of_the_scenario(call: Call, k_dry: Path) -> None:
+    call("sweep", k_dry)
+    (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
+    answer = call("run", "scenarios/stop.yaml", "--report", "csv", "-o", "alone", "--format", "json")
+    (case,) = json.loads(answer.out)["cases"]
+    assert table["nominal_mps2"] == case["measures"]["mean_deceleration_mps2"]
+    assert table["nominal_from"] == "nominal case"
+    draws = sorted(pq.read_table(FOLDER / "summary.parquet")["mean_deceleration_mps2"].to_pylist())
+    # Of 32 draws the smallest bounds 10 %, and the eleventh 50 %, with 95 % confidence.
+    factors = [level["k_dry"] for level in table["levels"][:3]]
+    assert factors == [draws[10] / table["nominal_mps2"], draws[0] / table["nominal_mps2"], None]
+
+
+def test_shards_and_an_interrupted_sweep_give_the_same_k_dry(call: Call, k_dry: Path) -> None:
+    call("sweep", k_dry, "-o", "whole")
+    whole = Path("whole/pads/k_dry.yaml").read_text()
+    for number in (1, 2):
+        call("sweep", k_dry, "--shard", f"{number}/2", "-o", f"shard{number}")
+    call("sweep", k_dry, "-o", "merged", "--merge", "shard1/pads", "--merge", "shard2/pads")
+    assert Path("merged/pads/k_dry.yaml").read_text() == whole
+    next(iter(sorted(Path("whole/pads/chunks").iterdir()))).unlink()
+    assert "16 of 32 cases are already finished" in call("sweep", k_dry, "-o", "whole").err
+    assert Path("whole/pads/k_dry.yaml").read_text() == whole
+
+
+def test_a_nominal_case_without_a_deceleration_is_named(call: Call, k_dry: Path) -> None:
+    call("sweep", k_dry, "--set", "simulation.maximum_duration=2 s")
+    (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
+    assert table["nominal_mps2"] is None
+    assert table["draws_without_value"] == 32
+    assert {level["k_dry"] for level in table["levels"]} == {None}
+    notes = json.loads((FOLDER / "sweep.json").read_text())["notes"]
+    assert any("no K_dry: the nominal case pads[pad_friction=nominal] has no mean" in note for note in notes)
+
+
+def test_check_warns_of_a_range_beside_the_nominal(call: Call, k_dry: Path) -> None:
+    k_dry.write_text(K_DRY.replace("0.36", "0.39"))
+    warning = call("check", k_dry).err
+    assert "pad_friction: the scenario's own 0.38 lies OUTSIDE the range 0.39 .. 0.4" in warning
+    assert "K_dry is a share of a stop that is never drawn" in warning
+    k_dry.write_text(K_DRY.replace("0.36", "0.39").replace("deceleration}", "deceleration, nominal: 1 m/s2}"))
+    assert "OUTSIDE" not in call("check", k_dry).err

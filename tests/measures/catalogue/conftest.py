@@ -33,6 +33,12 @@ def _stop(**changes: Any) -> Any:
         "sliding_time": np.nan,
         "speed_after_sliding": np.nan,
         "reservoir_minimum_pressure": 7.2e5,
+        "reservoir_margin": 3.4e5,
+        "build_up_time": 0.5,
+        "build_up_distance": 16.7,
+        "adhesion_utilisation": np.nan,
+        "deceleration_bogie_1": 0.6,
+        "deceleration_bogie_2": 0.59,
         "air_consumed": 0.1185,
         "energy_residual": 2e-8,
         "air_residual": -3e-14,
@@ -44,7 +50,8 @@ def _stop(**changes: Any) -> Any:
 def _sliding_stop(deceleration: float = 0.07 * G, **changes: Any) -> Any:
     """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2)."""
     speed = 33.0 - deceleration * np.arange(11.0)
-    return _stop(**{"sliding_time": 1.0, "speed_after_sliding": speed, **changes})
+    slid = {"sliding_time": 1.0, "speed_after_sliding": speed, "adhesion_utilisation": 0.8}
+    return _stop(**{**slid, **changes})
 
 
 def _wheelsets(*slides: float, **changes: Any) -> Any:

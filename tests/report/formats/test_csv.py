@@ -5,7 +5,8 @@ import io
 from collections.abc import Callable
 
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report.formats.csv import criteria_csv, summary_csv, wheelsets_csv
+from uictest.report import RunContent
+from uictest.report.formats.csv import FORMAT, criteria_csv, requirements_csv, summary_csv, wheelsets_csv
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
@@ -77,3 +78,28 @@ def test_hostile_text_stays_in_its_cell_and_is_no_formula(make_result: MakeResul
     assert row["id"] == "'=1+1"
     assert row["reason"].startswith("'=")
     assert all(cell.isprintable() for cell in row.values())
+
+
+def test_requirements_have_a_column_and_a_table_of_their_own(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    verdict = make_verdict(requirements=("BR-2", "BR-1"))
+    named = make_result(id="a", test_case="TC-1", requirements=("BR-10", "BR-9"), criteria=(verdict,))
+    (row,) = _rows(summary_csv([named]))
+    assert (row["test_case"], row["requirements"]) == ("TC-1", "BR-10; BR-9")
+    assert [row["requirements"] for row in _rows(criteria_csv([named]))] == ["BR-2; BR-1"]
+    rows = _rows(requirements_csv([named]))
+    assert [
+        (row["requirement"], row["status"], row["id"], row["verdict"], row["criteria"]) for row in rows
+    ] == [
+        ("BR-1", "met", "a", "pass", "braking-distance"),
+        ("BR-2", "met", "a", "pass", "braking-distance"),
+        ("BR-9", "met", "a", "pass", ""),
+        ("BR-10", "met", "a", "pass", ""),
+    ]
+
+
+def test_without_requirements_there_is_no_table_of_them(
+    make_result: MakeResult, make_content: Callable[..., RunContent]
+) -> None:
+    assert set(FORMAT.files(make_content(make_result()))) == {"summary.csv", "wheelsets.csv", "criteria.csv"}

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from xml.etree import ElementTree
 
 import pytest
 
-from uictest.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report.formats.junit import junit_xml
+from uictest.evaluation import CaseResult, EffectivePart, Parameter, Verdict
+from uictest.report import RunContent
+from uictest.report.formats.junit import FORMAT, junit_xml
 
 MakeResult = Callable[..., CaseResult]
 
@@ -42,13 +43,17 @@ CHILDREN = {
 TIME = re.compile(r"(([0-9]{0,3},)*[0-9]{3}|[0-9]{0,3})*(\.[0-9]*)?")
 
 
-def _check(element: ElementTree.Element) -> None:
+WITH_TEST_PROPERTIES = CHILDREN | {"testcase": CHILDREN["testcase"] | {"properties"}}
+"""The one thing in which `junit-properties.xml` goes beyond that schema."""
+
+
+def _check(element: ElementTree.Element, children: Mapping[str, set[str]] = CHILDREN) -> None:
     assert set(element.attrib) <= ATTRIBUTES[element.tag]
     assert set(element.attrib) >= REQUIRED.get(element.tag, set())
     assert TIME.fullmatch(element.get("time", ""))
-    assert {child.tag for child in element} <= CHILDREN.get(element.tag, set())
+    assert {child.tag for child in element} <= children.get(element.tag, set())
     for child in element:
-        _check(child)
+        _check(child, children)
 
 
 def _controller(name: str, **facts: str) -> EffectivePart:
@@ -62,8 +67,10 @@ def results(make_result: MakeResult, hostile: str) -> list[CaseResult]:
     ordinary = [make_result(id=outcome, outcome=outcome, duration=1234.5) for outcome in outcomes]
     bad = {"outcome": "error", "criteria": (), "reason": hostile, "scenario": f"a/{hostile}.yaml"}
     foreign = {"controller": _controller(hostile, library=hostile, version=hostile, sha256="0" * 64)}
+    named = make_result(id="named", test_case="TC-7", requirements=("BR-1",), outcome="fail")
     return [
         *ordinary,
+        named,
         make_result(id=hostile, **bad, parts=foreign),
         make_result(id="x" * 5000, **bad),
     ]
@@ -71,6 +78,77 @@ def results(make_result: MakeResult, hostile: str) -> list[CaseResult]:
 
 def test_every_element_is_as_jenkins_wants_it(results: list[CaseResult]) -> None:
     _check(ElementTree.fromstring(junit_xml(results)))
+
+
+def test_the_file_with_test_properties_is_the_other_one_with_nothing_but_these(
+    results: list[CaseResult],
+) -> None:
+    root = ElementTree.fromstring(junit_xml(results, test_properties=True))
+    _check(root, WITH_TEST_PROPERTIES)
+    for testcase in root.iter("testcase"):
+        for properties in testcase.findall("properties"):
+            testcase.remove(properties)
+    ElementTree.indent(root)
+    other = ElementTree.fromstring(junit_xml(results))
+    ElementTree.indent(other)
+    assert ElementTree.tostring(root) == ElementTree.tostring(other)
+
+
+def _test_properties(text: str) -> dict[str, list[tuple[str, str]]]:
+    """What importers see: the `property` elements right below `testcase/properties`."""
+    return {
+        testcase.attrib["name"]: [
+            (each.attrib["name"], each.attrib["value"]) for each in testcase.findall("properties/property")
+        ]
+        for testcase in ElementTree.fromstring(text).iter("testcase")
+    }
+
+
+def test_polarion_and_xray_find_the_test_case_and_xray_the_requirements(
+    make_result: MakeResult, make_verdict: Callable[..., Verdict]
+) -> None:
+    """Names: Polarion's xUnit importer; Xray, "Import Execution Results", a comma list of requirements."""
+    criteria = (make_verdict(requirements=("BR-2", "BR-1")),)
+    results = [
+        make_result(id="both", outcome="fail", test_case="WSP-7", requirements=("BR-1",), criteria=criteria),
+        make_result(id="requirements", requirements=("BR-10", "BR-9")),
+        make_result(id="test-case", test_case="WSP-8"),
+        make_result(id="neither"),
+    ]
+    assert _test_properties(junit_xml(results, test_properties=True)) == {
+        "both": [("polarion-testcase-id", "WSP-7"), ("test_key", "WSP-7"), ("requirements", "BR-1,BR-2")],
+        "requirements": [("requirements", "BR-10,BR-9")],
+        "test-case": [("polarion-testcase-id", "WSP-8"), ("test_key", "WSP-8")],
+        "neither": [],
+    }
+    first = ElementTree.fromstring(junit_xml(results, test_properties=True)).findall("testsuite/testcase")[0]
+    assert first[0].tag == "properties"  # where pytest writes them
+    assert not any(_test_properties(junit_xml(results)).values())
+    suite = ElementTree.fromstring(junit_xml(results)).find("testsuite/properties/property")
+    assert suite is not None
+    assert suite.attrib == {"name": "requirements", "value": "BR-1,BR-2,BR-9,BR-10"}
+
+
+def test_junitparser_reads_the_test_properties(make_result: MakeResult) -> None:
+    junitparser = pytest.importorskip("junitparser")
+    text = junit_xml([make_result(test_case="WSP-7", requirements=("BR-1",))], test_properties=True)
+    ((testcase,),) = junitparser.JUnitXml.fromfile(io.StringIO(text.partition("\n")[2]))
+    found = {
+        each.name: each.value
+        for properties in testcase.iterchildren(junitparser.Properties)
+        for each in properties
+    }
+    assert found == {"polarion-testcase-id": "WSP-7", "test_key": "WSP-7", "requirements": "BR-1"}
+
+
+def test_the_second_file_is_there_only_where_an_importer_finds_something_in_it(
+    make_result: MakeResult, make_content: Callable[..., RunContent]
+) -> None:
+    def files(**changes: object) -> set[str]:
+        return set(FORMAT.files(make_content(make_result(**changes))))
+
+    assert files() == {"junit.xml"}
+    assert files(test_case="TC-1") == files(requirements=("BR-1",)) == {"junit.xml", "junit-properties.xml"}
 
 
 def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_is(
@@ -115,7 +193,7 @@ def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> N
     junitparser = pytest.importorskip("junitparser")
     suites = list(junitparser.JUnitXml.fromfile(io.StringIO(junit_xml(results).partition("\n")[2])))
     counts = [(suite.tests, suite.failures, suite.errors, suite.skipped) for suite in suites]
-    assert counts == [(6, 2, 2, 1), (1, 0, 1, 0)]
+    assert counts == [(7, 3, 2, 1), (1, 0, 1, 0)]
     found = {case.name: case for suite in suites for case in suite}
     assert found["pass"].is_passed
     assert found["fail"].is_failure

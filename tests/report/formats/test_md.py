@@ -94,3 +94,18 @@ def test_without_github_nothing_is_written(
     monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
     append_step_summary(make_content(make_result()))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_requirements_that_are_not_met_come_first_and_name_the_case(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    results = [
+        make_result(id="a", requirements=("BR-1", "BR-2")),
+        make_result(id="b", requirements=("BR-2",), outcome="fail"),
+    ]
+    lines = markdown_summary(make_content(*results)).splitlines()
+    assert [line for line in lines if line.startswith("| `BR-")] == [
+        "| `BR-2` | **not met** | 2 | b (fail) |",
+        "| `BR-1` | met | 1 |  |",
+    ]
+    assert "requirement" not in markdown_summary(make_content(make_result()))

@@ -83,3 +83,24 @@ def test_no_number_is_an_empty_cell_and_a_failed_case_a_row(
 
 def _cells(workbook: Any) -> Sequence[Any]:
     return [cell for sheet in workbook for row in sheet.iter_rows() for cell in row]
+
+
+def test_requirements_are_a_matrix_over_the_cases(
+    make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    own = make_verdict(id="own", layer="requirement", status="fail", requirements=("BR-2",))
+    results = [
+        make_result(id="a", requirements=("BR-1",)),
+        make_result(id="b", requirements=("BR-1",), outcome="fail", criteria=(own,)),
+        make_result(id="c"),
+    ]
+    workbook = _read(make_content(*results))
+    assert "Requirements" in workbook.sheetnames
+    assert _table(workbook["Requirements"]) == [
+        {"requirement id": "BR-1", "overall status": "not met", "tested in": 2, "not met in": 1}
+        | {"a": "pass", "b": "fail"},
+        {"requirement id": "BR-2", "overall status": "not met", "tested in": 1, "not met in": 1}
+        | {"a": None, "b": "fail"},
+    ]
+    coloured = {str(each.sqref) for each in workbook["Requirements"].conditional_formatting}
+    assert coloured == {"B2:B3", "E2:F3"}

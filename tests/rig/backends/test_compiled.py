@@ -9,10 +9,10 @@ import pytest
 
 from uictest.controllers import CONTROLLERS, Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.physics.arithmetic import maximum
+from uictest.physics.arithmetic import exp, maximum
 from uictest.physics.flow import mass_flow, orifice_law
 from uictest.rig import StopInputs
-from uictest.rig.backends.compiled import sources, translate, with_controller
+from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controller
 from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
@@ -23,6 +23,17 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
+FAULTS = (
+    "[{at: 0.3 s, until: 0.8 s, wheelset: 1, part: speed-sensor, kind: lost},"
+    " {at: 29 km/h, wheelset: 2, part: speed-sensor, kind: stuck},"
+    " {at: 2 m, wheelset: 3, part: speed-sensor, kind: missing-teeth, value: 5},"
+    " {at: 0.2 s, wheelset: 4, part: speed-sensor, kind: jumps, value: 20 km/h},"
+    " {at: 0 s, until: 1 s, wheelset: 1, part: tank, kind: leak, value: 1e-8 m3/(s Pa)},"
+    " {at: 0.1 s, part: brake-line, kind: leak, value: 2e-8 m3/(s Pa)},"
+    " {at: 0.2 s, until: 0.9 s, wheelset: 3, part: vent-magnet, kind: shorted},"
+    " {at: 0.5 s, until: 0.7 s, part: controller, kind: silent, value: 100 ms}]"
+)
+"""Speed, distance and time, sensors, valves, leaks and silence."""
 # Each setting takes other ways through the code, within few steps.
 SETTINGS = {
     "standstill on a dry rail": (
@@ -66,6 +77,13 @@ SETTINGS = {
     "wheelsets that follow on a rail that is cleaned": (
         ("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.005"),
         {**QUICK_BRAKE, "cycles": 60},
+    ),
+    "faults of every part, each for a while": (
+        (
+            *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
+            f"faults={FAULTS}",
+        ),
+        {**QUICK_BRAKE, "cycles": 150},
     ),
 }
 
@@ -114,7 +132,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
 def test_the_settings_reach_what_they_say(rig: Any) -> None:
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, counted, fading, blocks, downhill, cleaned = ends.values()
+    standstill, slides, band, air, counted, fading, blocks, downhill, cleaned, faulty = ends.values()
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -123,13 +141,17 @@ def test_the_settings_reach_what_they_say(rig: Any) -> None:
     assert air.wheelsets["modelled_travel"].max() == 1.0
     assert abs(air.wheelsets["pressure_ratio"][1:] - 1.0).min() > 1e-4
     assert counted.wheelset_measures.valve_actuations.any()
-    assert counted.wheelsets["counted_teeth"].min() > 10.0
+    assert counted.wheelsets["last_tooth"].min() > 10.0
     for pads in (fading, blocks):
         assert 0.005 < abs(pads.wheelsets["pad_friction"] - 0.38).min() < 0.2
     assert (fading.wheelset_measures.maximum_disc_temperature > 473.2).all()
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase
+    assert faulty.car.begun_faults == 0b1111_1111
+    assert faulty.car.ended_faults == 0b1101_0001
+    assert faulty.car.leaked_air > 0.0
+    assert (faulty.wheelset_measures.faulty == 1.0).all()
     used = {rig.inputs(*overrides).controller.name for overrides, _ in SETTINGS.values()}
     assert used == CONTROLLERS.keys()
 
@@ -200,7 +222,7 @@ def test_threads_do_not_disturb_each_other(rig: Any) -> None:
 
 def test_seed_and_case_change_the_noise_and_nothing_else_does(rig: Any) -> None:
     speeds = [
-        rig.columns(*SLIDING, f"seed={seed}", case_key=key)["measured_speed"][1]
+        rig.columns(*SLIDING, f"seed={seed}", noise_key=key)["measured_speed"][1]
         for seed, key in ((0, 1), (0, 1), (1, 1), (0, 2))
     ]
     assert speeds[0].tobytes() == speeds[1].tobytes()
@@ -230,3 +252,9 @@ def test_translation_replaces_what_it_is_told_to_replace() -> None:
     """With a larger maximum the pressure upstream is larger, and so is the flow."""
     copy = translate(mass_flow, lambda function: function, {maximum: lambda a, b: 2.0 * max(a, b)})
     assert copy(*THROUGH_AN_ORIFICE) > mass_flow(*THROUGH_AN_ORIFICE)
+
+
+def test_a_translation_leaves_nothing_behind_for_the_next() -> None:
+    operations = compiled_operations()
+    assert translate(exp, lambda function: function, operations) is operations[exp]
+    assert exp not in compiled_operations()

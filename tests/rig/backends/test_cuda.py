@@ -95,6 +95,11 @@ def printed(program: str, *arguments: str) -> list[Any]:
 
 
 CLEANED = "rail.cleaning={energy: 1 J/m, recovered_friction: 0.28, reach: 1 mm, carry_over: 1}"
+FAULTS = (
+    "faults=[{at: 0 s, wheelset: 1, part: speed-sensor, kind: jumps, value: 20 km/h},"
+    " {at: 0 s, part: brake-line, kind: leak, value: 2e-8 m3/(s Pa)},"
+    " {at: 0 s, part: controller, kind: silent}, {at: 0 s, wheelset: 3, part: vent-magnet, kind: shorted}]"
+)
 
 
 @pytest.mark.parametrize(
@@ -105,6 +110,7 @@ CLEANED = "rail.cleaning={energy: 1 J/m, recovered_friction: 0.28, reach: 1 mm, 
         ["rig.compensation=full", "rig.sensors=pole-wheel", "vehicle.wheelsets.2.wheel_radius=0.42 m"],
         ["rig.compensation=none", CLEANED],
         ["brake.pad=disc-pad"],
+        [FAULTS],
     ],
 )
 def test_the_kernel_gives_the_bits_of_plain_python(overrides: list[str]) -> None:

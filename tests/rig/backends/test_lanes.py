@@ -30,6 +30,19 @@ UNALIKE = (
     " 3: {pad_friction: 0.3, caliper: {load_friction: 9 %}, sensors: {pressure: {offset: 0.1 bar}}},"
     " 4: {caliper: {coulomb_friction: 200 N}, sensors: {loadcell: {gain_error: -3 %}}}}"
 )
+FAULTS = (
+    "faults=[{at: 0.4 s, wheelset: 2, part: speed-sensor, kind: stuck},"
+    " {at: 8 km/h, until: 6 km/h, wheelset: 1, part: speed-sensor, kind: drop-out, value: 30 %},"
+    " {at: 1 m, wheelset: 3, part: vent-valve, kind: blocked, value: 60 %},"
+    " {at: 1 s, wheelset: 4, part: wsp-valve, kind: slow, value: 100 ms}]"
+)
+LEAKS = (
+    "faults=[{at: 0.5 s, until: 2 s, wheelset: 2, part: tank, kind: leak, value: 1e-8 m3/(s Pa)},"
+    " {at: 1 s, part: brake-line, kind: leak, value: 2e-8 m3/(s Pa)},"
+    " {at: 1 s, until: 2 s, part: controller, kind: silent, value: 500 ms},"
+    " {at: 1 s, wheelset: 3, part: brake, kind: cut-out}]"
+)
+TEETH = "faults=[{at: 1 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 3}]"
 CLEANED = "rail.condition=wet-cleaning"
 VARIANTS: tuple[tuple[str, ...], ...] = (
     (),
@@ -54,6 +67,10 @@ VARIANTS: tuple[tuple[str, ...], ...] = (
     ("brake.pad=composite-block", *WET),
     ("brake.pad=disc-pad", "brake.initial_disc_temperature=240 degC"),
     ("brake.disc_temperature=modelled", *WET),
+    (FAULTS, *WET),
+    (LEAKS, *WET),
+    (LEAKS, "rig.topology=four-caliper", "controller=slip-band", *WET),
+    (TEETH, "rig.sensors=pole-wheel", *WET),
 )
 
 WITHOUT_COMPILER = """
@@ -75,7 +92,7 @@ class Batch:
 
     def __init__(self, rig: Any) -> None:
         cases = [
-            rig.inputs(*variant, f"initial_speed={speed} km/h", case_key=number)
+            rig.inputs(*variant, f"initial_speed={speed} km/h", noise_key=number)
             for number, variant in enumerate(VARIANTS)
             for speed in (9, 24 + number)
         ]

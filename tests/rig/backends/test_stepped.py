@@ -19,7 +19,7 @@ from uictest.scenario import Case, load
 SCENARIOS = Path(__file__).parents[3] / "scenarios"
 OF_THE_NEXT_CYCLE = {
     *("measured_speed", "pressure_error", "loadcell_error", "line_pressure_error", "friction"),
-    *("pad_friction", "counted_teeth", "tooth_time", "tooth_rate", "tooth_speed", "cleaned_share"),
+    *("pad_friction", "last_tooth", "tooth_time", "tooth_rate", "tooth_speed", "cleaned_share"),
 }
 """What the sensors and the look-ups after the last cycle set."""
 VARIANTS = {

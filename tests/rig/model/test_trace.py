@@ -12,7 +12,7 @@ SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 def test_a_row_holds_every_channel(rig: Any) -> None:
     columns = rig.columns(*SLIDING, every=20)
-    assert len(columns) == 28
+    assert len(columns) == 30
     assert all(np.isfinite(column).all() for column in columns.values())
 
 

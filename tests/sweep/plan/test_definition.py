@@ -15,7 +15,7 @@ SAMPLE = "sample: {method: sobol, size: 4, parameters: {rail.friction: {uniform:
 
 
 def values(plan: Plan, key: str) -> list[str]:
-    return [value.text for value in plan.settings(np.arange(plan.size))[key]]
+    return plan.settings(np.arange(plan.size))[key].texts
 
 
 def test_every_combination_first_key_slowest(load: Load) -> None:
@@ -46,8 +46,8 @@ def test_a_sample_is_numbered_in_the_ids_and_goes_with_a_grid(load: Load) -> Non
     plan = load(SAMPLE + "grid: {brake.command: [80 %, 100 %]}\n")
     assert plan.ids(np.array([0, 5])) == ["study[command=80,sample=0]", "study[command=100,sample=1]"]
     drawn = plan.settings(np.arange(8))["rail.friction"]
-    assert [value.text for value in drawn[:4]] == [value.text for value in drawn[4:]]
-    assert all(0.05 <= value.number <= 0.15 for value in drawn)
+    assert drawn.texts[:4] == drawn.texts[4:]
+    assert all(0.05 <= number <= 0.15 for number in drawn.numbers)
 
 
 def test_ids_are_unique_and_do_not_depend_on_how_many_are_asked_for(load: Load) -> None:

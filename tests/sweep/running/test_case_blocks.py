@@ -16,6 +16,7 @@ from uictest.scenario import Case, Scenario, load as load_scenarios
 from uictest.scenario.yaml.model import Model
 from uictest.sweep import Plan
 from uictest.sweep.running.case_blocks import BlockAssembler
+from uictest.sweep.running.scenario_function import ScenarioVariants
 
 from ..conftest import GRID, Load
 
@@ -44,6 +45,15 @@ grid:
   brake.initial_disc_temperature: [null, 300 degC]
   brake.system.disc.thermal.thickness: [15 mm, 25 mm]
 """,
+    "faults": """\
+grid:
+  faults:
+    - []
+    - [{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]
+    - - {at: 3 s, wheelset: 1, part: tank, kind: leak, value: 1e-8 m3/(s Pa)}
+      - {at: 2 m, part: controller, kind: silent}
+  simulation.time_step: [0.5 ms, 0.25 ms]
+""",
     "sample": """\
 grid: {rig.compensation: [none, full]}
 sample:
@@ -55,6 +65,24 @@ sample:
     brake.system.wsp_valve.vent_conductance: {log-uniform: [1e-8 m3/(s Pa), 2e-8 m3/(s Pa)]}
     brake.system.air.temperature: {normal: {mean: 15 degC, deviation: 8 degC, lower: -5 degC, upper: 35 degC}}
     rig.topology: {choice: [one-caliper, four-caliper]}
+""",
+    "numbers": """\
+grid: {controller: [threshold, slip-band]}
+sample:
+  method: random
+  size: 16
+  parameters:
+    rail.friction: {uniform: [0.08, 0.16]}
+    initial_speed: {uniform: [25 km/h, 85 km/h]}
+    brake.command: {uniform: [80 %, 100 %]}
+    rail.gradient: {uniform: [-5 permille, 5 permille]}
+    vehicle.body.mass: {uniform: [30 t, 36 t]}
+    vehicle.bogie.pitch_inertia: {uniform: [1500 kg m2, 2500 kg m2]}
+    vehicle.wheelset.radius: {uniform: [0.42 m, 0.46 m]}
+    brake.system.air.temperature: {uniform: [-10 degC, 30 degC]}
+    brake.system.tank.volume: {uniform: [10 L, 12 L]}
+    brake.system.wsp_valve.vent_conductance: {uniform: [1.0e-8 m3/(s Pa), 1.2e-8 m3/(s Pa)]}
+    brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
 """,
     "wheelsets": """
 sample:
@@ -92,6 +120,30 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
         assert record.tobytes() == block.parameters[place].tobytes()
         assert own.tobytes() == block.wheelset_parameters[place].tobytes()
         assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
+
+
+def test_keys_inside_a_fault_of_the_base_vary(load: Load) -> None:
+    fault = "faults=[{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]"
+    plan = load("grid:\n  faults.0.at: [3 s, 20 m]\n  faults.0.wheelset: [1, 4]\n", fault)
+    block = BlockAssembler(plan).block(np.arange(plan.size))
+    assert block.rejections == [""] * plan.size
+    for place in range(plan.size):
+        written = assemble(written_out(plan, place, fault)).parameters
+        assert written.tobytes() == block.parameters[place].tobytes()
+
+
+def test_cases_that_differ_in_numbers_are_assembled_together(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = load(SWEEPS["numbers"])
+    assembler = BlockAssembler(plan)
+    assembler.block(np.array([0, plan.size - 1]))  # what listed values give is kept
+
+    def at(variants: ScenarioVariants, place: int) -> Scenario:
+        raise AssertionError(tuple(variants.settings))
+
+    monkeypatch.setattr(ScenarioVariants, "at", at)
+    assert assembler.block(np.arange(plan.size)).rejections == [""] * plan.size
 
 
 def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:

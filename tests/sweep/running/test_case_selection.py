@@ -33,7 +33,7 @@ def test_chunks_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
     selection = CaseSelection(Sized(size))  # type: ignore[arg-type]
     edges = [selection.chunk(0)[0], selection.chunk(selection.chunks - 1)[-1]]
     assert edges == [0, size - 1]
-    assert selection.chunk(0).size <= selection.chunk_size <= 256
+    assert selection.chunk(0).size <= selection.chunk_size <= 1024
     assert (
         sum(selection.chunk(number).size for number in (0, selection.chunks - 1)[: selection.chunks]) <= size
     )
@@ -45,7 +45,7 @@ def test_chunks_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
         (10, "cpu", 16),
         (448, "cpu", 16),
         (3000, "cpu", 93),
-        (10**6, "cpu", 256),
+        (10**6, "cpu", 1024),
         (3000, "cuda", 375),
         (10**6, "cuda", 65_536),
     ],

@@ -39,15 +39,6 @@ def with_common_noise(found: list[dict[str, Any]], of: str) -> list[dict[str, An
     return [without_names(row) for row in found if row["parameters.controller"].startswith(of)]
 
 
-@pytest.fixture
-def same_noise(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give every case the noise of the same key: cases of one sweep have noise of their own."""
-    from uictest.sweep.running import case_blocks
-
-    monkeypatch.setattr(case_blocks.zlib, "crc32", lambda name: 1)
-
-
-@pytest.mark.usefixtures("same_noise")
 def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(
     load: Load, library: str, python_file: str
 ) -> None:

@@ -22,7 +22,7 @@ from uictest.sweep import CaseSelection, ChunkRunner, ChunkStore, Plan, summariz
 from uictest.sweep.running.case_blocks import BlockAssembler
 from uictest.sweep.summaries.trends import MOST_VALUES
 
-from ..conftest import GRID, Load, formula
+from ..conftest import GRID, SCENARIO, Load, formula
 
 MakeRunner = Callable[[Plan], ChunkRunner]
 
@@ -31,8 +31,8 @@ MakeRunner = Callable[[Plan], ChunkRunner]
 def finished(load: Load, made_up: MakeRunner, tmp_path: Path) -> Callable[..., tuple[SweepResult, Path]]:
     """The findings of a finished sweep and the folder they are written to."""
 
-    def finish(text: str = GRID) -> tuple[SweepResult, Path]:
-        selection = CaseSelection(load(text))
+    def finish(text: str = GRID, scenario: str = "stop.yaml") -> tuple[SweepResult, Path]:
+        selection = CaseSelection(load(text, scenario=scenario))
         store = ChunkStore(tmp_path / "out")
         store.open({}, restart=True)
         runner = made_up(selection.plan)
@@ -224,6 +224,33 @@ def test_junit_has_one_testcase_per_value_of_the_first_parameter(
     ]
     assert "1 of 2 cases did not meet their expectation" in (suite[0][0].text or "")
     assert {name for case in suite for name in case.attrib} == {"classname", "name"}  # no `file`, for Jenkins
+
+
+def test_the_requirements_of_the_scenario_are_those_of_every_testcase(
+    finished: Callable[..., tuple[SweepResult, Path]], tmp_path: Path
+) -> None:
+    _, folder = finished()
+    assert not (folder / "junit-properties.xml").exists()
+    scenario = SCENARIO + "requirements: [BR-1, BR-2]\ntest_case: WSP-TC-7\n"
+    (tmp_path / "named.yaml").write_text(scenario)
+    result, folder = finished(GRID, "named.yaml")
+    assert (result.requirements, result.test_case) == (("BR-1", "BR-2"), "WSP-TC-7")
+    assert result.notes[0] == "requirements that the scenario and its criteria name: BR-1, BR-2"
+    assert read_sweep_document(read_document(folder)).requirements == ("BR-1", "BR-2")
+    suite = ElementTree.parse(folder / "junit.xml").getroot()[0]
+    assert [each.attrib for each in suite.findall("properties/property")] == [
+        {"name": "requirements", "value": "BR-1,BR-2"}
+    ]
+    assert not suite.findall("testcase/properties")
+    with_properties = ElementTree.parse(folder / "junit-properties.xml").getroot()[0]
+    for testcase in with_properties.findall("testcase"):
+        assert [
+            (each.get("name"), each.get("value")) for each in testcase.findall("properties/property")
+        ] == [
+            ("polarion-testcase-id", "WSP-TC-7"),
+            ("test_key", "WSP-TC-7"),
+            ("requirements", "BR-1,BR-2"),
+        ]
 
 
 def test_the_document_can_be_read_back(finished: Callable[..., tuple[SweepResult, Path]]) -> None:

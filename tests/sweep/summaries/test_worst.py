@@ -12,7 +12,6 @@ from hypothesis import given, strategies as st
 
 from uictest import rig
 from uictest.campaign import RecordingRequest, run_cases
-from uictest.evaluation import cases_document
 from uictest.sweep.running.chunk import chunk_runner
 from uictest.sweep.summaries.worst import MOST, WorstCases, full_cases
 
@@ -58,10 +57,15 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     block = runner.assembler.block(np.array(indices))
     by_lanes = runner.results(block)
     alone = run_cases(full_cases(plan, indices), recording=RecordingRequest("all"))
-    for one, other in zip(by_lanes, alone.results, strict=True):
-        row, case = cases_document([one, other])
-        for name in ("id", "outcome", "parameters", "measures", "wheelsets"):
-            assert row[name] == case[name]
+    for place, result in enumerate(alone.results):
+        assert block.ids[place] == result.id
+        assert by_lanes.outcomes[place] == result.outcome
+        assert result.measures is not None
+        for name, numbers in by_lanes.measures.items():
+            assert np.array_equal(numbers[place], result.measures[name], equal_nan=True)
+        for name, numbers in by_lanes.wheelsets.items():
+            own = [wheelset[name] for wheelset in result.wheelsets]
+            assert np.array_equal(numbers[place], own, equal_nan=True)
 
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])

@@ -1,4 +1,4 @@
-"""`uictest check`: validate scenario and sweep files without simulating them."""
+"""`uictest check`: validate scenario, sweep and series files without simulating them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, scenario, sweep
+from uictest import report, scenario, series, sweep
 from uictest.cli import sweep as sweeping
 from uictest.cli.cases import scenario_paths
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.output import data, message
+from uictest.cli.series import is_series, series_files
 from uictest.scenario import yaml
 
 _FIELDS = ("file", "line", "column", "key", "message", "hint")
@@ -27,12 +28,15 @@ def check(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing if there is no error.")] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Validate scenario and sweep files and what they refer to. Every error is shown with its place."""
+    """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = scenario_paths(paths)
-    errors, counts = _scenarios([path for path in places if not sweeping.is_sweep(path)], trusted or ())
+    errors, counts = _scenarios([path for path in places if not _is_of_other_kind(path)], trusted or ())
     sweeps = list(sweeping.sweep_files(places))
     for path in sweeps:
         errors.extend(_errors_of_sweep(path, places, trusted or ()))
+    series_paths = list(series_files(places))
+    for path in series_paths:
+        errors.extend(_errors_of_series(path, places, trusted or ()))
     if errors:
         _show(errors, shown)
         message(f"uictest: {report.counted(len(errors), 'error')}")
@@ -41,7 +45,8 @@ def check(
         data("[]")
     if not quiet:
         and_sweeps = f" and {report.counted(len(sweeps), 'sweep')}" if sweeps else ""
-        message(f"uictest: {counts}{and_sweeps}, no error")
+        and_series = f" and {len(series_paths)} series" if series_paths else ""
+        message(f"uictest: {counts}{and_sweeps}{and_series}, no error")
     return ExitCode.MET
 
 
@@ -55,6 +60,22 @@ def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yam
     return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
 
 
+def _is_of_other_kind(path: Path) -> bool:
+    return sweeping.is_sweep(path) or is_series(path)
+
+
+def _errors_of_series(
+    path: Path, paths: Sequence[Path], trusted: Sequence[Path]
+) -> Sequence[yaml.Diagnostic]:
+    if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
+        return (scenario.link_outside(path),)
+    try:
+        series.load_series(path, trusted=trusted)
+    except yaml.ScenarioErrors as errors:
+        return errors.diagnostics
+    return ()
+
+
 def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path]) -> Sequence[yaml.Diagnostic]:
     if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
         return (scenario.link_outside(path),)
@@ -64,8 +85,14 @@ def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path])
         return errors.diagnostics
     for each in sweep.drawn_ranges(plan):
         if not each.contains_nominal:
-            message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")
+            message(f"{plan.file}: warning: {each}; {_consequence(plan)}")
     return ()
+
+
+def _consequence(plan: sweep.Plan) -> str:
+    if plan.k_dry is not None:
+        return "K_dry is a share of a stop that is never drawn"
+    return "sensitivities hold for the range only"
 
 
 def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:

@@ -10,8 +10,10 @@ import typer
 
 from uictest import campaign, field_data, recording, report, scenario as scenarios
 from uictest.cli import options, recordings, running
-from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_batch
+from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_batch, of_series, worst
 from uictest.cli.output import data, message
+from uictest.cli.recorded_series import read_recorded_series
+from uictest.cli.series import is_series
 from uictest.recording import formats
 from uictest.scenario import yaml
 
@@ -66,9 +68,20 @@ def evaluate(
 ) -> ExitCode:
     """Judge recordings of real or simulated stops. Reports and exit codes are those of 'run'.
 
+    FILE may also be a *.series.yaml whose stops name recordings: they are judged together, as a campaign.
     A recording does not contain the rail condition, the brake position, the state of the WSP or the criteria:
     state them with a scenario or with options.
     """
+    request = campaign.RecordingRequest(recorded.value)
+    display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    if any(map(is_series, files)):
+        stated = (listing, scenario, expression, *_statements(criteria, rail, position, wsp))
+        preparation = (trigger, trigger_lead, raster, low_pass)
+        _reject_options_of_recordings(files, [*stated, *preparation])
+        planned, stops = read_recorded_series(files, overrides, trusted)
+        cases = [case for each in planned for case in each.cases]
+        batch = running.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit, planned)
+        return _judged(batch, display, quiet=quiet)
     mapped, inputs = recordings.channel_map(
         map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
     )
@@ -78,15 +91,28 @@ def evaluate(
     case_of = _case_of_stop(scenario, expression, statements, trusted)
     stops = running.read_files(files, mapped)
     cases = [_case(stop, case_of, inputs) for stop in stops]
-    request = campaign.RecordingRequest(recorded.value)
     batch = running.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit)
-    done, place = running.run_recorded(
-        batch, running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
-    )
+    return _judged(batch, display, quiet=quiet)
+
+
+def _judged(batch: running.RecordedBatch, display: running.Display, *, quiet: bool) -> ExitCode:
+    """Judge recorded stops, publish the reports, and return the exit code."""
+    content, place = running.run_recorded(batch, display)
     if not quiet:
-        running.write_preparation(stops)
-        message(f"uictest: {report.tally(done.results)}; reports in {place}")
-    return of_batch(done)
+        running.write_preparation(batch.files)
+        message(f"uictest: {content.tally}; reports in {place}")
+    return worst(of_batch(campaign.BatchResult(list(content.results))), of_series(content.series))
+
+
+def _reject_options_of_recordings(files: Sequence[Path], options_of_recordings: Sequence[object]) -> None:
+    """Raise where series and recordings are mixed, or options say what a series file says of its own."""
+    if not all(map(is_series, files)):
+        raise InvalidInputError("uictest: name series files or recordings, not both")
+    if any(options_of_recordings):
+        raise InvalidInputError(
+            "uictest: a series says itself which scenario and channel map each of its recordings has:"
+            " state it in the file, or with --set"
+        )
 
 
 def _statements(
@@ -111,6 +137,8 @@ def _case_of_stop(
     """
     if scenario is not None:
         case = recordings.one_case(scenario, expression, statements, trusted)
+        if case.scenario.repeat > 1:
+            message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
         return lambda name, speed: case
 
     keys = {statement.partition("=")[0].strip() for statement in statements}

@@ -55,7 +55,12 @@ def export_rig(
         message(nothing_selected(cases))
         message(case_lines(cases))
         return ExitCode.NOTHING_SELECTED
-    content = _built(_only(selected), version)
+    case = _only(selected)
+    if case.scenario.repeat > 1:
+        message(
+            f"note: {case.id}: `repeat` plays no part; the parameter `seed` of the FMU begins other stops"
+        )
+    content = _built(case, version)
     recording.write_bytes_atomic(output, content)
     data(str(output))
     return ExitCode.MET

@@ -1,11 +1,15 @@
-"""`uictest list`: the ids of cases."""
+"""`uictest list`: the ids of cases, or the requirements that they verify."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
 
+import typer
+
+from uictest import scenario, series
 from uictest.cli import sweep as sweeping
 from uictest.cli.cases import (
     case_lines,
@@ -13,11 +17,21 @@ from uictest.cli.cases import (
     cases_json,
     load_cases,
     nothing_selected,
+    scenario_paths,
     select_by_options,
 )
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
 from uictest.cli.output import data, message, terminal_width
+from uictest.cli.requirement_listing import RequirementRequest, list_requirements
+from uictest.cli.series import (
+    joined_json,
+    load_series,
+    select_series,
+    series_files,
+    series_json,
+    series_lines,
+)
 
 
 def list_cases(
@@ -26,25 +40,65 @@ def list_cases(
     tag: Tag = None,
     overrides: Overrides = None,
     trusted: Trusted = None,
+    requirements: Annotated[
+        bool,
+        typer.Option("--requirements", help="List requirements and what verifies them instead of cases."),
+    ] = False,
+    requirement_list: Annotated[
+        Path | None,
+        typer.Option(
+            "--requirement-list",
+            metavar="FILE",
+            help="All requirements (text, CSV or YAML): with --requirements, shows those not covered, too.",
+        ),
+    ] = None,
+    fail_uncovered: Annotated[
+        bool,
+        typer.Option("--fail-uncovered", help="With --requirements: exit with 1 if one is not covered."),
+    ] = False,
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """List the ids of all cases, one per line; with -v, titles and tags. Sweeps must be named."""
+    if not requirements and (requirement_list is not None or fail_uncovered):
+        option = "--fail-uncovered" if requirement_list is None else "--requirement-list"
+        raise typer.BadParameter("add --requirements", param_hint=option)
+    request = RequirementRequest(requirement_list, fail_uncovered)
     if paths and all(map(sweeping.is_sweep, paths)):
+        if requirements:
+            plans = (sweeping.load_plan(path, overrides, None, trusted) for path in paths)
+            return list_requirements([plan.base for plan in plans], request, shown)
         return _list_sweeps(paths, expression, overrides, trusted)
     cases = load_cases(paths, overrides, None, trusted)
+    planned = load_series(list(series_files(scenario_paths(paths))), overrides, None, trusted)
     selected = select_by_options(cases, expression, tag)
-    if not selected:
-        message(nothing_selected(cases))
+    of_series = select_series(planned, expression, tag)
+    if not (selected or of_series):
+        message(nothing_selected(cases, planned))
         return ExitCode.NOTHING_SELECTED
+    if requirements:
+        return list_requirements(selected, request, shown, of_series)
+    _list_selected(selected, of_series, shown, described=verbosity > 0)
+    return ExitCode.MET
+
+
+def _list_selected(
+    selected: Sequence[scenario.Case],
+    of_series: Sequence[series.Series],
+    shown: PlainFormat,
+    *,
+    described: bool,
+) -> None:
     width = terminal_width(sys.stdout)
     if shown is PlainFormat.JSON:
-        data(cases_json(selected))
-    elif verbosity and width is not None:
+        data(joined_json(cases_json(selected), series_json(of_series)))
+        return
+    if described and width is not None and selected:
         data("\n".join(case_table(selected, width)))
-    else:
-        data(case_lines(selected, described=verbosity > 0))
-    return ExitCode.MET
+    elif selected:
+        data(case_lines(selected, described=described))
+    if of_series:
+        data(series_lines(of_series, described=described))
 
 
 def _list_sweeps(

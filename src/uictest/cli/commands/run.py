@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import campaign, evaluation, report, scenario
+from uictest import campaign, evaluation, report, scenario, series
 from uictest.cli import options, running
 from uictest.cli.cases import (
     case_lines,
@@ -18,8 +18,16 @@ from uictest.cli.cases import (
     scenario_paths,
     select_by_options,
 )
-from uictest.cli.exit_codes import ExitCode, of_batch, worst
+from uictest.cli.exit_codes import ExitCode, of_batch, of_series as of_judged, worst
 from uictest.cli.output import data, message
+from uictest.cli.series import (
+    joined_json,
+    load_series,
+    select_series,
+    series_files,
+    series_json,
+    series_lines,
+)
 
 LastFailed = Annotated[
     bool, typer.Option("--lf", help="Select the cases that were not as expected in the newest run.")
@@ -35,6 +43,16 @@ BaselineFolder = Annotated[
 Accept = Annotated[
     bool, typer.Option("--accept", help="Make the results of the selected cases the new baseline.")
 ]
+Repeat = Annotated[
+    int | None,
+    typer.Option(
+        "--repeat",
+        metavar="N",
+        min=1,
+        max=1000,
+        help="Run the stop of every case N times, under its seed and those that follow it.",
+    ),
+]
 Durations = Annotated[
     int | None, typer.Option("--durations", metavar="N", min=0, help="List the N slowest cases; 0 lists all.")
 ]
@@ -48,6 +66,7 @@ def run(
     last_failed: LastFailed = False,
     overrides: options.Overrides = None,
     seed: options.Seed = None,
+    repeat: Repeat = None,
     trusted: options.Trusted = None,
     exit_first: options.ExitFirst = False,
     maxfail: options.MaxFail = None,
@@ -72,25 +91,30 @@ def run(
     """Run scenarios, judge each case and write the reports."""
     names = options.report_formats(formats, "--report", report.format_names())
     choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
-    cases = load_cases(paths, overrides, seed, trusted)
-    selected = _selected(cases, expression, tag, output if last_failed else None)
-    if not selected:
-        message(nothing_selected(cases))
+    changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
+    files = list(series_files(scenario_paths(paths)))
+    cases = load_cases(paths, changes, seed, trusted)
+    planned = load_series(files, changes, seed, trusted)
+    selected, of_series = _selected(cases, planned, expression, tag, output if last_failed else None)
+    if not (selected or of_series):
+        message(nothing_selected(cases, planned))
         return ExitCode.NOTHING_SELECTED
     if real_time:
-        _require_sockets(selected)
+        _reject_series(of_series)
+        _require_single_stops_at_sockets(selected)
     if dry_run:
-        data(cases_json(selected) if shown is options.Format.JSON else case_lines(selected))
+        _show_selection(selected, of_series, shown)
         return ExitCode.MET
     searched = () if expression or tag or last_failed else scenario_paths(paths)
     accepted = running.open_baseline(choice, running.scope_of(selected, searched))
-    parts = campaign.parts_of_cases(selected)
+    everything = [*selected, *(case for each in of_series for case in each.cases)]
+    parts = campaign.parts_of_cases(everything)
     batch = running.Batch(
         cases=selected,
         parts=parts,
-        manifest=_manifest(context.obj.arguments, seed, selected, parts),
+        manifest=_manifest(context.obj.arguments, seed, everything, of_series, parts),
         recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
-        jobs=min(jobs, len(selected)),
+        jobs=min(jobs, sum(case.scenario.repeat for case in everything)),
         maxfail=1 if exit_first else maxfail,
         output=output,
         junit=options.junit_file(junit, output),
@@ -100,25 +124,57 @@ def run(
         in_process=in_process,
         real_time=real_time,
         baseline=None if accept else accepted,
+        series=of_series,
     )
     done, published = running.run_batch(
         batch, running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     )
-    _show_slowest(done.results, durations)
-    return worst(of_batch(done), running.accept_or_compare(choice, accepted, done, published, quiet=quiet))
+    judged = published.content.series if published else ()
+    _show_slowest(published.content.all_results if published else [], durations)
+    return worst(
+        of_batch(done),
+        of_judged(judged),
+        running.accept_or_compare(choice, accepted, done, published, quiet=quiet),
+    )
 
 
 def _selected(
-    cases: Sequence[scenario.Case], expression: str | None, tag: str | None, last_run: Path | None
-) -> list[scenario.Case]:
-    """Return the cases selected by expression and tag, and by their last run below `last_run`, if given."""
-    selected = select_by_options(cases, expression, tag)
-    return selected if last_run is None else running.failed_last(selected, last_run)
+    cases: Sequence[scenario.Case],
+    planned: Sequence[series.Series],
+    expression: str | None,
+    tag: str | None,
+    last_run: Path | None,
+) -> tuple[list[scenario.Case], list[series.Series]]:
+    """Return what expression and tag select, and the last run below `last_run`, if given."""
+    selected = select_by_options(cases, expression, tag), select_series(planned, expression, tag)
+    return selected if last_run is None else running.failed_last(*selected, last_run)
 
 
-def _require_sockets(cases: Sequence[scenario.Case]) -> None:
-    """Raise typer.BadParameter unless the controllers of all cases are programs at a socket."""
+def _show_selection(
+    cases: Sequence[scenario.Case], planned: Sequence[series.Series], shown: options.Format
+) -> None:
+    """Show what would run. JSON has the cases and then the series in one array."""
+    if shown is options.Format.JSON:
+        data(joined_json(cases_json(cases), series_json(planned)))
+        return
+    for lines in filter(None, (case_lines(cases), series_lines(planned))):
+        data(lines)
+
+
+def _reject_series(planned: Sequence[series.Series]) -> None:
+    """Raise typer.BadParameter for series: their stops are not paced by the clock."""
+    if planned:
+        raise typer.BadParameter(
+            f"{planned[0].id} is a series; run single stops in real time", param_hint="--real-time"
+        )
+
+
+def _require_single_stops_at_sockets(cases: Sequence[scenario.Case]) -> None:
+    """Raise typer.BadParameter unless the controllers are programs at a socket, each for one stop."""
     for case in cases:
+        if case.scenario.repeat > 1:
+            message = f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1"
+            raise typer.BadParameter(message, param_hint="--real-time")
         program = case.scenario.controller.program
         if program is None or program.kind != "connect":
             expected = "expected one with `connect`, a program at a socket"
@@ -130,13 +186,15 @@ def _manifest(
     arguments: Sequence[str],
     seed: int | None,
     cases: Sequence[scenario.Case],
+    planned: Sequence[series.Series],
     parts: campaign.PartsOfCases,
 ) -> report.RunManifest:
-    return report.run_manifest(arguments, seed, _inputs(cases), len(cases), parts.values())
+    return report.run_manifest(arguments, seed, _inputs(cases, planned), len(cases), parts.values())
 
 
-def _inputs(cases: Sequence[scenario.Case]) -> dict[str, str]:
-    return {name: digest for case in cases for name, digest in case.inputs.items()}
+def _inputs(cases: Sequence[scenario.Case], planned: Sequence[series.Series]) -> dict[str, str]:
+    read = [*(case.inputs for case in cases), *(each.inputs for each in planned)]
+    return {name: digest for each in read for name, digest in each.items()}
 
 
 def _show_slowest(results: Sequence[evaluation.CaseResult], count: int | None) -> None:

@@ -1,4 +1,4 @@
-"""`uictest schema`: the JSON Schema of scenario and sweep files."""
+"""`uictest schema`: the JSON Schema of scenario, sweep and series files."""
 
 from __future__ import annotations
 
@@ -20,18 +20,19 @@ class SchemaKind(StrEnum):
 
     SCENARIO = "scenario"
     SWEEP = "sweep"
+    SERIES = "series"
 
 
 def schema(
-    subject: Annotated[SchemaKind, typer.Argument(metavar="[scenario|sweep]", help="Kind of file.")] = (
-        SchemaKind.SCENARIO
-    ),
+    subject: Annotated[
+        SchemaKind, typer.Argument(metavar="[scenario|sweep|series]", help="Kind of file.")
+    ] = (SchemaKind.SCENARIO),
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to FILE instead of stdout.")
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Print the JSON Schema (draft-07) of scenario or sweep files."""
+    """Print the JSON Schema (draft-07) of scenario, sweep or series files."""
     text = schema_text(subject)
     if output is None:
         data(text.rstrip("\n"))
@@ -45,6 +46,8 @@ def schema_text(subject: SchemaKind = SchemaKind.SCENARIO) -> str:
     """Return the schema of a kind of file as the JSON text that is kept in the repository."""
     if subject is SchemaKind.SWEEP:
         from uictest.sweep import sweep_schema as described
+    elif subject is SchemaKind.SERIES:
+        from uictest.series import series_schema as described
     else:
         from uictest.scenario import json_schema as described
 

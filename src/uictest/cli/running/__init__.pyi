@@ -5,7 +5,7 @@ from .baseline import (
     scope_of as scope_of,
 )
 from .batch import Batch as Batch, run_batch as run_batch
-from .display import chosen_display as chosen_display
+from .display import Display as Display, chosen_display as chosen_display
 from .last_failed import failed_last as failed_last
 from .recorded_batch import (
     CaseOfStop as CaseOfStop,

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
 
-from uictest import campaign, comparison, recording, report, rig, scenario
+from uictest import campaign, comparison, evaluation, recording, report, rig, scenario, series
 from uictest.cli.output import message
 from uictest.cli.progress import announce_compilation, announce_in_process, progress
 from uictest.cli.running.display import Display
 from uictest.cli.running.drawing import TraceCollection
+from uictest.cli.running.series_runs import SeriesBatch, run_series
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +35,12 @@ class Batch:
     real_time: bool = False
     baseline: comparison.Baseline | None = None
     """The baseline to compare with, if any."""
+    series: Sequence[series.Series] = ()
+
+    @property
+    def all_cases(self) -> list[scenario.Case]:
+        """All cases, those of series too."""
+        return [*self.cases, *(case for each in self.series for case in each.cases)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,17 +62,17 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
     # The folder comes first: if it cannot be written, nothing should be simulated.
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), batch.manifest)) as folder:
         drawing = TraceCollection(
-            batch.cases,
+            batch.all_cases,
             batch.recording,
             needed=report.draws_stops(batch.formats),
-            repeatable=all(case.scenario.controller.program is None for case in batch.cases),
+            repeatable=all(case.scenario.controller.program is None for case in batch.all_cases),
         )
-        done = _simulate(batch, folder.path, display, drawing)
-        if not done.results:
+        done = _simulate(batch, batch.cases, folder.path, display.case, drawing, batch.maxfail)
+        judged = _run_series(batch, done, folder.path, display, drawing)
+        if not (done.results or judged.results):
             message("uictest: interrupted before the first case was finished; there is nothing to report")
             return done, None
-        traces = drawing.finish(done, batch.jobs)
-        content, document = _write_reports(batch, folder, done, traces)
+        content, document = _write_reports(batch, folder, done, judged, drawing)
         place = folder.publish()
     report.point_latest(place)
     _append_step_summary(content)
@@ -76,13 +83,46 @@ def run_batch(batch: Batch, display: Display) -> tuple[campaign.BatchResult, Pub
     return done, Published(place, content, document)
 
 
+def _run_series(
+    batch: Batch, done: campaign.BatchResult, folder: Path, display: Display, drawing: TraceCollection
+) -> SeriesBatch:
+    """Run the series of a batch behind its cases, unless these end it."""
+    missed = sum(not result.met for result in done.results)
+    if done.interrupted or (batch.maxfail is not None and missed >= batch.maxfail):
+        return SeriesBatch()
+
+    def show(result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
+        if batch.verbose:
+            display.case(result, differences)
+
+    judged = run_series(
+        batch.series,
+        lambda cases: _simulate(batch, cases, folder, show, drawing, None),
+        maxfail=None if batch.maxfail is None else batch.maxfail - missed,
+        show=display.series,
+    )
+    done.interrupted = judged.interrupted
+    return judged
+
+
 def _write_reports(
-    batch: Batch, folder: report.RunFolder, done: campaign.BatchResult, traces: Mapping[str, report.PlotTrace]
+    batch: Batch,
+    folder: report.RunFolder,
+    done: campaign.BatchResult,
+    judged: SeriesBatch,
+    drawing: TraceCollection,
 ) -> tuple[report.RunContent, str]:
     """Write all reports; return their content and the text of results.json."""
-    complete = len(done.results) == len(batch.cases)
-    subjects = campaign.descriptions_of(batch.cases)
-    content = report.RunContent(folder.name, done.results, batch.manifest, complete, subjects, traces)
+    content = report.RunContent(
+        folder.name,
+        done.results,
+        batch.manifest,
+        complete=(len(done.results), len(judged.results)) == (len(batch.cases), len(batch.series)),
+        subjects=campaign.descriptions_of(batch.all_cases),
+        series=judged.results,
+    )
+    everything = campaign.BatchResult(content.all_results, done.interrupted)
+    content = replace(content, traces=drawing.finish(everything, batch.jobs))
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
     document = report.write_reports(folder.path, content)
@@ -100,30 +140,42 @@ def _append_step_summary(content: report.RunContent) -> None:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
-def _simulate(batch: Batch, folder: Path, display: Display, drawing: TraceCollection) -> campaign.BatchResult:
-    foreign = any(case.scenario.controller.program for case in batch.cases)
+def _simulate(
+    batch: Batch,
+    cases: Sequence[scenario.Case],
+    folder: Path,
+    show: Callable[[evaluation.CaseResult, Sequence[report.Difference]], None],
+    drawing: TraceCollection,
+    maxfail: int | None,
+) -> campaign.BatchResult:
+    """Run some cases of a batch."""
+    if not cases:
+        return campaign.BatchResult()
+    foreign = any(case.scenario.controller.program for case in cases)
     announce_in_process(foreign=batch.in_process and foreign, quiet=batch.quiet)
-    announce_compilation(warm=rig.is_compiled(batch.cases), quiet=batch.quiet)
-    with progress(len(batch.cases), quiet=batch.quiet) as advance:
+    announce_compilation(warm=rig.is_compiled(cases), quiet=batch.quiet)
+    stops = sum(case.scenario.repeat for case in cases)
+    unit = "stops" if stops > len(cases) else "cases"
+    with progress(stops, quiet=batch.quiet, unit=unit) as advance:
 
         def publish(case_run: campaign.CaseRun) -> None:
             drawing.add(case_run)
             if case_run.recording is not None and batch.recording.wants(case_run.result):
                 report.write_recording(folder, case_run.result.id, case_run.recording)
-            display.case(case_run.result, _differences(batch, case_run))
+            show(case_run.result, _differences(batch, case_run))
             if batch.verbose and case_run.traceback:
                 message(case_run.traceback.rstrip())
-            advance()
 
         return campaign.run_cases(
-            batch.cases,
+            cases,
             jobs=batch.jobs,
             recording=drawing.recording,
-            maxfail=batch.maxfail,
+            maxfail=maxfail,
             parts=batch.parts,
             in_process=batch.in_process,
             real_time=batch.real_time,
             on_result=publish,
+            on_stop=advance,
         )
 
 
@@ -133,13 +185,13 @@ def _differences(batch: Batch, case_run: campaign.CaseRun) -> Sequence[report.Di
 
 def _write_junit(path: Path | None, content: report.RunContent) -> None:
     if path is not None:
-        recording.write_text_atomic(path, report.junit_xml(content.results, content.baseline))
+        recording.write_text_atomic(path, report.junit_xml(content.results, content.baseline, content.series))
 
 
 def _sum_up(
     batch: Batch, content: report.RunContent, done: campaign.BatchResult, seconds: float, place: Path
 ) -> None:
     ended = "interrupted, " if done.interrupted else ""
-    remaining = len(batch.cases) - len(done.results)
+    remaining = len(batch.all_cases) - len(content.all_results)
     not_run = f", {remaining} not run" if remaining else ""
     message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {place}")

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 
-from uictest import evaluation, report
+from uictest import evaluation, report, series
 from uictest.cli.options import Colour, Format
 from uictest.cli.output import coloured, data, interactive
 
@@ -19,6 +19,9 @@ class Display(Protocol):
 
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
+
+    def series(self, result: series.SeriesResult) -> None:
+        """Show a series whose last stop is finished."""
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the rest; `document` is the text of results.json."""
@@ -40,6 +43,14 @@ class Lines:
         if self._verbose:
             for line in report.criterion_lines(result):
                 data(line)
+
+    def series(self, result: series.SeriesResult) -> None:
+        """Show a series, and unless quiet its criteria and the stops that count."""
+        if self._quiet and result.met:
+            return
+        self._show(report.series_word(result), report.series_line(result))
+        for line in report.series_lines(result):
+            data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the missing cases of the baseline; with -v also the definitions of criteria, and parts."""
@@ -64,6 +75,12 @@ class Annotations(Lines):
         for line in report.case_annotations(result, differences):
             data(line)
 
+    def series(self, result: series.SeriesResult) -> None:
+        """Show a series."""
+        super().series(result)
+        for line in report.series_annotations(result):
+            data(line)
+
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the rest, and an annotation for each missing case of the baseline."""
         super().end(content, document)
@@ -75,6 +92,9 @@ class ResultsDocument:
     """results.json and nothing else."""
 
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
+        """Show nothing before the document is complete."""
+
+    def series(self, result: series.SeriesResult) -> None:
         """Show nothing before the document is complete."""
 
     def end(self, content: report.RunContent, document: str) -> None:
@@ -93,6 +113,9 @@ class VerdictTable:
     def case(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
         """Show nothing yet: columns are as wide as their widest cell."""
 
+    def series(self, result: series.SeriesResult) -> None:
+        """Show nothing yet."""
+
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the table and the explanations."""
         from rich.console import Console
@@ -109,6 +132,9 @@ class VerdictTable:
         for result in shown:
             if self._verbose or not content.passes(result):
                 console.print(report.explanation_text(content, result, every_criterion=self._verbose))
+        judged = [each for each in content.series if not (self._quiet and each.met)]
+        for line in report.series_table(judged, console.width) if judged else ():
+            console.print(line, markup=False)
         for line in report.missing_lines(content.baseline) if content.baseline else ():
             console.print(line, markup=False)
         if self._verbose:

@@ -33,7 +33,9 @@ class TraceCollection:
     def add(self, case_run: campaign.CaseRun) -> None:
         """Add the trace of a case."""
         if self._while_running and case_run.recording is not None:
-            self.traces[case_run.result.id] = report.trace_of(case_run.recording, case_run.result.criteria)
+            self.traces[case_run.result.id] = report.trace_of(
+                case_run.recording, case_run.result.drawn_stop.criteria
+            )
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
         """Return the traces; simulate the worst cases of a large batch again."""
@@ -44,7 +46,7 @@ class TraceCollection:
         if self.needed and not self._while_running and not done.interrupted:
             drawn_cases = campaign.by_id(self.cases, frozenset(worst))
             for case, recording in campaign.replay(drawn_cases, every=self._interval, jobs=jobs):
-                self.traces[case.id] = report.trace_of(recording, worst[case.id].criteria)
+                self.traces[case.id] = report.trace_of(recording, worst[case.id].drawn_stop.criteria)
         return self.traces
 
     @property

@@ -6,24 +6,28 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, evaluation, report, scenario
+from uictest import campaign, report, scenario, series
 from uictest.cli.exit_codes import InvalidInputError
 from uictest.cli.output import message
 
 
-def failed_last(cases: Sequence[scenario.Case], output: Path) -> list[scenario.Case]:
-    """Return the cases that failed last; if none is known, all of them, with a message.
+def failed_last(
+    cases: Sequence[scenario.Case], planned: Sequence[series.Series], output: Path
+) -> tuple[list[scenario.Case], list[series.Series]]:
+    """Return the cases and the series that failed last; if none is known, all of them, with a message.
 
     Raises InvalidInputError where the results of the newest run cannot be read.
     """
     run = _newest_run(output)
     if run is None:
         message(f"uictest: no earlier run in {output}: all cases are selected")
-        return list(cases)
-    selected = campaign.by_id(cases, _not_met(run))
-    if not selected:
-        message(f"uictest: none of these cases failed in {run.name}: all are selected")
-    return selected or list(cases)
+        return list(cases), list(planned)
+    not_met = _not_met(run)
+    selected = campaign.by_id(cases, not_met), [each for each in planned if each.id in not_met]
+    if any(selected):
+        return selected
+    message(f"uictest: none of these cases failed in {run.name}: all are selected")
+    return list(cases), list(planned)
 
 
 def _newest_run(output: Path) -> Path | None:
@@ -55,7 +59,8 @@ def _command(run: Path) -> str:
 def _not_met(run: Path) -> frozenset[str]:
     path = run / report.RESULTS
     try:
-        results = evaluation.results_of(json.loads(path.read_text(encoding="utf-8")))
+        content = report.run_content(json.loads(path.read_text(encoding="utf-8")), run.name)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InvalidInputError(f"uictest: {path} cannot be read as the results of a run: {error}") from error
-    return frozenset(result.id for result in results if not result.met)
+    missed = [result.id for result in content.results if not result.met]
+    return frozenset([*missed, *(result.id for result in content.series if not result.met)])

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from uictest import campaign, field_data, recording, report, scenario
+from uictest import campaign, evaluation, field_data, recording, report, scenario, series
 from uictest.cli.output import message
 from uictest.cli.recordings import each_file, stop_names
 from uictest.cli.running.display import Display
+from uictest.cli.running.series_runs import cases_of
 from uictest.scenario import yaml
 from uictest.units import KILOMETRE_PER_HOUR
 
@@ -62,6 +64,8 @@ class RecordedBatch:
     recording: campaign.RecordingRequest
     output: Path
     junit: Path | None
+    series: Sequence[series.Series] = ()
+    """Series whose stops, in this order, are all of the recorded ones; none where each stop is by itself."""
 
 
 def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> list[RecordedFile]:
@@ -78,14 +82,24 @@ def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> lis
     return [replace(file, name=name) for file, name in zip(files, stop_names(paths), strict=True)]
 
 
-def run_recorded(batch: RecordedBatch, display: Display) -> tuple[campaign.BatchResult, Path]:
-    """Judge every stop and publish the reports; return the results and the folder. Raises OSError."""
+def run_recorded(batch: RecordedBatch, display: Display) -> tuple[report.RunContent, Path]:
+    """Judge every stop and publish the reports; return what they show and the folder. Raises OSError."""
     parts = campaign.parts_of_recorded(batch.cases)
     inputs = {name: digest for case in batch.cases for name, digest in case.inputs.items()}
     manifest = report.run_manifest(batch.arguments, None, inputs, len(batch.cases), parts.values())
     case_runs = [campaign.with_parts(case_run, parts) for case_run in _judge(batch)]
-    place = _publish(batch, case_runs, manifest, display)
-    return campaign.BatchResult([each.result for each in case_runs]), place
+    return _publish(batch, case_runs, manifest, display)
+
+
+def _judge_series(
+    planned: Sequence[series.Series], results: Sequence[evaluation.CaseResult]
+) -> list[series.SeriesResult]:
+    """Return the series judged; `results` are those of all their stops, in order."""
+    waiting = iter(results)
+    return [
+        series.judge_series(each, cases_of(each, list(itertools.islice(waiting, len(each.stops)))))
+        for each in planned
+    ]
 
 
 def _judge(batch: RecordedBatch) -> list[campaign.CaseRun]:
@@ -103,7 +117,7 @@ def _publish(
     case_runs: Sequence[campaign.CaseRun],
     manifest: report.RunManifest,
     display: Display,
-) -> Path:
+) -> tuple[report.RunContent, Path]:
     with report.RunFolder(batch.output, report.run_name(datetime.now(UTC), manifest)) as folder:
         content = _content(batch, folder.name, case_runs, manifest)
         _write_recordings(folder.path, case_runs, batch.recording)
@@ -112,11 +126,13 @@ def _publish(
         place = folder.publish()
     report.point_latest(place)
     if batch.junit is not None:
-        recording.write_text_atomic(batch.junit, report.junit_xml(content.results))
+        recording.write_text_atomic(batch.junit, report.junit_xml(content.results, series=content.series))
     for result in content.results:
         display.case(result)
+    for judged in content.series:
+        display.series(judged)
     display.end(content, document)
-    return place
+    return content, place
 
 
 def _content(
@@ -132,7 +148,10 @@ def _content(
         if each.recording is not None
     }
     results = [each.result for each in case_runs]
-    return report.RunContent(name, results, manifest, subjects=descriptions, traces=traces)
+    content = report.RunContent(name, results, manifest, subjects=descriptions, traces=traces)
+    if not batch.series:
+        return content
+    return replace(content, results=[], series=_judge_series(batch.series, results))
 
 
 def _write_recordings(

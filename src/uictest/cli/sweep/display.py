@@ -49,7 +49,7 @@ def show_annotations(content: report.SweepContent) -> None:
 
 
 def result_lines(result: report.SweepResult, width: int | None = None) -> Iterator[str]:
-    """Yield maps, met cases per parameter, sensitivities and the frontier, a blank line between them.
+    """Yield maps, met cases by parameter, sensitivities, tails and the frontier, a blank line between them.
 
     Maps keep to `width` characters, None for any width.
     """
@@ -58,6 +58,7 @@ def result_lines(result: report.SweepResult, width: int | None = None) -> Iterat
         yield ""
     yield from _rates(result)
     yield from _sensitivities(result)
+    yield from report.tail_lines(result)
     if result.frontier is not None:
         yield from _frontier(result.frontier)
     yield from missed_lines(result)

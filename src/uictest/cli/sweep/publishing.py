@@ -9,6 +9,7 @@ from pathlib import Path
 
 from uictest import campaign, evaluation, recording, report, sweep
 from uictest.cli.output import message
+from uictest.cli.sweep.nominal_stops import with_nominal_stops
 from uictest.cli.sweep.run import SweepRun, prepared_runner
 
 
@@ -21,6 +22,7 @@ def publish(run: SweepRun, store: sweep.ChunkStore) -> tuple[report.SweepResult,
     frontier = None if run.search is None else _frontier(run, summary, run.search)
     worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
+    result = with_nominal_stops(run, result)
     file = run.selection.plan.file
     document = report.write_sweep_result(store.folder, result, file)
     content = _write_reports(run, store.folder)

@@ -117,6 +117,7 @@ def _compiled(controller: Controller) -> _Functions:
         train, wheelsets = train_at(handle + train_place), wheelsets_at(handle)
         for i in range(WHEELSETS):
             wheelsets[i].measured_speed = inputs.wheel_speed[i]
+            wheelsets[i].speed_valid = inputs.speed_valid[i]
         decide(train, wheelsets, parameters_at(handle + parameters_place))
         for i in range(WHEELSETS):
             command = wheelsets[i].valve_command

@@ -31,8 +31,12 @@ _TURNS: Final[set["Turn"]] = set()
 
 def interrupt_turns() -> None:
     """End the stops that wait for a program at a socket; each raises ControllerError in its own thread."""
-    for turn in tuple(_TURNS):
-        turn.interrupt()
+    turns = tuple(_TURNS)
+    for turn in turns:
+        turn.interrupted = True
+    # Only now: the end of one connection lets the next stop begin, which must not connect any more.
+    for turn in turns:
+        turn.disconnect()
 
 
 class Turn:
@@ -42,7 +46,7 @@ class Turn:
         self._location = location
         self._address = _ADDRESSES.setdefault(location, _Address())
         self._stream: socket.socket | None = None
-        self._interrupted = False
+        self.interrupted = False
 
     def begin(self) -> socket.socket:
         """Wait for the stops before this one, then connect. Raises ControllerError where nobody listens."""
@@ -67,9 +71,8 @@ class Turn:
             self._stream.close()
         self._address.free.release()
 
-    def interrupt(self) -> None:
-        """End the stop, from another thread."""
-        self._interrupted = True
+    def disconnect(self) -> None:
+        """End the stop, if it is connected, from another thread."""
         if self._stream is not None:
             with suppress(OSError):
                 self._stream.shutdown(socket.SHUT_RDWR)
@@ -99,5 +102,5 @@ class Turn:
         return stream
 
     def _reject_interrupted(self) -> None:
-        if self._interrupted:
+        if self.interrupted:
             raise ControllerError("interrupted before the program was connected")

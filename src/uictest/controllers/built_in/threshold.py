@@ -4,16 +4,16 @@ Each wheelset runs through modes. FREE fills. When its slip exceeds the threshol
 more than any wheel on a good rail can have, it VENTs until the wheel has stopped losing speed, then
 HOLDs while the wheel catches up, and REFILLs in pulses until the brake is back at the demand. While all
 four slide nothing shows the train's speed; after a while one of them is PROBING: vented until it rolls
-and shows that speed. No WSP maker publishes thresholds: all of them are parameters.
+and shows that speed. A wheelset whose speed is not plausible (:mod:`uictest.controllers.plausibility`) has no
+part in the estimate and gets the commands of the other one of its bogie; where that has no speed either, it
+is filled. No WSP maker publishes thresholds: all of them are parameters.
 """
 
 from collections.abc import Iterator, Sequence
 
 from uictest.controllers.contract import (
     Conflict,
-    ControlledWheelset,
     Controller,
-    ControllerParameters,
     TrainMemory,
     acceleration,
     duration,
@@ -21,10 +21,18 @@ from uictest.controllers.contract import (
     parameter,
     share,
 )
+from uictest.controllers.plausibility import (
+    PlausibilityParameters,
+    WatchedWheelset,
+    begin_watch,
+    shows_speed_of_train,
+    take_over,
+    watch,
+)
 from uictest.physics import FILL, HOLD, VENT, maximum, minimum
 
 
-class Parameters(ControllerParameters):
+class Parameters(PlausibilityParameters):
     """Fill, hold or vent by slip speed, slide and acceleration of each wheelset."""
 
     slip_threshold: float = low_speed("Slip speed from which a wheelset counts as sliding.")
@@ -65,10 +73,9 @@ class Train(TrainMemory):
     probed: int  # wheelset that was probed last, 0..3
 
 
-class Wheelset(ControlledWheelset):
+class Wheelset(WatchedWheelset):
     """What the controller reads, sets and remembers of a wheelset."""
 
-    previous_speed: float  # measured in the cycle before, m/s
     measured_acceleration: float  # low-pass filtered, m/s2
     mode: int  # FREE, VENTING, HOLDING, REFILLING or PROBING
     mode_cycles: int  # since the mode began
@@ -100,38 +107,48 @@ def conflicts(parameters: Parameters) -> Iterator[Conflict]:
 def begin(train: Train, wheelsets: Sequence[Wheelset], speed: float) -> None:
     """Start from rolling at ``speed`` m/s."""
     train.reference_speed = speed
-    train.blind_cycles = 0
-    train.probed = 3
+    train.blind_cycles, train.probed = 0, 3
     for i in range(4):
-        wheelset = wheelsets[i]
-        wheelset.previous_speed = speed
-        wheelset.measured_acceleration = 0.0
-        wheelset.mode = FREE
-        wheelset.mode_cycles = 0
+        begin_watch(wheelsets[i], speed)
+        wheelsets[i].measured_acceleration = 0.0
+        wheelsets[i].mode, wheelsets[i].mode_cycles = FREE, 0
 
 
 def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
     """Set the command of each wheelset; see the contract in :mod:`uictest.controllers`."""
     for i in range(4):
-        _differentiate(wheelsets[i], parameters)
+        _read_speed(wheelsets[i], parameters)
+    watch(wheelsets, train.reference_speed, _recovered_slip(train.reference_speed, parameters), parameters)
     _estimate_speed(train, wheelsets, parameters)
     for i in range(4):
         _enter(wheelsets[i], _next_mode(wheelsets[i], train.reference_speed, parameters))
     _probe(train, wheelsets, parameters)
     for i in range(4):
-        wheelsets[i].valve_command = _command(wheelsets[i], parameters)
+        wheelsets[i].valve_command = _command_of(wheelsets, i, parameters)
 
 
-def _differentiate(wheelset: Wheelset, parameters: Parameters) -> None:
-    """Differentiate the measured speed and filter the acceleration (first order)."""
-    change = (wheelset.measured_speed - wheelset.previous_speed) / parameters.cycle_time
-    weight = parameters.cycle_time / (parameters.cycle_time + parameters.acceleration_filter_time)
-    wheelset.measured_acceleration += weight * (change - wheelset.measured_acceleration)
-    wheelset.previous_speed = wheelset.measured_speed
+def _read_speed(wheelset: Wheelset, parameters: Parameters) -> None:
+    """Take over a plausible reading, differentiate it and filter the acceleration (first order)."""
+    before = wheelset.plausible_speed
+    elapsed = take_over(wheelset, parameters)
+    if elapsed > 0.0:
+        change = (wheelset.plausible_speed - before) / elapsed
+        weight = parameters.cycle_time / (parameters.cycle_time + parameters.acceleration_filter_time)
+        wheelset.measured_acceleration += weight * (change - wheelset.measured_acceleration)
+
+
+def _slip_threshold(reference: float, parameters: Parameters) -> float:
+    """Return the slip speed from which a wheelset slides, m/s."""
+    return parameters.slip_threshold + parameters.slide_threshold * reference
+
+
+def _recovered_slip(reference: float, parameters: Parameters) -> float:
+    """Return the slip speed below which a wheelset has caught up, m/s."""
+    return parameters.recovery_share * _slip_threshold(reference, parameters)
 
 
 def _estimate_speed(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
-    """Estimate the train's speed from the fastest wheelset.
+    """Estimate the train's speed from the fastest wheelset that is trusted.
 
     While some wheelset rolls the estimate follows the fastest one, falling at most at the deceleration
     that a train can have. While all of them slide it falls more slowly, so that it does not sink with
@@ -143,9 +160,11 @@ def _estimate_speed(train: Train, wheelsets: Sequence[Wheelset], parameters: Par
     probed = False
     for i in range(4):
         wheelset = wheelsets[i]
-        fastest = maximum(fastest, wheelset.measured_speed)
-        rolling = rolling or _rolls(wheelset, parameters)
-        probed = probed or _shows_speed(wheelset, parameters)
+        if shows_speed_of_train(wheelset):
+            fastest = maximum(fastest, wheelset.plausible_speed)
+        if wheelset.distrusted == 0:
+            rolling = rolling or _rolls(wheelset, parameters)
+            probed = probed or _shows_speed(wheelset, parameters)
     fall = parameters.reference_deceleration if rolling else parameters.holding_deceleration
     estimate = train.reference_speed - fall * parameters.cycle_time
     if probed:
@@ -160,19 +179,24 @@ def _estimate_speed(train: Train, wheelsets: Sequence[Wheelset], parameters: Par
 
 
 def _probe(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
-    """Start probing the next wheelset when none has shown the train's speed for too long."""
+    """Start probing the next trusted wheelset when none has shown the train's speed for too long."""
     for i in range(4):
         if wheelsets[i].mode == PROBING:
             return
     if train.blind_cycles * parameters.cycle_time > parameters.sounding_interval:
-        train.probed = (train.probed + 1) % 4
-        _enter(wheelsets[train.probed], PROBING)
+        for k in range(1, 5):
+            candidate = (train.probed + k) % 4
+            if wheelsets[candidate].distrusted == 0:
+                train.probed = candidate
+                _enter(wheelsets[candidate], PROBING)
+                return
 
 
 def _rolls(wheelset: Wheelset, parameters: Parameters) -> bool:
     """Return True once a wheelset has been free for so long that it must roll."""
-    time_in_mode = wheelset.mode_cycles * parameters.cycle_time
-    return bool(wheelset.mode == FREE and time_in_mode > parameters.rolling_time)
+    return bool(
+        wheelset.mode == FREE and wheelset.mode_cycles * parameters.cycle_time > parameters.rolling_time
+    )
 
 
 def _shows_speed(wheelset: Wheelset, parameters: Parameters) -> bool:
@@ -190,16 +214,14 @@ def _enter(wheelset: Wheelset, mode: int) -> None:
     if mode == wheelset.mode:
         wheelset.mode_cycles += 1
     else:
-        wheelset.mode = mode
-        wheelset.mode_cycles = 0
+        wheelset.mode, wheelset.mode_cycles = mode, 0
 
 
 def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> int:
     """Return the mode of the wheelset for the coming cycle."""
-    slip = reference - wheelset.measured_speed
-    threshold = parameters.slip_threshold + parameters.slide_threshold * reference
+    slip = reference - wheelset.plausible_speed
     time_in_mode = (wheelset.mode_cycles + 1) * parameters.cycle_time
-    if reference < parameters.minimum_speed:
+    if reference < parameters.minimum_speed or wheelset.distrusted == 1:
         return FREE
     if wheelset.mode == PROBING:
         spent = _shows_speed(wheelset, parameters) or time_in_mode > parameters.vent_watchdog
@@ -207,8 +229,8 @@ def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> 
     if wheelset.mode == VENTING:
         return _after_venting(wheelset, slip, reference, time_in_mode, parameters)
     if wheelset.mode == HOLDING:
-        return _after_holding(wheelset, slip, reference, threshold, time_in_mode, parameters)
-    if _slides(wheelset, slip, threshold, parameters):
+        return _after_holding(wheelset, slip, reference, time_in_mode, parameters)
+    if _slides(wheelset, slip, _slip_threshold(reference, parameters), parameters):
         return VENTING
     if wheelset.mode == REFILLING and time_in_mode <= parameters.refill_time:
         return REFILLING
@@ -218,18 +240,15 @@ def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> 
 def _slides(wheelset: Wheelset, slip: float, threshold: float, parameters: Parameters) -> bool:
     """Return True when the wheel slides: slip above the threshold without recovery, or an impossible fall."""
     losing = wheelset.measured_acceleration < parameters.reacceleration_threshold
-    falling = wheelset.measured_acceleration < -parameters.vent_deceleration
-    return bool((slip > threshold and losing) or falling)
+    return bool(
+        (slip > threshold and losing) or wheelset.measured_acceleration < -parameters.vent_deceleration
+    )
 
 
 def _after_venting(
     wheelset: Wheelset, slip: float, reference: float, time_in_mode: float, parameters: Parameters
 ) -> int:
-    """Return the mode that follows a vent: hold once the wheel loses no more speed.
-
-    In a deep slide it must gain speed first. A locked wheel loses no speed either, and only goes on turning
-    when it is vented further.
-    """
+    """Return the mode after a vent: hold once the wheel loses no speed, or in a deep slide gains some."""
     deep = slip > parameters.deep_slide * reference
     enough = parameters.reacceleration_threshold if deep else -parameters.hold_deceleration
     if wheelset.measured_acceleration > enough:
@@ -238,22 +257,23 @@ def _after_venting(
 
 
 def _after_holding(
-    wheelset: Wheelset,
-    slip: float,
-    reference: float,
-    threshold: float,
-    time_in_mode: float,
-    parameters: Parameters,
+    wheelset: Wheelset, slip: float, reference: float, time_in_mode: float, parameters: Parameters
 ) -> int:
     """Return the mode that follows a hold: refill once the wheel has caught up, else vent again."""
-    if slip < parameters.recovery_share * threshold:
+    if slip < _recovered_slip(reference, parameters):
         return REFILLING
-    deep = slip > parameters.deep_slide * reference
-    if wheelset.measured_acceleration < (0.0 if deep else -parameters.vent_deceleration):
+    enough = 0.0 if slip > parameters.deep_slide * reference else -parameters.vent_deceleration
+    if wheelset.measured_acceleration < enough:
         return VENTING
     if time_in_mode > parameters.hold_limit:
         return VENTING if wheelset.measured_acceleration < parameters.reacceleration_threshold else HOLDING
     return HOLDING
+
+
+def _command_of(wheelsets: Sequence[Wheelset], number: int, parameters: Parameters) -> int:
+    """Return the valve command of a wheelset: its own, or without a speed that of the other of its bogie."""
+    other = number + 1 - 2 * (number % 2)
+    return _command(wheelsets[number if wheelsets[number].distrusted == 0 else other], parameters)
 
 
 def _command(wheelset: Wheelset, parameters: Parameters) -> int:
@@ -264,8 +284,8 @@ def _command(wheelset: Wheelset, parameters: Parameters) -> int:
         return HOLD
     if wheelset.mode == REFILLING:
         on = round(parameters.fill_pulse_on / parameters.cycle_time)
-        off = round(parameters.fill_pulse_off / parameters.cycle_time)
-        return FILL if wheelset.mode_cycles % (on + off) < on else HOLD
+        pulse = on + round(parameters.fill_pulse_off / parameters.cycle_time)
+        return FILL if wheelset.mode_cycles % pulse < on else HOLD
     return FILL
 
 

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import math
-
 from uictest.measures.measure import (
     Measure,
     MeasureValue,
     RecordedData,
     WheelsetColumn,
     Wheelsets,
+    is_nan,
+    plain,
     unavailable,
     value_per_wheelset,
 )
 
 
 def _disc_temperatures(wheelsets: Wheelsets) -> MeasureValue:
-    temperatures = tuple(float(wheelset.maximum_disc_temperature) for wheelset in wheelsets)
-    if all(map(math.isnan, temperatures)):
+    temperatures = tuple(plain(wheelset.maximum_disc_temperature) for wheelset in wheelsets)
+    if all(map(is_nan, temperatures)):
         return unavailable("the temperature of the discs is not modelled: brake.disc_temperature")
     return MeasureValue(temperatures)
 

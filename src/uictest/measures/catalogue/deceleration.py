@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from uictest.measures.measure import (
     Measure,
     MeasureValue,
     RecordedData,
     StopColumn,
+    is_nan,
     one_value,
     unavailable,
 )
@@ -17,7 +16,7 @@ _FILTERING = ("deceleration_filter", "moving_speed")
 
 
 def _deceleration(extreme: float) -> MeasureValue:
-    if math.isnan(extreme):
+    if is_nan(extreme):
         return unavailable("the brake was never fully developed while the train ran")
     return one_value(extreme)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
 from uictest.measures.measure import (
@@ -11,6 +10,8 @@ from uictest.measures.measure import (
     RecordedData,
     WheelsetColumn,
     Wheelsets,
+    is_nan,
+    plain,
     unavailable,
     value_per_wheelset,
 )
@@ -32,8 +33,8 @@ def maximum_slide_above_cutoff(
     measures keep one value per such class. There is no value for a train that never ran faster.
     """
     k = round(low_speed_cutoff / SLIDE_CLASS)
-    slides = tuple(float(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
-    if not stop.initial_speed > low_speed_cutoff or all(map(math.isnan, slides)):
+    slides = tuple(plain(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
+    if not stop.initial_speed > low_speed_cutoff or all(map(is_nan, slides)):
         return unavailable(f"the train never ran faster than the cut-off of {10 * k} km/h")
     return MeasureValue(slides)
 
@@ -72,6 +73,7 @@ MEASURES = (
         of_wheelsets=True,
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=_WHEEL_SPEEDS,
+        column=WheelsetColumn("sliding_time_s", "s", read=lambda wheelset: wheelset.sliding_duration),
         finite_field="sliding_duration",
     ),
 )

@@ -31,7 +31,12 @@ def braking_time(stop: StopMeasures) -> MeasureValue:
 def mean_deceleration(stop: StopMeasures) -> MeasureValue:
     """Return v0^2 / (2 s) in m/s2, s the braking distance (up to now) from the initial speed v0."""
     (distance,) = braking_distance(stop).values
-    return one_value(stop.initial_speed**2 / (2.0 * distance) if distance else math.inf)
+    return one_value(constant_deceleration(stop.initial_speed, distance))
+
+
+def constant_deceleration(speed: float, distance: float) -> float:
+    """Return the deceleration (m/s2) that stops a train from a speed (m/s) within a distance (m)."""
+    return speed**2 / (2.0 * distance) if distance else math.inf
 
 
 def standstill(stop: StopMeasures) -> MeasureValue:

@@ -1,8 +1,8 @@
-"""The three tables of a run: one row per case, per wheelset, per criterion."""
+"""The tables of a run: one row per case, wheelset, criterion, requirement, and stop of repeated cases."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
@@ -10,9 +10,24 @@ from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, csv_text
 from uictest.report.format_registry import ReportFormat
 from uictest.report.part_wording import changes_of
+from uictest.report.repeat_wording import (
+    CRITERION_COLUMNS,
+    SHARE_COLUMNS,
+    any_repeated,
+    criterion_share_cells,
+    range_cells,
+    range_columns,
+    share_cells,
+    stop_rows,
+)
+from uictest.report.requirements import requirement_rows, verified_requirements
+from uictest.report.series.tables import series_tables
+from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import definition_sentence
+from uictest.series import SeriesResult
 
 CHANGED = "changed_parameters"
+REQUIREMENTS = "requirements"
 _CRITERION_FIELDS = {
     "layer": "layer",
     "verdict": "status",
@@ -22,7 +37,10 @@ _CRITERION_FIELDS = {
 
 
 def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per case: swept parameters (as written), outcome, changed parameters, measures."""
+    """Return one row per case: swept parameters (as written), outcome, changed parameters, measures.
+
+    Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too.
+    """
     keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
     columns = [
         "id",
@@ -33,19 +51,46 @@ def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
         "met",
         "reason",
         CHANGED,
+        "test_case",
+        REQUIREMENTS,
+        *_of_repeated(results, SHARE_COLUMNS),
         *STOP_COLUMNS,
+        *_of_repeated(results, range_columns(STOP_COLUMNS)),
     ]
     return csv_text(columns, map(_summary_row, results))
 
 
 def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per case and wheelset; wheelset 1 leads."""
-    return csv_text(["id", "wheelset", *WHEELSET_COLUMNS], _wheelset_rows(results))
+    """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_csv`."""
+    ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
+    return csv_text(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], _wheelset_rows(results))
 
 
 def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per case and criterion, with the definitions that its verdict depends on."""
-    return csv_text(["id", "criterion", *_CRITERION_FIELDS, "definition"], _criterion_rows(results))
+    """Return one row per case and criterion, with the definitions that its verdict depends on.
+
+    Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
+    """
+    own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
+    return csv_text(["id", "criterion", *_CRITERION_FIELDS, *own, "definition"], _criterion_rows(results))
+
+
+def repeats_csv(results: Sequence[evaluation.CaseResult]) -> str:
+    """Return one row per stop of every repeated case: seed, outcome, measures; empty without any."""
+    if not any_repeated(results):
+        return ""
+    wheelsets = (f"{name}_{position}" for position in WHEELSETS for name in WHEELSET_COLUMNS)
+    return csv_text(["id", "seed", "outcome", "reason", *STOP_COLUMNS, *wheelsets], stop_rows(results))
+
+
+def requirements_csv(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> str:
+    """Return one row per requirement and case or series that names it; empty where none does."""
+    rows = list(requirement_rows(verified_requirements(results, series)))
+    return csv_text(list(rows[0]), rows) if rows else ""
+
+
+def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str]) -> Iterable[str]:
+    return columns if any_repeated(results) else ()
 
 
 def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
@@ -55,35 +100,45 @@ def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
         **parameters,
         **own,
         CHANGED: "; ".join(changes_of(result)),
+        "test_case": result.test_case,
+        REQUIREMENTS: "; ".join(result.requirements),
+        **share_cells(result),
         **(result.measures or {}),
+        **range_cells(result, STOP_COLUMNS),
     }
 
 
 def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
-            yield {"id": result.id, "wheelset": position, **wheelset}
+            ranges = range_cells(result, WHEELSET_COLUMNS, position)
+            yield {"id": result.id, "wheelset": position, **wheelset, **ranges}
 
 
 def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for verdict in result.criteria:
             own = {"id": result.id, "criterion": verdict.id, "definition": definition_sentence(verdict)}
-            yield {**own, **criterion_cells(verdict)}
+            yield {**own, **criterion_cells(verdict), **criterion_share_cells(verdict)}
 
 
 def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
     """Return the cells of a verdict that every table of criteria has."""
-    return {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
+    own: dict[str, Cell] = {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
+    return own | {REQUIREMENTS: "; ".join(verdict.requirements)}
 
 
 def _files(content: RunContent) -> dict[str, bytes]:
     results = content.results
-    return {
-        "summary.csv": summary_csv(results).encode(),
-        "wheelsets.csv": wheelsets_csv(results).encode(),
-        "criteria.csv": criteria_csv(results).encode(),
+    texts = {
+        "summary.csv": summary_csv(results),
+        "wheelsets.csv": wheelsets_csv(results),
+        "criteria.csv": criteria_csv(results),
+        "repeats.csv": repeats_csv(results),
+        "requirements.csv": requirements_csv(results, content.series),
     }
+    texts |= series_tables(content.series)
+    return {name: text.encode() for name, text in texts.items() if text}
 
 
 FORMAT = ReportFormat(_files)

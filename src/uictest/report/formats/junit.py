@@ -12,20 +12,36 @@ from uictest.report.content import RunContent
 from uictest.report.difference import Difference
 from uictest.report.escaping import xml_text
 from uictest.report.format_registry import ReportFormat
-from uictest.report.junit_properties import program_properties
+from uictest.report.junit_properties import (
+    WITH_TEST_PROPERTIES,
+    add_suite_properties,
+    add_test_properties,
+)
 from uictest.report.part_wording import changes_line
+from uictest.report.repeat_wording import repeat_sentences
+from uictest.report.requirements import requirements_of
+from uictest.report.series.junit import series_testsuites
 from uictest.report.wording import DIFFERS, real_time_sentences
+from uictest.scenario import in_order_of_ids
+from uictest.series import SeriesResult
 
 
-def junit_xml(results: Sequence[evaluation.CaseResult], baseline: BaselineComparison | None = None) -> str:
+def junit_xml(
+    results: Sequence[evaluation.CaseResult],
+    baseline: BaselineComparison | None = None,
+    series: Sequence[SeriesResult] = (),
+    *,
+    test_properties: bool = False,
+) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
 
     A case that differs from the baseline is a failure, as is a case of the baseline that is missing. Cases
     with a controller from outside have a suite of their own for each such program, whose properties say
-    which it is.
+    which it is. A series is a suite of its own, with one testcase per criterion.
 
     It keeps to the schema that Jenkins' xUnit plugin checks against: a testcase has neither `file` nor
-    properties there.
+    properties there. With `test_properties` a testcase has properties nevertheless: those by which Polarion
+    and Xray know the test case and its requirements.
     """
     root = ElementTree.Element("testsuites")
     differences = baseline.differences if baseline else {}
@@ -36,11 +52,16 @@ def junit_xml(results: Sequence[evaluation.CaseResult], baseline: BaselineCompar
     own: dict[evaluation.Program | None, list[evaluation.CaseResult]] = {None: []} if missing else {}
     for result in results:
         own.setdefault(evaluation.program_in(result.parts), []).append(result)
-    for program, of_program in (own or {None: []}).items():
+    for program, of_program in (own or ({} if series else {None: []})).items():
         told = dict.fromkeys(result.controller_version for result in of_program)
         testcases = [_testcase(result, differences.get(result.id, ())) for result in of_program]
+        if test_properties:
+            _add_test_properties(testcases, of_program)
         duration = sum(result.duration for result in of_program)
-        root.append(_testsuite(program, [*testcases, *(missing if program is None else ())], duration, told))
+        suite = _testsuite(program, [*testcases, *(missing if program is None else ())], duration)
+        add_suite_properties(suite, program, told, _requirements(of_program))
+        root.append(suite)
+    root.extend(series_testsuites(series, test_properties=test_properties))
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
@@ -49,17 +70,25 @@ def _testsuite(
     program: evaluation.Program | None,
     testcases: Sequence[ElementTree.Element],
     duration: float,
-    told: Iterable[str],
 ) -> ElementTree.Element:
     name = "uictest" if program is None else xml_text(f"uictest: {program.name}")
     suite = ElementTree.Element("testsuite", name=name, tests=str(len(testcases)))
-    if program is not None:
-        suite.append(program_properties(program, told))
     suite.extend(testcases)
     for attribute, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
     suite.set("time", f"{duration:.3f}")
     return suite
+
+
+def _requirements(results: Iterable[evaluation.CaseResult]) -> list[str]:
+    return in_order_of_ids({each for result in results for each in requirements_of(result)})
+
+
+def _add_test_properties(
+    testcases: Iterable[ElementTree.Element], results: Iterable[evaluation.CaseResult]
+) -> None:
+    for testcase, result in zip(testcases, results, strict=True):
+        add_test_properties(testcase, result.test_case, requirements_of(result))
 
 
 def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
@@ -69,7 +98,7 @@ def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) 
     if tag is not None:
         kind = "baseline" if case_word(result, differences) == DIFFERS else ""
         _add_child(element, tag, [*case_explanation(result, differences), *remarks], kind)
-    elif remarks:
+    elif remarks := [*repeat_sentences(result), *remarks]:
         ElementTree.SubElement(element, "system-out").text = xml_text("\n".join(remarks))
     return element
 
@@ -112,7 +141,13 @@ def _dotted(scenario: str) -> str:
 
 
 def _files(content: RunContent) -> dict[str, bytes]:
-    return {"junit.xml": junit_xml(content.results, content.baseline).encode()}
+    files = {"junit.xml": junit_xml(content.results, content.baseline, content.series)}
+    judged: list[evaluation.CaseResult | SeriesResult] = [*content.results, *content.series]
+    if any(result.test_case or requirements_of(result) for result in judged):
+        files[WITH_TEST_PROPERTIES] = junit_xml(
+            content.results, content.baseline, content.series, test_properties=True
+        )
+    return {name: text.encode() for name, text in files.items()}
 
 
 FORMAT = ReportFormat(_files)

@@ -12,6 +12,10 @@ from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
 from uictest.report.part_wording import changes_of
+from uictest.report.repeat_wording import any_repeated, stops_text
+from uictest.report.requirements import VerifiedRequirement, verified_requirements
+from uictest.report.series.md import series_markdown
+from uictest.report.wording import listed
 
 _MEASURES = {
     "braking_distance_m": ".1f",
@@ -22,11 +26,16 @@ _MEASURES = {
 _DIFFERENCE_COLUMNS = ("case", "quantity", "baseline", "this run", "deviation", "tolerance", "unit", "remark")
 _DIFFERENCES_SHOWN = 100
 """Quantities out of the tolerance of the baseline that a reader is shown here."""
+_REQUIREMENT_COLUMNS = ("requirement", "status", "tested in", "not met in")
+_REQUIREMENTS_SHOWN = 100
+"""Requirements that a reader is shown here, those not met first."""
 _COLUMNS = (
     *("verdict", "case", "outcome"),
-    *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide, %"),
+    *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide, %", "sliding, s", "locked, s"),
     *("changed parameters", "why"),
 )
+_PLACE_OF_STOPS = 3
+"""Place of the column that says how many stops of a repeated case came out as expected."""
 
 
 def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
@@ -37,15 +46,45 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     text = f"## uictest: {content.tally}\n\n"
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
+    text += series_markdown(content.series, limit // 2)
     text += _baseline(content.baseline, limit // 2) if content.baseline else ""
-    rows = [_row(content, result) for result in sorted(content.results, key=content.passes)]
-    table = MarkdownTable(_COLUMNS, "lllrrrrrll", rows, "more cases are in `summary.csv` and `results.json`.")
-    return text + table.within(limit - len(text.encode()))
+    text += _requirements(content, limit // 4)
+    repeated = any_repeated(content.results)
+    ranked = sorted(content.results, key=content.passes)
+    rows = [_row(content, result, repeated=repeated) for result in ranked]
+    columns, alignment = [*_COLUMNS], "lllrrrrrrrll"
+    if repeated:
+        columns.insert(_PLACE_OF_STOPS, "stops")
+        alignment = f"l{alignment}"
+    table = MarkdownTable(columns, alignment, rows, "more cases are in `summary.csv` and `results.json`.")
+    shown = content.results or not content.series
+    return text + (table.within(limit - len(text.encode())) if shown else "")
 
 
 def append_step_summary(content: RunContent) -> None:
     """Append the summary to the file that GitHub Actions names, where it does. Raises OSError."""
     append_to_step_summary(partial(markdown_summary, content))
+
+
+def _requirements(content: RunContent, limit: int) -> str:
+    """Return the table of the requirements that cases, series or their criteria name; empty without any."""
+    verified = verified_requirements(content.results, content.series)
+    requirements = sorted(verified, key=lambda each: each.status == "met")
+    rows = [_requirement_row(each) for each in requirements]
+    table = MarkdownTable(
+        _REQUIREMENT_COLUMNS,
+        "llrl",
+        rows,
+        "more requirements are in `requirements.csv`.",
+        _REQUIREMENTS_SHOWN,
+    )
+    return f"{table.within(limit)}\n" if rows else ""
+
+
+def _requirement_row(requirement: VerifiedRequirement) -> str:
+    status = requirement.status if requirement.status == "met" else f"**{requirement.status}**"
+    not_met = listed([f"{each.name} ({each.word})" for each in requirement.not_met])
+    return row([code(requirement.id), status, str(len(requirement.tested)), prose(not_met)])
 
 
 def _baseline(baseline: BaselineComparison, limit: int) -> str:
@@ -66,17 +105,23 @@ def _difference_row(difference: Difference) -> str:
     return row([code(difference.case), code(difference.quantity), *sides, *sizes, unit, remark])
 
 
-def _row(content: RunContent, result: evaluation.CaseResult) -> str:
+def _row(content: RunContent, result: evaluation.CaseResult, *, repeated: bool) -> str:
     word, passes = content.word(result), content.passes(result)
-    slide = max((wheelset["maximum_slide"] for wheelset in result.wheelsets), default=None)
+    slide, sliding, locked = (
+        max((wheelset[name] for wheelset in result.wheelsets), default=None)
+        for name in ("maximum_slide", "sliding_time_s", "locked_time_s")
+    )
     measures = result.measures or {}
     cells = [number_cell(measures.get(name), form) for name, form in _MEASURES.items()]
     cells.append(number_cell(None if slide is None else 100 * slide, ".1f"))
+    cells += [number_cell(sliding, ".1f"), number_cell(locked, ".1f")]
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
     outcome = f"{result.outcome}{recorded}"
     changed = prose("; ".join(changes_of(result)))
-    row_cells = (word if passes else f"**{word}**", code(result.id), outcome, *cells, changed, why)
+    row_cells = [word if passes else f"**{word}**", code(result.id), outcome, *cells, changed, why]
+    if repeated:
+        row_cells.insert(_PLACE_OF_STOPS, prose(stops_text(result)))
     return row(row_cells)
 
 

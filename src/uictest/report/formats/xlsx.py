@@ -7,14 +7,19 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 
 from uictest import evaluation
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import Difference
 from uictest.report.format_registry import ReportFormat
-from uictest.report.formats.csv import CHANGED, criterion_cells
+from uictest.report.formats.csv import CHANGED, REQUIREMENTS, criterion_cells
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changes_of
-from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
+from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
+from uictest.report.requirement_matrix import REQUIREMENTS_SHEET, requirement_matrix, verdict_columns
+from uictest.report.requirements import verified_requirements
+from uictest.report.series.tables import series_sheets
+from uictest.report.sheet import VERDICT_COLUMNS, Row, open_workbook, styles_of, write_sheet
 from uictest.report.wording import definition_sentence, result_word
 
 
@@ -24,15 +29,19 @@ def workbook_bytes(content: RunContent) -> bytes:
     with open_workbook(buffer) as workbook:
         styles = styles_of(workbook)
         for name, rows in _sheets(content).items():
-            write_sheet(workbook.add_worksheet(name), rows, styles)
+            verdicts = verdict_columns(rows) if name == REQUIREMENTS_SHEET else VERDICT_COLUMNS
+            write_sheet(workbook.add_worksheet(name), rows, styles, verdicts)
     return buffer.getvalue()
 
 
 def _sheets(content: RunContent) -> dict[str, list[Row]]:
     return {
+        **series_sheets(content.series),
         "Cases": list(_cases(content)),
         "Wheelsets": list(_wheelsets(content)),
         "Criteria": list(_criteria(content)),
+        **_repeats(content),
+        **_requirements(content),
         **_baseline_sheet(content),
         **_parts(content),
         "Provenance": list(_provenance(content)),
@@ -55,25 +64,39 @@ def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row
 def result_row(result: evaluation.CaseResult) -> Row:
     """Return the word of a case, its outcome, measures, parameters and reason."""
     row: Row = {"verdict": result_word(result)}
-    row |= {"outcome": result.outcome, "expect": result.expect}
-    row |= result.measures or {}
+    row |= {"outcome": result.outcome, "expect": result.expect, **share_cells(result)}
+    row |= {**(result.measures or {}), **range_cells(result, STOP_COLUMNS)}
     row |= dict(result.parameters)
+    named: Row = {"test_case": result.test_case, REQUIREMENTS: "; ".join(result.requirements)}
+    row |= {column: text for column, text in named.items() if text}
     return row | {CHANGED: "; ".join(changes_of(result)), "reason": result.reason}
 
 
 def _wheelsets(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
-            yield {"case": result.id, "wheelset": position, **wheelset}
+            ranges = range_cells(result, WHEELSET_COLUMNS, position)
+            yield {"case": result.id, "wheelset": position, **wheelset, **ranges}
 
 
 def _criteria(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         for verdict in result.criteria:
             row: Row = {"case": result.id, "criterion": verdict.id}
-            row |= criterion_cells(verdict)
+            row |= {**criterion_cells(verdict), **criterion_share_cells(verdict)}
             firm = "; ".join(str(sensitivity) for sensitivity in verdict.sensitivity)
             yield row | {"definition": definition_sentence(verdict), "sensitivity": firm}
+
+
+def _repeats(content: RunContent) -> dict[str, list[Row]]:
+    """Return the stops of repeated cases; no sheet where there are none."""
+    rows = [{"case": row.pop("id"), **row} for row in stop_rows(content.results)]
+    return {"Repeats": rows} if rows else {}
+
+
+def _requirements(content: RunContent) -> dict[str, list[Row]]:
+    requirements = verified_requirements(content.results, content.series)
+    return {REQUIREMENTS_SHEET: requirement_matrix(requirements)} if requirements else {}
 
 
 def _baseline_sheet(content: RunContent) -> dict[str, list[Row]]:
@@ -97,7 +120,7 @@ def _difference_row(difference: Difference) -> Row:
 
 def _parts(content: RunContent) -> dict[str, list[Row]]:
     """Return the parts of each case, and the parameters of these; no sheet where none is known."""
-    known = [result for result in content.results if result.parts]
+    known = [result for result in content.all_results if result.parts]
     if not known:
         return {}
     return {

@@ -13,7 +13,9 @@ from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word
 from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference
+from uictest.report.page.repeats_view import RepeatsView, repeats_view
 from uictest.report.page.stop.bars import vents
+from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import marks_of
 from uictest.report.page.stop.overlay_view import panel_form
@@ -63,6 +65,7 @@ class CaseView:
     data: str
     marked: Sequence[tuple[evaluation.Verdict, Sequence[str]]]
     note: str
+    repeats: RepeatsView | None = None
 
 
 def case_view(
@@ -73,7 +76,8 @@ def case_view(
     differences: Sequence[Difference] = (),
 ) -> CaseView:
     """Return the view of a case with its plots drawn; `differences` are those from the baseline."""
-    marks = marks_of(result.criteria, trace)
+    drawn = result.drawn_stop
+    marks = [*fault_marks(trace), *marks_of(drawn.criteria, trace)]
     return CaseView(
         key,
         result,
@@ -83,8 +87,9 @@ def case_view(
         list(_headline(result)),
         sketch_of(trace, marks),
         script_json(_data(trace, marks)),
-        list(_marked(result, marks)),
-        " ".join(_notes(result, subject, trace)),
+        list(_marked(drawn, marks)),
+        " ".join(_notes(drawn, subject, trace)),
+        repeats_view(result),
     )
 
 
@@ -100,6 +105,7 @@ def _marked(
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
+    yield from map(fault_sentence, trace.faults)
     every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
     yield f"Sampled every {every}."
     if trace.interval * BINS < trace.end - trace.start:
@@ -128,11 +134,14 @@ def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
         yield "braking time", _number(measures["braking_time_s"]), "s"
         yield "mean deceleration", _number(measures["mean_deceleration_mps2"]), "m/s²"
         yield "initial adhesion", _number(measures["initial_adhesion_g"]), "g"
+        yield "deceleration distance", _number(measures["deceleration_distance_m"]), "m"
+        yield "adhesion utilisation", _number(100.0 * measures["adhesion_utilisation"]), "%"
+        yield "reservoir margin", _number(measures["reservoir_margin_bar"]), "bar"
     if result.wheelsets:
         slides = [100 * wheelset["maximum_slide"] for wheelset in result.wheelsets]
         yield "largest slide", _number(max(slides)), "%"
         vents = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
-        yield "valve actuations", str(vents) if vents == vents else "-", ""
+        yield "valve actuations", f"{vents:g}" if vents == vents else "-", ""
     if measures is not None:
         yield "air consumed", _number(measures["air_consumed_nl"]), "NL"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import islice
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
@@ -12,7 +13,11 @@ from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_j
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
-from uictest.report.wording import CASE_WORDS, counted, failing_first, number, tone
+from uictest.report.page.repeats_view import RepeatsView, repeats_view
+from uictest.report.page.series_view import SERIES_WORDS, series_view
+from uictest.report.repeat_wording import any_repeated, stops_text
+from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
+from uictest.report.wording import CASE_WORDS, counted, counted_in, failing_first, number, tone
 
 DRAWN = 18
 """Cases drawn on one page. Each takes up to 270 kB, and a page must still open from a mail attachment."""
@@ -21,19 +26,29 @@ DRAWN = 18
 def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
+    keys = {view.result.id: view.key for view in drawn}
+    series = [series_view(f"series-{n}", each) for n, each in enumerate(content.series, start=1)]
     return render(
         "run.html.j2",
         content=content,
         drawn=drawn,
-        keys={view.result.id: view.key for view in drawn},
+        keys=keys,
+        series=series,
+        series_keys={view.result.id: view.key for view in series},
+        **SERIES_WORDS,
         maps=maps_of(content.results),
+        requirements=verified_requirements(content.results, content.series),
+        requirement_tones=REQUIREMENT_TONES,
         opened=_opened(content, drawn),
         not_drawn=_not_drawn(content, drawn),
-        parts=shown_parts([view.result.parts for view in drawn] or [each.parts for each in content.results]),
+        parts=shown_parts(
+            [view.result.parts for view in drawn] or [each.parts for each in content.all_results]
+        ),
         varied=(),
         of_which="the drawn stops" if drawn else "the cases",
         all_parts_in="results.json",
         counted=counted,
+        counted_in=counted_in,
         words=_words(content),
         plots=plots_json(),
         with_plots=bool(drawn),
@@ -43,12 +58,15 @@ def page_html(content: RunContent) -> str:
         number=number,
         tone=tone,
         side_text=side_text,
+        any_repeated=any_repeated,
+        repeats_not_drawn=_repeats_not_drawn(content, drawn),
+        stops_text=stops_text,
         **PARAMETER_WORDS,
     )
 
 
 def _drawn(content: RunContent) -> list[CaseView]:
-    traced = [result for result in content.results if result.id in content.traces]
+    traced = [result for result in content.all_results if result.id in content.traces]
     shown = {result.id for result in worst_first(traced)[:DRAWN]}
     return [
         case_view(
@@ -61,6 +79,19 @@ def _drawn(content: RunContent) -> list[CaseView]:
         for place, result in enumerate(traced, start=1)
         if result.id in shown
     ]
+
+
+def _repeats_not_drawn(
+    content: RunContent, drawn: Sequence[CaseView]
+) -> list[tuple[evaluation.CaseResult, RepeatsView]]:
+    """Return the repeated cases that are not drawn, with their stops; of many the worst."""
+    shown = {view.result.id for view in drawn}
+    views = (
+        (result, view)
+        for result in worst_first(content.results)
+        if result.id not in shown and (view := repeats_view(result)) is not None
+    )
+    return list(islice(views, DRAWN))
 
 
 def _opened(content: RunContent, drawn: Sequence[CaseView]) -> str:
@@ -82,7 +113,7 @@ def _baseline_lines(baseline: BaselineComparison | None) -> list[str]:
 
 def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:
     """Return which cases have no plots and why; empty where all have."""
-    missing = len(content.results) - len(drawn)
+    missing = len(content.all_results) - len(drawn)
     if not missing:
         return ""
     if len(drawn) == DRAWN:

@@ -8,25 +8,27 @@ from xml.etree import ElementTree
 
 from uictest import evaluation
 from uictest.report.escaping import xml_text
-from uictest.report.junit_properties import program_properties
+from uictest.report.junit_properties import add_suite_properties, add_test_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 
 
-def sweep_junit_xml(result: SweepResult, file: str) -> str:
+def sweep_junit_xml(result: SweepResult, file: str, *, test_properties: bool = False) -> str:
     """Return the counts of a sweep as a JUnit document; `file` is the sweep file as shown to users.
 
-    Like that of a run it keeps to the schema of Jenkins' xUnit plugin, which has no `file` of a testcase.
+    Like that of a run it keeps to the schema of Jenkins' xUnit plugin, which has no `file` of a testcase and
+    properties only with `test_properties`.
     """
     parameter, counts = next(iter(result.rates.items()))
     root = ElementTree.Element("testsuites")
     suite = ElementTree.SubElement(root, "testsuite", name=xml_text(result.name), tests=str(len(counts)))
-    if (program := evaluation.program_in(result.base)) is not None:
-        suite.append(program_properties(program))
     class_name = _class_name(file)
     for count in counts:
         name = xml_text(f"{result.name}[{parameter}={count.value.label}]")
         testcase = ElementTree.SubElement(suite, "testcase", classname=class_name, name=name)
         _add_outcome(testcase, result, count)
+        if test_properties:
+            add_test_properties(testcase, result.test_case, result.requirements)
+    add_suite_properties(suite, evaluation.program_in(result.base), (), result.requirements)
     for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(name, str(len(suite.findall(f"testcase/{tag}"))))
     ElementTree.indent(root)

@@ -9,8 +9,9 @@ from typing import Annotated, Any, ClassVar, Final
 from pydantic import ConfigDict, Field, TypeAdapter
 
 from uictest import evaluation
-from uictest.evaluation import NamedParts, Number, required
+from uictest.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
+from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 
 SWEEP_SCHEMA: Final = "uictest/sweep-result/1"
@@ -183,10 +184,14 @@ class SweepResult:
         trends: measures along parameters.
         base: the parts of the case that is varied, by role; empty where an earlier version wrote the result.
         varied: keys of the parameters.
+        requirements: ids of those that the varied case or its criteria verify.
+        test_case: its id in a test management tool, or empty.
         worst: the cases most worth looking at, those not met first.
         subjects: descriptions of these cases, by id.
         sensitivities: Sobol indices.
         frontier: where the verdict flips, None where it was not searched.
+        quantiles: of measures, with bounds, where the sweep requests them.
+        k_dry: where the sweep requests it, a table for each combination of listed values.
         notes: sentences that every report shows.
 
     """
@@ -205,10 +210,14 @@ class SweepResult:
     trends: tuple[Trend, ...]
     base: NamedParts = field(default_factory=dict)
     varied: tuple[str, ...] = ()
-    worst: tuple[Annotated[evaluation.CaseResult, required("criteria", "measures", "wheelsets")], ...]
+    requirements: tuple[str, ...] = ()
+    test_case: str = ""
+    worst: tuple[WrittenCaseResult, ...]
     subjects: Mapping[str, Annotated[CaseDescription, required("title", "tags", "settings")]]
     sensitivities: tuple[SobolSensitivity, ...]
     frontier: Frontier | None
+    quantiles: tuple[MeasureQuantiles, ...] = ()
+    k_dry: tuple[KDry, ...] = ()
     notes: tuple[str, ...]
 
     def subject(self, case_id: str) -> CaseDescription:

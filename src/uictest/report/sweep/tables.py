@@ -7,6 +7,7 @@ from typing import Final
 
 from uictest.report.csv_text import Cell, csv_text
 from uictest.report.sweep.result import Flip, Frontier, SobolSensitivity, SweepMap, SweepResult, Trend
+from uictest.report.sweep.tail_tables import tail_csv_tables
 
 TREND_COLUMNS: Final = ("parameter", "value", "measure", "unit", "cases", "minimum", "mean", "maximum")
 _FRONTIER_COLUMNS: Final = ("from", "to", "met_at_from", "flips", "note")
@@ -24,7 +25,7 @@ def csv_tables(result: SweepResult) -> dict[str, str]:
         tables["sensitivity.csv"] = _sensitivity_csv(result)
     if result.frontier is not None:
         tables["frontier.csv"] = frontier_csv(result.frontier)
-    return tables
+    return tables | tail_csv_tables(result)
 
 
 def rate_rows(result: SweepResult) -> Iterator[dict[str, Cell]]:

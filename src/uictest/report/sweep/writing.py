@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from uictest import evaluation, recording
+from uictest.report.junit_properties import WITH_TEST_PROPERTIES
 from uictest.report.sweep.junit import sweep_junit_xml
+from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml
 from uictest.report.sweep.reading import SWEEP_RESULTS
 from uictest.report.sweep.result import SweepResult, sweep_document
 from uictest.report.sweep.tables import csv_tables
@@ -18,6 +20,10 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     """
     document = evaluation.to_json(sweep_document(result))
     texts = csv_tables(result) | {"junit.xml": sweep_junit_xml(result, file), SWEEP_RESULTS: document}
+    if result.requirements or result.test_case:
+        texts[WITH_TEST_PROPERTIES] = sweep_junit_xml(result, file, test_properties=True)
+    if result.k_dry:
+        texts[K_DRY_FILE] = k_dry_yaml(result)
     for name, text in texts.items():
         recording.write_text_atomic(folder / name, text)
     return document

@@ -9,6 +9,7 @@ from uictest.report.baseline import BaselineComparison, case_explanation, case_w
 from uictest.report.difference import Difference
 from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences
+from uictest.report.repeat_wording import range_cells, share_cells
 from uictest.report.wording import (
     DIFFERS,
     criterion_sentences,
@@ -24,7 +25,7 @@ SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case, ending with the reason if it is not met or differs from the baseline."""
     words = [line_word(case_word(result, differences)), printable(result.id)]
-    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_measures(result)]
+    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_stops(result), *_measures(result)]
     if differences or not result.met:
         outcomes, *reasons = case_explanation(result, differences)
         words.append(f"reason={'; '.join(reasons or [outcomes])}")
@@ -66,6 +67,14 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     for (role, sentence), names in cases.items():
         where = "" if len(names) == len(results) else f" (in {listed(names)})"
         yield f"part {role}{where}: {sentence}"
+
+
+def _stops(result: evaluation.CaseResult) -> Iterator[str]:
+    """Yield how many stops of a repeated case passed, and the range of what `_measures` gives medians of."""
+    for name, value in share_cells(result).items():
+        yield f"{name}={value:.4g}"
+    for name, value in range_cells(result, SHOWN_MEASURES[:1]).items():
+        yield f"{name}={value:.5g}"
 
 
 def _measures(result: evaluation.CaseResult) -> Iterator[str]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 from uictest import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
+from uictest.report.repeat_wording import any_repeated, repeat_sentences, stops_text
 from uictest.report.terminal.fitted_columns import TableColumn, columns_not_shown, fitted
 from uictest.report.wording import Tone, criterion_sentences, real_time_sentences, tone
 
@@ -63,15 +64,21 @@ def _columns(
         TableColumn("verdict", list(map(word, results))),
         TableColumn("outcome", [result.outcome for result in results], rank=1),
     ]
+    if any_repeated(results):
+        columns.insert(2, TableColumn("stops", [stops_text(result) or "-" for result in results]))
     for title, (name, form, rank) in _MEASURES.items():
         cells = [_cell((result.measures or {}).get(name), form) for result in results]
         columns.append(TableColumn(title, cells, rank, right=True))
     slides = [_largest(result, "maximum_slide") for result in results]
     vents = [_largest(result, "valve_actuations") for result in results]
+    sliding = [_largest(result, "sliding_time_s") for result in results]
+    locked = [_largest(result, "locked_time_s") for result in results]
     columns.append(
         TableColumn("slide\nmax %", [_cell(s and 100.0 * s, ".0f") for s in slides], 3, right=True)
     )
-    columns.append(TableColumn("vents\nmax", [_cell(each, "d") for each in vents], 7, right=True))
+    columns.append(TableColumn("sliding\nmax s", [_cell(each, ".1f") for each in sliding], 9, right=True))
+    columns.append(TableColumn("locked\nmax s", [_cell(each, ".1f") for each in locked], 8, right=True))
+    columns.append(TableColumn("vents\nmax", [_cell(each, "g") for each in vents], 7, right=True))
     return columns
 
 
@@ -91,7 +98,12 @@ def explanation_text(
     lines = content.explanation(result)
     if every_criterion:
         differences = difference_sentences(content.differences(result.id))
-        lines = [*criterion_sentences(result), *real_time_sentences(result), *differences]
+        lines = [
+            *repeat_sentences(result),
+            *criterion_sentences(result),
+            *real_time_sentences(result),
+            *differences,
+        ]
     for line in lines:
         text.append(f"\n  {line}", style="not bold default")
     return text

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from uictest import evaluation, recording
 from uictest.report.traces.extremes import thinned
+from uictest.report.traces.fault_spans import FaultSpan, fault_spans
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import (
     LOOPS,
@@ -72,6 +73,7 @@ class PlotTrace:
         sliding_time: when a wheelset first slid, s; None where none did or it is not known.
         derived: names of the curves that the record does not hold.
         moments: id of a criterion -> when it was decided.
+        faults: when faults were active.
 
     """
 
@@ -84,6 +86,7 @@ class PlotTrace:
     sliding_time: float | None = None
     derived: tuple[str, ...] = ()
     moments: Mapping[str, Moments] = field(default_factory=dict)
+    faults: tuple[FaultSpan, ...] = ()
 
 
 def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict] = ()) -> PlotTrace:
@@ -108,6 +111,7 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
         _sliding_time(record.metadata),
         tuple(name for name in series if name not in record.channels),
         moments_of(verdicts, channels),
+        fault_spans(record),
     )
 
 

@@ -27,16 +27,21 @@ Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = (
     "record.py",
-    *("physics", "controllers", "lanes", "rig"),
-    *("measures/records.py", "measures/layouts.py", "measures/train.py", "measures/wheelset.py"),
+    *("physics", "controllers", "faults", "lanes", "rig"),
+    *(f"measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
+    *(f"measures/{name}.py" for name in ("build_up", "contact", "reaction")),
 )
 """Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}
 
 
-@cache
 def compiled_operations() -> dict[Function, Any]:
     """Return what takes the place of plain functions in code compiled for the processor."""
+    return dict(_operations())  # a translation adds to it what it has translated
+
+
+@cache
+def _operations() -> dict[Function, Any]:
     fused = {fma: lanes.fma} if lanes.fuses() else {}
     return {**fused, exchange_at: lanes.record_at(EXCHANGE), call_step: step_by_address()}
 

@@ -11,18 +11,21 @@ from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vecto
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
+from uictest.rig.model.faults import falsify_readings, limit_valves, silence_controller, update_faults
+from uictest.rig.model.leaks import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.pole_wheel import read_pole_wheels
 from uictest.rig.model.rail_memory import clean_rail, forget_rail
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
-from uictest.rig.model.stop import (
+from uictest.rig.model.stop import is_running
+from uictest.rig.model.stop_measures import (
     begin_stop_measures,
     begin_tables,
     close_stop_measures,
-    is_running,
     keep_tables,
     observe_cycle,
+    observe_faults,
 )
 
 _IDLE = -1
@@ -128,6 +131,8 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
     steps = 0
     follows_air = False
     warms_discs = False
+    leaks = False
+    _update_faults(lanes, cases, running)
     read_sensors(car, wheelsets, settings)
     if _any_pole_wheel(cases, running):
         read_pole_wheels(car, wheelsets, settings)
@@ -138,18 +143,43 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             if p.cleans_rail > 0.0:
                 clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
+            if p.fault_count > 0:
+                falsify_readings(lane(rig.car, k), lane(rig.wheelsets, k), p)
             decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
+            if p.fault_count > 0:
+                silence_controller(lane(rig.car, k), lane(rig.wheelsets, k), p)
             steps = p.steps_per_cycle
             follows_air = follows_air or p.uses_module_air > 0.0
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
+            leaks = leaks or p.has_leaks > 0.0
     command_valves(car, wheelsets, settings)
+    _limit_valves(lanes, cases, running)
     for _ in range(steps):
         if follows_air:
             follow_module_air(car, wheelsets, settings)
+        if leaks:
+            let_air_leak(car, wheelsets, settings)
         step(car, bogies, wheelsets, settings)
     if warms_discs:
         warm_discs(wheelsets, settings)
     observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
+
+
+def _update_faults(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Decide lane by lane which faults are active."""
+    for k in range(running.size):
+        case = running[k]
+        if case != _IDLE and cases.parameters[case].fault_count > 0:
+            car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
+            update_faults(car, wheelsets, cases.parameters[case], cases.wheelset_parameters[case])
+
+
+def _limit_valves(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Limit lane by lane the valves that are faulty."""
+    for k in range(running.size):
+        case = running[k]
+        if case != _IDLE and cases.parameters[case].fault_count > 0:
+            limit_valves(lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k), cases.parameters[case])
 
 
 def _any_pole_wheel(cases: Cases, running: Any) -> bool:
@@ -167,6 +197,8 @@ def _finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     measures, wheelset_measures = cases.measures[case], cases.wheelset_measures[case]
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
     samples, wheelset_samples = lane(lanes.measures, k), lane(lanes.wheelset_measures, k)
+    if p.fault_count > 0:
+        observe_faults(car, wheelsets, samples, wheelset_samples, p)
     keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
     if is_running(car, p):
         return False

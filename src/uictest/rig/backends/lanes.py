@@ -26,13 +26,14 @@ from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.leaks import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.pole_wheel import read_pole_wheels
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
-from uictest.rig.model.stop import observe_cycle
+from uictest.rig.model.stop_measures import observe_cycle
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
@@ -199,6 +200,7 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
         read_pole_wheels,
         command_valves,
         follow_module_air,
+        let_air_leak,
         step,
         warm_discs,
         observe_cycle,

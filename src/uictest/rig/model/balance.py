@@ -73,6 +73,17 @@ def _wheelset_energy(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> float:
     return springs + motion + float(p.wheelset_mass * p.gravity) * height
 
 
+def rail_work(wheelset: Wheelset, p: Parameters) -> float:
+    """Work of the rail on a wheelset since the brake command, against its motion, J.
+
+    What the rail takes from the motion of the wheelset becomes heat of its contacts, heat of its brake or
+    rotation. The heat that the brake draws from the pitching of the bogie, some ten joules, is in it as well.
+    """
+    turned = kinetic_energy(p.wheelset_inertia, wheelset.rotation)
+    turned_first = kinetic_energy(p.wheelset_inertia, p.initial_speed / wheelset.wheel_radius)
+    return wheelset.brake_heat + wheelset.contact_loss + (turned - turned_first)
+
+
 def energy_residual(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
     """Energy that is not accounted for, as a share of the energy at the start.
 
@@ -95,9 +106,9 @@ def stored_air(car: Car, wheelsets: Sequence[Wheelset]) -> float:
 
 def air_residual(car: Car, wheelsets: Sequence[Wheelset]) -> float:
     """Air that is not accounted for, as a share of what was taken from the reservoir."""
-    released = car.exhausted_air
+    released = car.exhausted_air + car.leaked_air
     for i in range(4):
-        released += wheelsets[i].vented_air
+        released += wheelsets[i].vented_air + wheelsets[i].leaked_air
     balance: float = stored_air(car, wheelsets) + released - car.compressor_air - car.initial_air
     return balance / float(car.consumed_air)
 
@@ -118,9 +129,10 @@ def air_energy_residual(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) 
 
     internal energy = initial + supplied - let out + heat from the walls - work on the pistons
     """
-    gained: float = car.supplied_enthalpy - car.exhausted_enthalpy + car.line_heat
+    gained: float = car.supplied_enthalpy - car.exhausted_enthalpy + car.line_heat - car.leaked_enthalpy
     for i in range(4):
         wheelset = wheelsets[i]
         gained += wheelset.wall_heat - wheelset.vented_enthalpy - wheelset.piston_work
+        gained -= wheelset.leaked_enthalpy
     balance: float = stored_air_energy(car, wheelsets, p) - car.initial_air_energy - gained
     return balance / float(car.supplied_enthalpy)

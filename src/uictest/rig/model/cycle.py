@@ -96,7 +96,7 @@ def sensor_noise(p: Parameters, cycle: int, channel: int) -> float:
 
 def noise_words(p: Parameters, cycle: int, channel: int) -> tuple[int, int]:
     """Two words of random bits for one cycle and one noise channel."""
-    return threefry(p.seed, p.case_key, cycle, channel)
+    return threefry(p.seed, p.noise_key, cycle, channel)
 
 
 def command_valve(wheelset: Wheelset, p: Parameters) -> None:

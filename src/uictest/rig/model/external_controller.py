@@ -63,8 +63,9 @@ def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
     exchange.guard = GUARD
     for i in range(4):
         exchange.wheel_speed[i] = wheelsets[i].measured_speed
-        exchange.cylinder_pressure[i] = wheelsets[i].pressure_reading
-        exchange.speed_valid[i] = 1
+        pressure = wheelsets[i].pressure_reading
+        exchange.cylinder_pressure[i] = wheelsets[i].shown_pressure if p.fault_count > 0 else pressure
+        exchange.speed_valid[i] = wheelsets[i].speed_valid
         exchange.hold[i] = 0
         exchange.vent[i] = 0
 

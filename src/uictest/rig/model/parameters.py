@@ -13,6 +13,7 @@ from uictest.controllers import CONTROLLERS, ControllerCycle
 from uictest.measures import MeasureDefinition
 from uictest.physics import MOST_PAD_POINTS
 from uictest.record import derived, from_scenario, layout_of
+from uictest.rig.model.fault_tables import FaultTables
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 
@@ -27,7 +28,7 @@ def of_both_sides(value: float) -> float:
     return 2.0 * value
 
 
-class Parameters(ControllerCycle, MeasureDefinition):
+class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     """What a case fixes for all wheelsets, but for the parameters of its controller."""
 
     # time
@@ -36,7 +37,7 @@ class Parameters(ControllerCycle, MeasureDefinition):
     cycles: int = derived()  # longest stop, in controller cycles
     # keys of the noise
     seed: int = from_scenario("seed")
-    case_key: int = derived()  # CRC-32 of the case's id
+    noise_key: int = derived()  # rig.noise_key
     # command and topology
     initial_speed: float = from_scenario("initial_speed")  # m/s
     calipers: int = derived()  # modules with a real caliper: 1 or 4
@@ -206,6 +207,7 @@ class Parameters(ControllerCycle, MeasureDefinition):
     resistance_linear: float = from_scenario("vehicle.running_resistance.linear")  # N s/m
     resistance_quadratic: float = from_scenario("vehicle.running_resistance.quadratic")  # N s2/m2
     gravity: float = derived()  # m/s2
+    total_mass: float = derived()  # of the car, kg
     static_wheel_load: float = derived()  # of one wheel, N
     # wheel and rail
     gradient: float = from_scenario("rail.gradient")  # positive uphill
@@ -216,6 +218,16 @@ class Parameters(ControllerCycle, MeasureDefinition):
     creep_stiffness: float = derived()  # (1/4) G pi a b c11 at the reference load, N
     reference_load: float = from_scenario("rail.condition.contact.reference_wheel_load")  # N
     load_scale: float = from_scenario("rail.condition.contact.reference_wheel_load", inverse)  # 1/N
+    # largest creep force: physics.friction_maximum
+    highest_creep_scale: float = derived()  # s/m
+    highest_creep_0: float = derived()
+    highest_creep_1: float = derived()
+    highest_creep_2: float = derived()
+    highest_creep_3: float = derived()
+    highest_creep_4: float = derived()
+    highest_creep_5: float = derived()
+    highest_creep_6: float = derived()
+    highest_creep_7: float = derived()
     friction_points: int = derived()  # points of the friction along the track
     friction_times: int = derived()  # points of its factor over time
     # rail cleaned by sliding: physics.rail_cleaning

@@ -63,10 +63,9 @@ def _fill_tank(wheelset: Wheelset, drawn: float, vented: float, car: Car, p: Par
     drawn_enthalpy = enthalpy(drawn, car.line_temperature, wheelset.air_temperature, p.heat_capacity_pressure)
     vented_enthalpy = enthalpy(vented, wheelset.air_temperature, p.air_temperature, p.heat_capacity_pressure)
     has_caliper = wheelset.has_caliper > 0.0
-    swept = wheelset.has_caliper * p.piston_area
-    volume = fma(swept, wheelset.stroke, select(has_caliper, p.caliper_tank_volume, p.tank_volume))
+    volume = module_volume(wheelset, p)
     exchange = select(has_caliper, p.caliper_tank_exchange, p.tank_exchange)
-    growth = swept * wheelset.stroke_change
+    growth = wheelset.has_caliper * p.piston_area * wheelset.stroke_change
     wheelset.air_mass += drawn - vented
     warming, rise = air_changes(
         wheelset.pressure,
@@ -89,6 +88,13 @@ def _fill_tank(wheelset: Wheelset, drawn: float, vented: float, car: Car, p: Par
     wheelset.vented_enthalpy += vented_enthalpy
     wheelset.wall_heat += exchange * (p.air_temperature - wheelset.air_temperature)
     return drawn_enthalpy
+
+
+def module_volume(wheelset: Wheelset, p: Parameters) -> float:
+    """Volume of the air of one module with its piston where it is, m3."""
+    has_caliper = wheelset.has_caliper > 0.0
+    swept = wheelset.has_caliper * p.piston_area
+    return fma(swept, wheelset.stroke, select(has_caliper, p.caliper_tank_volume, p.tank_volume))
 
 
 def _fill_line(
@@ -134,7 +140,7 @@ def move_valve(wheelset: Wheelset, car: Car) -> None:
 def _step_valve(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, float]:
     """Move the WSP valve of one module; return the air that it lets into the tank and out of it, kg."""
     move_valve(wheelset, car)
-    drawn = p.step * _orifice(
+    drawn = p.step * orifice(
         car.line_pressure,
         wheelset.pressure,
         car.line_coldness,
@@ -142,7 +148,7 @@ def _step_valve(wheelset: Wheelset, car: Car, p: Parameters) -> tuple[float, flo
         wheelset.fill_conductance * wheelset.fill_opening,
         p,
     )
-    vented = p.step * _orifice(
+    vented = p.step * orifice(
         wheelset.pressure,
         p.atmospheric_pressure,
         wheelset.air_coldness,
@@ -157,7 +163,7 @@ def _through_relay_valve(car: Car, p: Parameters) -> tuple[float, float]:
     """Air that flows in a step from the reservoir into the brake line and from it to the atmosphere, kg."""
     gauge = car.line_pressure - p.atmospheric_pressure
     opening = relay_opening(car.demanded_pressure, gauge, p.relay_gain)
-    filled = p.step * _orifice(
+    filled = p.step * orifice(
         car.reservoir_pressure,
         car.line_pressure,
         p.air_coldness,
@@ -165,7 +171,7 @@ def _through_relay_valve(car: Car, p: Parameters) -> tuple[float, float]:
         p.relay_conductance * maximum(opening, 0.0),
         p,
     )
-    exhausted = p.step * _orifice(
+    exhausted = p.step * orifice(
         car.line_pressure,
         p.atmospheric_pressure,
         car.line_coldness,
@@ -186,7 +192,7 @@ def _step_reservoir(car: Car, filled: float, p: Parameters) -> None:
     car.compressor_air += delivered
 
 
-def _orifice(
+def orifice(
     pressure_1: float,
     pressure_2: float,
     coldness_1: float,
@@ -194,6 +200,7 @@ def _orifice(
     conductance: float,
     p: Parameters,
 ) -> float:
+    """Mass flow through an orifice of the rig, kg/s: :func:`uictest.physics.flow.mass_flow`."""
     return mass_flow(
         pressure_1,
         pressure_2,

@@ -62,12 +62,14 @@ def _count(wheelset: Wheelset, car: Car, p: Parameters, turns: float, rate: floa
     counted, tooth = last_tooth(place, wheelset.teeth, wheelset.missing_teeth)
     rate_before = select(begins, tooth_rate, wheelset.tooth_rate)
     time = car.time - time_since(place - tooth, tooth_rate, rate_before, p.cycle_time)
-    passed = counted - select(begins, counted, wheelset.counted_teeth)
+    # By the teeth that the wheel has now: it may have lost some since.
+    before, _ = last_tooth(wheelset.last_tooth, wheelset.teeth, wheelset.missing_teeth)
+    passed = counted - select(begins, counted, before)
     speed = speed_of_teeth(
         passed, wheelset.tooth_pitch, time - wheelset.tooth_time, wheelset.timer_resolution
     )
     moved = select(begins, 1.0, passed) > 0.0
     wheelset.tooth_speed = select(begins, configured_speed, select(moved, speed, wheelset.tooth_speed))
-    wheelset.counted_teeth = counted
+    wheelset.last_tooth = tooth
     wheelset.tooth_time = select(moved, time, wheelset.tooth_time)
     wheelset.tooth_rate = tooth_rate

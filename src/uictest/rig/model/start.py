@@ -56,6 +56,8 @@ def _start_wheelset(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.speed = p.initial_speed
     wheelset.rotation = p.initial_speed / wheelset.wheel_radius
     wheelset.wheel_load = p.static_wheel_load
+    wheelset.speed_valid = 1
+    wheelset.held_speed = p.initial_speed
 
 
 def start_module(wheelset: Wheelset, has_caliper: float, p: Parameters) -> None:

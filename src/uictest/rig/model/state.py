@@ -48,12 +48,20 @@ class Car(Frame, TrainMemory):
     exhausted_air: float  # let out by the relay valve, kg
     supplied_enthalpy: float  # of the air taken from the reservoir, J
     exhausted_enthalpy: float  # of the air let out by the relay valve, J
+    leaked_air: float  # from the brake line, kg
+    leaked_enthalpy: float  # J
     line_heat: float  # from the wall of the brake line to its air, J
     damper_loss: float  # J
     resistance_loss: float  # J
     initial_energy: float  # J
     initial_air: float  # kg
     initial_air_energy: float  # of the air in the brake line and the tanks, J
+    # faults: rig.model.faults, one bit for each of the list
+    begun_faults: int
+    ended_faults: int
+    active_faults: int
+    silent_cycles: int  # for which no command of the controller has reached the valves
+    line_leak: float  # conductance of the leaks of the brake line, m3/(s Pa)
     # standstill, interpolated within the step
     stopped: float
     stop_time: float
@@ -114,10 +122,22 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     pressure_ratio: float  # modelled pressure over that of the tank, absolute
     computed_force: float
     # speed sensor that counts teeth, rig.model.pole_wheel
-    counted_teeth: float  # by the sensor, those of the gaps left out
+    last_tooth: float  # that it saw, in pitches since the brake command
     tooth_time: float  # when the last of them passed, s
     tooth_rate: float  # teeth per s at the last reading
     tooth_speed: float  # of the last whole teeth, m/s
+    # faults: rig.model.faults
+    faulty: float  # 1 once one of its parts has had a fault
+    speed_sensor_faulty: float  # 1 while its speed sensor has one
+    speed_held: float  # 1 while that is stuck
+    held_speed: float  # its last reading, m/s
+    pressure_held: float  # 1 while its pressure sensor is stuck
+    held_pressure: float  # the last reading of that, gauge, Pa
+    shown_pressure: float  # to the controller, gauge, Pa
+    kept_command: int  # the last that reached the valve
+    tank_leak: float  # conductance of its leaks, m3/(s Pa)
+    leaked_air: float  # kg
+    leaked_enthalpy: float  # J
     # sensors, held for a controller cycle
     pressure_error: float  # momentary noise, Pa
     loadcell_error: float  # N

@@ -9,7 +9,8 @@ from uictest.rig.model.external_controller import read_outputs, write_inputs
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import RailMemory
 from uictest.rig.model.state import Bogie, Car, Wheelset
-from uictest.rig.model.stop import begin_cycle, begin_stop, close_stop_measures, finish_cycle, is_running
+from uictest.rig.model.stop import begin_cycle, begin_stop, finish_cycle, is_running
+from uictest.rig.model.stop_measures import close_stop_measures
 from uictest.rig.model.trace import Trace, sample
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
@@ -49,7 +50,7 @@ def step_stop(
         if not is_running(car, p):
             close_stop_measures(car, bogies, wheelsets, measures, wheelset_measures, p)
     # Also at the end: whoever drives the rig sees the sensors at standstill. No measure is taken from this.
-    begin_cycle(car, wheelsets, p, rail, memory)
+    begin_cycle(car, wheelsets, p, wheelset_parameters, rail, memory)
     write_inputs(exchange, car, wheelsets, p)
     exchange.cycles += 1
     sample(present, 0, car, wheelsets, p)

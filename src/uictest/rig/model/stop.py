@@ -3,24 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.measures import (
-    StopMeasures,
-    WheelsetMeasures,
-    begin_slides,
-    begin_train,
-    begin_wheelset,
-    begin_window,
-    keep_slide,
-    keep_window,
-    note_standstill,
-    observe_train,
-    observe_wheelset,
-)
-from uictest.physics import select
-from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual
+from uictest.measures import StopMeasures, WheelsetMeasures
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
+from uictest.rig.model.faults import falsify_readings, limit_valves, silence_controller, update_faults
+from uictest.rig.model.leaks import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pole_wheel import read_pole_wheels
@@ -28,10 +16,16 @@ from uictest.rig.model.rail_memory import RailMemory, clean_rail, forget_rail
 from uictest.rig.model.start import start
 from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.step import step
+from uictest.rig.model.stop_measures import (
+    begin_stop_measures,
+    begin_tables,
+    close_stop_measures,
+    keep_tables,
+    observe_cycle,
+    observe_faults,
+)
 from uictest.rig.model.trace import Trace, sample
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
-
-NAN = float("nan")
 
 
 def run_stop(
@@ -56,7 +50,7 @@ def run_stop(
     begin_stop(car, bogies, wheelsets, p, wheelset_parameters, memory, measures, wheelset_measures)
     rows = 0
     while is_running(car, p):
-        begin_cycle(car, wheelsets, p, rail, memory)
+        begin_cycle(car, wheelsets, p, wheelset_parameters, rail, memory)
         decide(car, wheelsets, p)
         rows = finish_cycle(
             car, bogies, wheelsets, p, measures, wheelset_measures, trace, steps_per_sample, rows
@@ -89,15 +83,24 @@ def begin_stop(
 
 
 def begin_cycle(
-    car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any, memory: RailMemory
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    wheelset_parameters: Sequence[WheelsetParameters],
+    rail: Any,
+    memory: RailMemory,
 ) -> None:
     """Do what comes before the controller decides: read the sensors, look up friction, clean the rail."""
+    if p.fault_count > 0:
+        update_faults(car, wheelsets, p, wheelset_parameters)
     read_sensors(car, wheelsets, p)
     if p.uses_pole_wheels > 0.0:
         read_pole_wheels(car, wheelsets, p)
     start_cycle(car, wheelsets, p, rail)
     if p.cleans_rail > 0.0:
         clean_rail(car, wheelsets, p, memory)
+    if p.fault_count > 0:
+        falsify_readings(car, wheelsets, p)
 
 
 def finish_cycle(
@@ -113,13 +116,19 @@ def finish_cycle(
 ) -> int:
     """Carry out what the controller has decided; return the number of rows that the trace has then."""
     steps = car.cycle * p.steps_per_cycle
+    if p.fault_count > 0:
+        silence_controller(car, wheelsets, p)
     command_valves(car, wheelsets, p)
+    if p.fault_count > 0:
+        limit_valves(car, wheelsets, p)
     if steps_per_sample > 0 and rows == 0:
         sample(trace, 0, car, wheelsets, p)
         rows = 1
     for _ in range(p.steps_per_cycle):
         if p.uses_module_air > 0.0:
             follow_module_air(car, wheelsets, p)
+        if p.has_leaks > 0.0:
+            let_air_leak(car, wheelsets, p)
         step(car, bogies, wheelsets, p)
         steps += 1
         if steps_per_sample > 0 and steps % steps_per_sample == 0:
@@ -128,84 +137,7 @@ def finish_cycle(
     if p.models_disc_temperature > 0.0:
         warm_discs(wheelsets, p)
     observe_cycle(car, wheelsets, measures, wheelset_measures, p)
+    if p.fault_count > 0:
+        observe_faults(car, wheelsets, measures, wheelset_measures, p)
     keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
     return rows
-
-
-def begin_stop_measures(
-    car: Car, measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], p: Parameters
-) -> None:
-    """Start the measures of a stop that are one number."""
-    begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
-    for i in range(4):
-        begin_wheelset(wheelset_measures[i])
-
-
-def begin_tables(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
-    """Start the measures of a stop that are a table."""
-    begin_window(measures)
-    for i in range(4):
-        begin_slides(wheelset_measures[i])
-
-
-def observe_cycle(
-    car: Car,
-    wheelsets: Sequence[Wheelset],
-    measures: StopMeasures,
-    wheelset_measures: Sequence[WheelsetMeasures],
-    p: Parameters,
-) -> None:
-    """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
-    stands = car.stopped > 0.0
-    time = select(stands, car.stop_time, car.time)
-    position = select(stands, car.stop_position, car.position)
-    speed = select(stands, 0.0, car.speed)
-    for i in range(4):
-        wheelset = wheelsets[i]
-        observed = wheelset_measures[i]
-        observe_wheelset(
-            observed,
-            measures,
-            p,
-            i + 1,
-            time,
-            speed,
-            wheelset.rotation * wheelset.wheel_radius,
-            select(stands, observed.venting, wheelset.venting),
-            select(stands, 0.0, wheelset.clamping_force),
-            wheelset.disc_surface_temperature,
-        )
-    observe_train(measures, p, time, position, speed, car.reservoir_pressure - p.atmospheric_pressure)
-    note_standstill(measures, stands, time, position)
-
-
-def keep_tables(
-    measures: StopMeasures,
-    wheelset_measures: Sequence[WheelsetMeasures],
-    samples: StopMeasures,
-    wheelset_samples: Sequence[WheelsetMeasures],
-    p: Parameters,
-) -> None:
-    """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
-    keep_window(measures, samples)
-    for i in range(4):
-        keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
-
-
-def close_stop_measures(
-    car: Car,
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    measures: StopMeasures,
-    wheelset_measures: Sequence[WheelsetMeasures],
-    p: Parameters,
-) -> None:
-    """Add the ledgers and balances of the whole stop."""
-    measures.air_consumed = car.consumed_air
-    measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
-    measures.air_residual = air_residual(car, wheelsets)
-    measures.air_energy_residual = air_energy_residual(car, wheelsets, p)
-    for i in range(4):
-        wheelset_measures[i].air_vented = wheelsets[i].vented_air
-        if p.models_disc_temperature == 0.0:
-            wheelset_measures[i].maximum_disc_temperature = NAN

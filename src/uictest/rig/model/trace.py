@@ -17,6 +17,7 @@ class TrainSample(Record):
     speed: float = channel("m/s")
     reference_speed: float = channel("m/s")
     diagnosis: float = channel("1")  # 32 bits of a controller from outside, as a number
+    active_faults: float = channel("1")  # one bit for each fault of the list, as a number
     demanded_pressure: float = channel("Pa")
     brake_line_pressure: float = channel("Pa")
     reservoir_pressure: float = channel("Pa")
@@ -27,6 +28,7 @@ class WheelsetSample(Record):
 
     wheel_speed: float = channel("m/s")  # circumferential
     measured_speed: float = channel("m/s")
+    speed_valid: float = channel("1")  # 0 while the speed sensor reports a fault
     slide: float = channel("1")  # 0 while the train runs no faster than SLIDE_SPEED
     adhesion: float = channel("1")
     friction: float = channel("1")  # initial friction coefficient under the wheelset
@@ -55,6 +57,8 @@ DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
 """Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
 CONTROLLER_CHANNELS = ("diagnosis",)
 """Channels of the train that mean something only where the controller comes from outside."""
+FAULT_CHANNELS = ("active_faults", "speed_valid")
+"""Channels of the train and of each wheelset that mean something only in stops with faults."""
 TRAIN_SAMPLE = layout_of(TrainSample)
 """Layout of :class:`TrainSample`."""
 WHEELSET_SAMPLE = layout_of(WheelsetSample)
@@ -84,6 +88,7 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
     row.speed = car.speed
     row.reference_speed = car.reference_speed
     row.diagnosis = car.diagnosis
+    row.active_faults = car.active_faults
     row.demanded_pressure = car.demanded_pressure
     row.brake_line_pressure = car.line_pressure - p.atmospheric_pressure
     row.reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
@@ -93,6 +98,7 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     wheel_speed = wheelset.rotation * wheelset.wheel_radius
     row.wheel_speed = wheel_speed
     row.measured_speed = wheelset.measured_speed
+    row.speed_valid = wheelset.speed_valid
     row.slide = (car.speed - wheel_speed) / car.speed if car.speed > SLIDE_SPEED else 0.0
     row.adhesion = 0.5 * wheelset.creep_force / wheelset.wheel_load
     row.friction = wheelset.friction

@@ -49,6 +49,9 @@ class Applicability(Model):
     rail_condition: tuple[str, ...] | None = Field(
         default=None, description="Names of rail conditions, e.g. wet."
     )
+    rail_condition_other_than: tuple[str, ...] | None = Field(
+        default=None, description="Names of rail conditions that the criterion is not for, e.g. dry."
+    )
     wsp: tuple[Literal["active", "bypassed"], ...] | None = Field(
         default=None, description="States of the WSP."
     )

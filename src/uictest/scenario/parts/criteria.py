@@ -3,60 +3,19 @@
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import (
-    AfterValidator,
-    Field,
-    PlainSerializer,
-    PlainValidator,
-    ValidationInfo,
-    WithJsonSchema,
-)
-from pydantic_core import PydanticCustomError
+from pydantic import Field
 
 from uictest.measures import MEASURES, Course, Measure
 from uictest.scenario.parts.applicability import Applicability
+from uictest.scenario.parts.bounded_measure import MEASURES_OF, WITH_DRY_VALUE, Bound, MeasureName, Scope
 from uictest.scenario.parts.definition import Definition
-from uictest.scenario.yaml import (
-    SCENARIO_SOURCE,
-    Inconsistency,
-    Model,
-    Part,
-    Quantity,
-    QuantityField,
-    quoted,
-    suggestion,
-    written,
-)
-from uictest.units import KINDS
+from uictest.scenario.parts.dry_bound import DryBound
+from uictest.scenario.parts.requirements import RequirementIds, repeated_requirements
+from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
+from uictest.series_measures import SERIES_MEASURES, SeriesMeasure
 
 WHEELSET_COUNT = 4
 """Wheelsets of the car."""
-
-
-def _known_measure(name: str) -> str:
-    if name not in MEASURES:
-        context = {"message": f"unknown measure {quoted(name)}", "hint": suggestion(name, MEASURES)}
-        raise PydanticCustomError("measure", "{message}", context)
-    return name
-
-
-def _of_the_measure(bound: object, info: ValidationInfo) -> object:
-    # Without a valid measure its kind is not known; the model is rejected for that already.
-    measure = MEASURES.get(info.data.get("measure", ""))
-    return bound if measure is None else QuantityField(KINDS[measure.kind]).validate(bound)
-
-
-MeasureName = Annotated[
-    str, AfterValidator(_known_measure), WithJsonSchema({"type": "string", "enum": sorted(MEASURES)})
-]
-
-Bound = Annotated[
-    Quantity,
-    PlainValidator(_of_the_measure),
-    PlainSerializer(written),
-    WithJsonSchema({"type": ["string", "number", "object"]}),
-]
-"""A quantity of whatever kind the measure of the criterion is."""
 
 
 class AtLeast(Model):
@@ -81,15 +40,28 @@ class Criterion(Model):
     clause: str = Field(
         default="unverified", max_length=200, description="Clause of the source, or `unverified`."
     )
+    requirements: RequirementIds = Field(
+        default=(), description="Ids of the requirements that the criterion verifies."
+    )
     layer: Literal["validity", "requirement"] = Field(
         description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails."
     )
     applies: Applicability = Field(
         default=Applicability(), description="Stops that the criterion applies to."
     )
+    scope: Scope = Field(
+        default="stop",
+        description="stop: the criterion bounds a measure of each stop; series: one of a series of stops.",
+    )
     measure: MeasureName = Field(description="The measure that is bounded.")
-    lower: Bound | None = Field(default=None, description="Lower bound; a quantity of the measure's kind.")
-    upper: Bound | None = Field(default=None, description="Upper bound; a quantity of the measure's kind.")
+    lower: Bound | None = Field(
+        default=None,
+        description="Lower bound: a quantity of the measure's kind, or such as `90 % of the dry stop`.",
+    )
+    upper: Bound | None = Field(
+        default=None,
+        description="Upper bound: a quantity of the measure's kind, or such as `125 % of the dry stop`.",
+    )
     strict: bool = Field(
         default=False, strict=True, description="Whether a value at the bound itself does not pass."
     )
@@ -101,19 +73,29 @@ class Criterion(Model):
     )
 
     @property
+    def of_dry_stop(self) -> bool:
+        """Whether the bounds are shares of the dry stop; values are then in % of it."""
+        return isinstance(self.lower, DryBound) or isinstance(self.upper, DryBound)
+
+    @property
+    def needs_series(self) -> bool:
+        """Whether only a series of stops can be judged by the criterion."""
+        return self.scope == "series" or self.of_dry_stop
+
+    @property
     def unit(self) -> str:
         """The unit value and bounds are printed in."""
-        return self._declared.unit
+        return "%" if self.of_dry_stop else self._measure.unit
 
     @property
     def meaning(self) -> str:
         """What the measure is, in words."""
-        return self._declared.meaning
+        return self._measure.meaning
 
     @property
     def observed_by(self) -> tuple[str, ...]:
         """The fields of the scenario's `measures` part that decide what was observed."""
-        return self._declared.observed_by
+        return () if self.scope == "series" else self._declared.observed_by
 
     @property
     def course(self) -> Course:
@@ -140,12 +122,22 @@ class Criterion(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield missing or crossed bounds, a wrong number of wheelsets, missing or unused definitions."""
+        yield from repeated_requirements(self.requirements)
         yield from self._bound_problems()
-        yield from self._wheelsets_problems()
-        yield from self._definition_problems()
+        yield from self._dry_bound_problems()
+        if self.scope == "series":
+            yield from self._series_problems()
+        else:
+            yield from self._wheelsets_problems()
+            yield from self._definition_problems()
+
+    @property
+    def _measure(self) -> Measure | SeriesMeasure:
+        return MEASURES_OF[self.scope][self.measure]
 
     @property
     def _declared(self) -> Measure:
+        """The measure of a criterion of stops."""
         return MEASURES[self.measure]
 
     def _bound_problems(self) -> Iterator[Inconsistency]:
@@ -157,6 +149,45 @@ class Criterion(Model):
             yield Inconsistency(
                 ("lower",), f"the lower bound {self.lower.text} is above the upper bound {self.upper.text}"
             )
+
+    def _dry_bound_problems(self) -> Iterator[Inconsistency]:
+        """Yield a share of the dry stop beside another bound, or of a measure that has no dry value."""
+        bounds = {"lower": self.lower, "upper": self.upper}
+        shares = [name for name, bound in bounds.items() if isinstance(bound, DryBound)]
+        if not shares:
+            return
+        if other := [name for name, bound in bounds.items() if bound is not None and name not in shares]:
+            message = f"{quoted(other[0])} is no share of the dry stop, {quoted(shares[0])} is one"
+            yield Inconsistency((other[0],), message, "write two criteria, or both bounds in the same way")
+        if self.scope == "stop" and self.layer == "validity":
+            message = (
+                "a criterion of validity cannot refer to the dry stop: which stops count decides that one"
+            )
+            yield Inconsistency(("layer",), message, "write `layer: requirement`")
+        if not self._of_single_stops():
+            yield Inconsistency(
+                (shares[0],),
+                f"{quoted(self.measure)} has no value of the dry stop to refer to",
+                self._measures_with_dry_value(),
+            )
+
+    def _of_single_stops(self) -> bool:
+        """Return whether the measure is one number of each stop, which results report."""
+        if self.scope == "series":
+            return SERIES_MEASURES[self.measure].figure is not None
+        return self.measure in WITH_DRY_VALUE
+
+    def _measures_with_dry_value(self) -> str:
+        if self.scope == "stop":
+            return f"measures that have one: {', '.join(WITH_DRY_VALUE)}"
+        return "medians and worst values of single stops have one, such as `median_braking_distance`"
+
+    def _series_problems(self) -> Iterator[Inconsistency]:
+        """Yield what says something of a stop in a criterion of a series."""
+        for name in ("wheelsets", "applies", "definition"):
+            if name in self.model_fields_set:
+                message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
+                yield Inconsistency((name,), message, "leave it out")
 
     def _wheelsets_problems(self) -> Iterator[Inconsistency]:
         if self._declared.of_wheelsets and self.wheelsets is None:

@@ -1,5 +1,6 @@
 """The rail condition: the parameters of the adhesion law (Polach 2005) and of the contact."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
@@ -26,6 +27,12 @@ class Contact(Section):
     reference_wheel_load: Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="500 kN")] = Field(
         description="Wheel load at which the semi-axes hold."
     )
+
+    @property
+    def creep_stiffness(self) -> float:
+        """Tangential stiffness (1/4) G pi a b c11 of the contact at the reference load, N."""
+        area = math.pi * self.semi_axis_longitudinal * self.semi_axis_lateral
+        return 0.25 * self.shear_modulus * area * self.kalker_coefficient
 
 
 class Cleaning(Section):

@@ -175,7 +175,7 @@ class Vehicle(Part):
             (("secondary", "vertical_stiffness"), 4.0 * secondary.vertical_stiffness, body),
             (("traction_link", "stiffness"), pull, body),
         ):
-            frequency = math.sqrt(stiffness / mass) / math.tau
+            frequency = (stiffness / mass) ** 0.5 / math.tau
             if frequency < LOWEST_FREQUENCY:
                 yield Inconsistency(
                     key,

@@ -23,6 +23,7 @@ from .overrides import (
     Override as Override,
     apply_overrides as apply_overrides,
     parse_overrides as parse_overrides,
+    without_axis as without_axis,
 )
 from .parsing import parse as parse, scalar_value as scalar_value
 from .quantities import (
@@ -43,6 +44,7 @@ from .reading import (
     LIBRARY as LIBRARY,
     display_name as display_name,
     is_file as is_file,
+    read_document as read_document,
     read_file as read_file,
     read_library as read_library,
     unreadable_error as unreadable_error,

@@ -31,11 +31,16 @@ _OPENING, _CLOSING, _QUOTES = "([{", ")]}", "\"'"
 
 @dataclass(frozen=True, slots=True)
 class Override:
-    """A dotted key and the values it takes instead of those in the files."""
+    """A dotted key and the values it takes instead of those in the files.
+
+    Several values are an axis of the matrix; with `swept` a single one is, too, so that the ids of cases
+    tell it.
+    """
 
     key: str
     place: Place
     values: tuple[Node, ...]
+    swept: bool = False
 
 
 def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
@@ -119,8 +124,8 @@ def _range(arguments: str, place: Place) -> list[str]:
 def apply_overrides(tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]) -> Map:
     """The scenario's tree with the values of the command line in place of its own."""
     for override in overrides:
-        tree = _without_axis(tree, override.key)
-        if len(override.values) == 1:
+        tree = without_axis(tree, override.key)
+        if len(override.values) == 1 and not override.swept:
             tree = with_value(tree, override.key, Entry(override.place, override.values[0]), part_keys)
         else:
             tree = _with_axis(tree, override)
@@ -135,7 +140,7 @@ def _with_axis(tree: Map, override: Override) -> Map:
     return tree.with_entry("matrix", Entry(override.place, matrix.with_entry(override.key, axis)))
 
 
-def _without_axis(tree: Map, key: str) -> Map:
+def without_axis(tree: Map, key: str) -> Map:
     """The tree without ``key`` in its sweep sections: the command line sets its value."""
     for section in ("matrix", "zip", "include", "exclude"):
         entry = tree.entries.get(section)

@@ -27,6 +27,15 @@ def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
     return _tree(display, path.parent, _content(path), beginning)
 
 
+def read_document(path: Path, largest: int, hint: str) -> Document:
+    """The text of a file of at most ``largest`` bytes, whatever it holds. Raises ScenarioErrors.
+
+    ``hint`` is shown for a larger file.
+    """
+    display, content = display_name(path), _content(path, largest, hint)
+    return Document(display, path.parent, _decoded(display, path.parent, content))
+
+
 def read_library(folder: str, name: str) -> Map:
     """The tree of a library file."""
     return _tree(f"{LIBRARY}{folder}/{name}.yaml", Path(), library.content(folder, name))
@@ -62,18 +71,16 @@ def is_file(path: Path) -> bool:
     return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for names that are too long
 
 
-def _content(path: Path) -> bytes:
+def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario file?") -> bytes:
     try:
         if not is_file(path):
             raise single_error(whole_file(path), "not a file" if os.path.lexists(path) else "no such file")
         with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+            content = file.read(largest + 1)
     except (OSError, ValueError) as error:
         raise unreadable_error(whole_file(path), error) from None
-    if len(content) > LARGEST:
-        raise single_error(
-            whole_file(path), f"larger than {LARGEST // 1024} KiB", hint="is this a scenario file?"
-        )
+    if len(content) > largest:
+        raise single_error(whole_file(path), f"larger than {largest // 1024} KiB", hint=hint)
     return content
 
 

@@ -42,6 +42,9 @@ from uictest.sweep.plan.scenario_values import outermost_first
 
 DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
+REPEAT_KEYS: Final = ("repeat", "outcome_of_repeats")
+SEEDS_IN_SWEEPS: Final = "list or sample `seed`, as in `grid: {seed: [0, 1, 2]}`"
+
 
 @dataclass(frozen=True)
 class BaseCase:
@@ -92,11 +95,19 @@ def read_base_case(
     own = files.beside(reference, "scenario")
     cases = _load_cases(reference, overrides, roots)
     place = _place_of(case_id, cases, reference)
+    _reject_repeats(cases[place], reference)
     merged, _ = inherit(own, lambda parent: files.beside(parent, "extends"))
     merged = merged.with_entry("name", own.entries["name"])
     tree = apply_overrides(with_default_parts(merged), overrides, DOTTED_PART_KEYS)
     variants = distinct(expand(tree)) if overrides else expand(tree)
     return BaseCase(cases[place], _fixed(tree.without(*EXPANSION_KEYS), variants[place]), Parts(files))
+
+
+def _reject_repeats(case: Case, reference: Scalar) -> None:
+    if case.scenario.repeat > 1:
+        message = f"{quoted(reference.text)} repeats its stop {case.scenario.repeat} times"
+        hint = f"a sweep runs one stop per case: {SEEDS_IN_SWEEPS}; --set repeat=1 runs the first stop alone"
+        raise single_error(reference.place, message, "scenario", hint)
 
 
 def _fixed(tree: Map, variant: Variant) -> Map:

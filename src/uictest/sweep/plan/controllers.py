@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
-from uictest.sweep.plan.plan import Group, ListedGroup, ParameterValue, Plan
+from uictest.sweep.plan.column import ParameterValue
+from uictest.sweep.plan.plan import Group, ListedGroup, Plan
 
 if TYPE_CHECKING:
     from uictest.controllers import ControllerProgram

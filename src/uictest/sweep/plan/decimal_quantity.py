@@ -43,6 +43,12 @@ def rounded_decimal(number: float) -> Decimal:
     return _DIGITS.create_decimal_from_float(number).normalize()
 
 
+def rounded_text(number: float) -> str:
+    """Return a computed number rounded to ten digits, as text without an exponent."""
+    text = f"{number:.10g}"
+    return f"{rounded_decimal(number):f}" if "e" in text else text
+
+
 def parse_decimal_quantity(text: str) -> DecimalQuantity:
     """Parse a number and its unit. Raises ValueError."""
     match = _FORM.fullmatch(text)

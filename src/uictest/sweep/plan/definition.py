@@ -31,10 +31,11 @@ from uictest.scenario.yaml import (
     single_error,
     validated,
 )
-from uictest.sweep.plan.base_case import BaseCase, read_base_case
+from uictest.sweep.plan.base_case import REPEAT_KEYS, SEEDS_IN_SWEEPS, BaseCase, read_base_case
 from uictest.sweep.plan.group_reader import GroupReader, range_node
 from uictest.sweep.plan.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
 from uictest.sweep.plan.plan import Group, ListedGroup, Plan
+from uictest.sweep.plan.tail_requests import reject_unsupported_tails
 
 _SCHEMA_HINT: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
 _SECTIONS: Final = ("grid", "ranges", "zip")
@@ -68,7 +69,7 @@ def load_sweep(
     base = read_base_case(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
     reader = _Reader(base, tree, file)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
-    return Plan(
+    plan = Plan(
         name=file.name,
         title=file.title,
         file=display_name(path),
@@ -76,7 +77,11 @@ def load_sweep(
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
         inputs=_inputs(base, (tree.place.document, *reader.group_reader.documents)),
+        quantiles=file.quantile_requests,
+        k_dry=file.k_dry,
     )
+    reject_unsupported_tails(plan, tree)
+    return plan
 
 
 @dataclass(frozen=True)
@@ -171,6 +176,9 @@ def _bad_keys(axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
             if key.split(".")[0] in FIXED:
                 message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
                 yield diagnose(entry.key, message, f"{axis.section}.{key}")
+            if key.split(".")[0] in REPEAT_KEYS:
+                message = f"{quoted(key)} cannot vary: a sweep runs one stop per case"
+                yield diagnose(entry.key, message, f"{axis.section}.{key}", SEEDS_IN_SWEEPS)
             section_of[key] = axis.section
 
 

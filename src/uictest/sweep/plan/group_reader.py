@@ -30,6 +30,7 @@ from uictest.scenario.yaml import (
     visible,
 )
 from uictest.sweep.plan.base_case import BaseCase
+from uictest.sweep.plan.column import ParameterValue
 from uictest.sweep.plan.decimal_quantity import (
     common_unit,
     evenly_spaced,
@@ -37,7 +38,7 @@ from uictest.sweep.plan.decimal_quantity import (
     spaced_by_step,
 )
 from uictest.sweep.plan.model import Distribution, Range, Sample
-from uictest.sweep.plan.plan import ListedGroup, ParameterDraw, ParameterValue, SampledGroup
+from uictest.sweep.plan.plan import ListedGroup, ParameterDraw, SampledGroup
 from uictest.sweep.plan.scenario_values import inconsistencies, is_free, value_at, with_values
 
 _OPTIONS: Final = ("--set", "--seed")

@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 from uictest.scenario import Slug
 from uictest.scenario.yaml import Inconsistency, Model
 from uictest.sweep.plan.decimal_quantity import DecimalQuantity, DecimalQuantityField, common_unit
+from uictest.sweep.plan.tail_model import KDryRequest, QuantileRequest, Quantiles
 
 SWEEP_SCHEMA: Final = "uictest/sweep/1"
 MOST_CASES: Final = 100_000_000
@@ -255,3 +256,15 @@ class SweepFile(Model):
         default=None, description="Lists of equal length by dotted key; values at the same place go together."
     )
     sample: Sample | None = Field(default=None, description="Values drawn from distributions.")
+    quantiles: Quantiles | None = Field(
+        default=None,
+        description="Quantiles of a measure over the draws of a random sample, or a list of such.",
+    )
+    k_dry: KDryRequest | None = Field(
+        default=None, description="K_dry by confidence level (EBCL), from the draws of a random sample."
+    )
+
+    @property
+    def quantile_requests(self) -> tuple[QuantileRequest, ...]:
+        """The quantiles as a list, whether the file has one request or several."""
+        return (self.quantiles,) if isinstance(self.quantiles, QuantileRequest) else self.quantiles or ()

@@ -1,13 +1,25 @@
-"""Compare the scenario's own value of a drawn parameter with the range that it is drawn from."""
+"""The nominal case of a sample: the scenario's own values of the drawn parameters, beside their ranges."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
+from uictest.scenario import Scenario, wheelset_value
 from uictest.scenario.yaml import Quantity, parse_quantity
-from uictest.sweep.plan.plan import ParameterDraw, Plan, saltelli_sample
+from uictest.sweep.plan.column import ParameterValue
+from uictest.sweep.plan.plan import (
+    ListedGroup,
+    ParameterDraw,
+    Plan,
+    SampledGroup,
+    random_sample,
+    saltelli_sample,
+)
 from uictest.sweep.plan.scenario_values import value_at
+
+_OF_WHEELSETS: Final = "vehicle.wheelsets."
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +46,45 @@ class DrawnRange:
 
 
 def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
-    """Yield the ranges of a sample for sensitivities; a choice from a list has none."""
-    sample = saltelli_sample(plan)
+    """Yield the ranges of a sample whose results refer to the nominal case; a choice from a list has none.
+
+    These are samples for sensitivities, and for K_dry unless the nominal deceleration is stated.
+    """
+    sample = saltelli_sample(plan) or (random_sample(plan) if has_nominal_case(plan) else None)
     for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
-        nominal = value_at(plan.base.scenario, key)
+        nominal = _nominal_value(plan.base.scenario, key)
         if not draw.choices and isinstance(nominal, Quantity):
             yield DrawnRange(key, *_bounds(draw), nominal)
+
+
+def has_nominal_case(plan: Plan) -> bool:
+    """Return whether the nominal case is needed: for K_dry without a stated nominal deceleration."""
+    return plan.k_dry is not None and plan.k_dry.nominal is None
+
+
+def nominal_plan(plan: Plan) -> Plan:
+    """Return the plan in which the scenario's own values replace those of the sample, its last group.
+
+    It has one case for each combination of the other groups, in their order.
+    """
+    *others, sample = plan.groups
+    assert isinstance(sample, SampledGroup)
+    values = [value_at(plan.base.scenario, key) for key in sample.keys]
+    row = tuple(ParameterValue(_text(value), value, "nominal") for value in values)
+    return replace(plan, groups=(*others, ListedGroup(sample.keys, (row,))))
+
+
+def _nominal_value(scenario: Scenario, key: str) -> Any:
+    """Return a value of the scenario; where a wheelset has none of its own, the regular one."""
+    value = value_at(scenario, key)
+    if value is None and key.startswith(_OF_WHEELSETS):
+        number, _, name = key.removeprefix(_OF_WHEELSETS).partition(".")
+        return wheelset_value(scenario, int(number), name)
+    return value
+
+
+def _text(value: Any) -> str:
+    return value.text if isinstance(value, Quantity) else str(getattr(value, "name", value))
 
 
 def _shown(quantity: Quantity) -> str:

@@ -6,33 +6,19 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from uictest.scenario import Case
-from uictest.scenario.yaml import parse_quantity, scalar_value
-from uictest.sweep.plan.decimal_quantity import quantity_text, rounded_decimal
+from uictest.sweep.plan.column import Column, ParameterValue, drawn_column, listed_column
+from uictest.sweep.plan.decimal_quantity import rounded_text
 from uictest.sweep.plan.model import Distribution, Method
+from uictest.sweep.plan.tail_model import KDryRequest, QuantileRequest
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     Numbers = NDArray[np.int64]
-
-
-@dataclass(frozen=True, slots=True)
-class ParameterValue:
-    """A value of a parameter: as written, as the scenario holds it, and as case ids show it."""
-
-    text: str
-    content: Any
-    label: str = ""
-
-    @property
-    def number(self) -> float:
-        """The value in SI units, NaN where it is not a number."""
-        is_number = isinstance(self.content, float | int) and not isinstance(self.content, bool)
-        return float(self.content) if is_number else math.nan
 
 
 @dataclass(frozen=True)
@@ -47,17 +33,20 @@ class ListedGroup:
         """Number of rows."""
         return len(self.rows)
 
-    def at(self, numbers: Numbers) -> list[list[ParameterValue]]:
+    def at(self, numbers: Numbers) -> list[Column]:
         """Return the values of each parameter in the rows of the given numbers."""
-        return [[self.rows[k][place] for k in numbers.tolist()] for place in range(len(self.keys))]
+        distinct, places = _distinct(numbers)
+        rows = [self.rows[k] for k in distinct]
+        return [listed_column([row[k] for row in rows], places) for k in range(len(self.keys))]
 
     def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
         """Return the part of a case id for the rows of the given numbers."""
+        distinct, places = _distinct(numbers)
         labels = [
             ",".join(f"{short[key]}={value.label}" for key, value in zip(self.keys, row, strict=True))
-            for row in self.rows
+            for row in (self.rows[k] for k in distinct)
         ]
-        return [labels[k] for k in numbers.tolist()]
+        return [labels[place] for place in places.tolist()]
 
 
 @dataclass(frozen=True)
@@ -72,16 +61,14 @@ class ParameterDraw:
     kind: str = ""
     choices: tuple[ParameterValue, ...] = ()
 
-    def values(self, probabilities: NDArray[np.float64]) -> list[ParameterValue]:
+    def values(self, probabilities: NDArray[np.float64]) -> Column:
         """Return the quantiles for the given probabilities (0 up to 1)."""
         from uictest.sweep.plan.distribution import quantile  # numpy, which checking a sweep does not need
 
-        numbers = quantile(self.distribution)(probabilities).tolist()
+        numbers = quantile(self.distribution)(probabilities)
         if self.choices:
-            return [self.choices[int(number)] for number in numbers]
-        texts = [quantity_text(rounded_decimal(number), self.unit) for number in numbers]
-        # A value is read back from its text, so that a scenario with that text gives the same case.
-        return [ParameterValue(text, content_of(text, self.kind)) for text in texts]
+            return listed_column(self.choices, numbers.astype(int))
+        return drawn_column([rounded_text(number) for number in numbers.tolist()], self.unit, self.kind)
 
 
 @dataclass(frozen=True)
@@ -95,7 +82,7 @@ class SampledGroup:
     points: int
     seed: int
 
-    def at(self, numbers: Numbers) -> list[list[ParameterValue]]:
+    def at(self, numbers: Numbers) -> list[Column]:
         """Return the values of each parameter in the rows of the given numbers."""
         from uictest.sweep.plan.sampling import points  # numpy, which checking a sweep does not need
 
@@ -125,6 +112,8 @@ class Plan:
     """The name of each key in case ids."""
     inputs: dict[str, str] = field(default_factory=dict)
     """SHA-256 of every file read, by the name shown to users."""
+    quantiles: tuple[QuantileRequest, ...] = ()
+    k_dry: KDryRequest | None = None
 
     @property
     def size(self) -> int:
@@ -144,9 +133,9 @@ class Plan:
             indices = indices // group.size
         return rows[::-1]
 
-    def settings(self, indices: Numbers) -> dict[str, list[ParameterValue]]:
+    def settings(self, indices: Numbers) -> dict[str, Column]:
         """Return the values of the cases with the given indices, by key."""
-        columns: dict[str, list[ParameterValue]] = {}
+        columns: dict[str, Column] = {}
         for group, rows in zip(self.groups, self.rows(indices), strict=True):
             columns.update(zip(group.keys, group.at(rows), strict=True))
         return columns
@@ -174,11 +163,20 @@ def saltelli_sample(plan: Plan) -> SampledGroup | None:
     return last if isinstance(last, SampledGroup) and last.method == "saltelli" else None
 
 
-def content_of(text: str, kind: str) -> Any:
-    """Return what a scenario holds where it says `text`: a quantity of a kind, or a plain number."""
-    return parse_quantity(text, kind) if kind else scalar_value(text)
+def random_sample(plan: Plan) -> SampledGroup | None:
+    """Return the sample of independent draws that quantiles can be bounded from, None where there is none."""
+    last = plan.groups[-1]
+    return last if isinstance(last, SampledGroup) and last.method == "random" else None
 
 
 def is_numeric(values: Sequence[ParameterValue]) -> bool:
     """Return whether all values are numbers."""
     return all(isinstance(value.content, float | int) for value in values)
+
+
+def _distinct(numbers: Numbers) -> tuple[list[int], Numbers]:
+    """Return the distinct numbers, and the place among them of each number."""
+    import numpy as np
+
+    distinct, places = np.unique(numbers, return_inverse=True)
+    return distinct.tolist(), places

@@ -62,12 +62,21 @@ def _inconsistencies_of(scenario: Scenario, path: tuple[str, ...]) -> Iterator[I
 def _changed(model: Any, elements: list[str], value: Any) -> Any:
     first, rest = elements[0], elements[1:]
     inner = _changed(_inner(model, first), rest, value) if rest else value
+    if isinstance(model, tuple):
+        if not first.isdecimal():  # the one entry, written without a list
+            return (_changed(model[0], elements, value),)
+        place = int(first)
+        return (*model[:place], inner, *model[place + 1 :])
     return {**model, first: inner} if isinstance(model, dict) else model.model_copy(update={first: inner})
 
 
 def _inner(value: Any, element: str) -> Any:
     if isinstance(value, dict):
         return value[element]
+    if isinstance(value, tuple) and element.isdecimal() and int(element) < len(value):
+        return value[int(element)]
+    if isinstance(value, tuple) and not element.isdecimal() and len(value) == 1:
+        return _inner(value[0], element)  # one entry may be written without a list
     if isinstance(value, Model) and element in type(value).model_fields:
         return getattr(value, element)
     raise KeyError(element)

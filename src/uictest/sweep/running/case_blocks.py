@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Final
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import Config, Controller, ControllerProgram
+from uictest.ensemble import Places
 from uictest.evaluation import JUDGED_KEYS
 from uictest.rig import (
     ASSIGNMENTS,
@@ -22,71 +23,32 @@ from uictest.rig import (
     controller_config,
     controller_of,
     friction_laws,
+    noise_keys,
 )
 from uictest.scenario import Case, Scenario
 from uictest.scenario.yaml import dotted
 from uictest.sweep.plan.controllers import CONTROLLER, programs_of
-from uictest.sweep.plan.plan import ParameterValue, Plan
-from uictest.sweep.plan.scenario_values import inconsistencies, with_values
+from uictest.sweep.plan.plan import Plan
+from uictest.sweep.plan.scenario_values import inconsistencies
+from uictest.sweep.running.scenario_function import (
+    Rejected,
+    ScenarioFunction,
+    ScenarioVariants,
+    Settings,
+    related_keys,
+)
 
-_CACHE_SIZE: Final = 1_000
-"""Results of one function that are cached from block to block: listed values recur, drawn ones do not."""
-Settings = Mapping[str, Sequence[ParameterValue]]
-"""The values of each case of a block, by key."""
-FieldValues = Mapping[str, float | list[float]]
-"""Fields of the parameters -> what they are set to, a list for a table."""
-
-
-@dataclass(frozen=True)
-class CachedFunction:
-    """A function of a scenario that reads only what lies at, below or above some keys."""
-
-    function: Callable[[Scenario], Any]
-    keys: tuple[str, ...]
-    """The swept keys that the result depends on."""
-    cache: dict[tuple[str, ...], Any] = field(default_factory=dict)
-
-    def per_case(self, variants: ScenarioVariants) -> list[Any]:
-        """Return the function's result for each case."""
-        if not self.keys:
-            return [self.function(variants.base)] * variants.count
-        texts = [[value.text for value in variants.settings[key]] for key in self.keys]
-        return [self._result(variants, place, row) for place, row in enumerate(zip(*texts, strict=True))]
-
-    def _result(self, variants: ScenarioVariants, place: int, texts: tuple[str, ...]) -> Any:
-        if texts in self.cache:
-            return self.cache[texts]
-        result = self.function(variants.at(place))
-        # Several threads come here; nothing is ever removed, so an entry that one thread saw stays.
-        if len(self.cache) < _CACHE_SIZE:
-            self.cache[texts] = result
-        return result
-
-
-class ScenarioVariants:
-    """The scenarios of some cases, each built when it is first needed."""
-
-    def __init__(self, base: Scenario, settings: Settings, count: int) -> None:
-        self.base = base
-        self.settings = settings
-        self.count = count
-        self._scenarios: dict[int, Scenario] = {}
-
-    def at(self, place: int) -> Scenario:
-        """Return the scenario of one case."""
-        if place not in self._scenarios:
-            contents = {key: values[place].content for key, values in self.settings.items()}
-            self._scenarios[place] = with_values(self.base, contents)
-        return self._scenarios[place]
+FieldValues = Mapping[str, Any]
+"""Fields of the parameters -> what they are set to: a number or a table, for each case or for all."""
 
 
 @dataclass(frozen=True)
 class CaseBlock:
     """Some cases of a sweep in numbers.
 
-    `rejections` holds for each case why it cannot be simulated, empty where it can; `judged_as` is a scenario
-    that is judged as the case's own would be. `programs` and `configs` are those of controllers from outside,
-    None where the controller is built in.
+    `rejections` holds for each case why it cannot be simulated, empty where it can; `judged_as` are scenarios
+    that are judged as those of the cases would be. `programs` and `configs` are those of controllers from
+    outside, None where the controller is built in.
     """
 
     indices: NDArray[np.int64]
@@ -98,8 +60,25 @@ class CaseBlock:
     controllers: list[Controller]
     programs: list[ControllerProgram | None]
     configs: list[Config | None]
-    judged_as: list[Scenario]
+    judged_as: ScenarioVariants
     rejections: list[str]
+
+    def take(self, places: Places) -> CaseBlock:
+        """Return the cases at some places."""
+        numbers = places.tolist()
+        return CaseBlock(
+            self.indices[places],
+            [self.ids[place] for place in numbers],
+            {key: column.take(places) for key, column in self.settings.items()},
+            self.parameters[places],
+            self.wheelset_parameters[places],
+            self.rail[places],
+            [self.controllers[place] for place in numbers],
+            [self.programs[place] for place in numbers],
+            [self.configs[place] for place in numbers],
+            self.judged_as.take(places),
+            [self.rejections[place] for place in numbers],
+        )
 
 
 class BlockAssembler:
@@ -111,11 +90,13 @@ class BlockAssembler:
         self._record, self._wheelset_records = inputs.parameters, inputs.wheelset_parameters
         self._parameters = _setters(plan.keys, ASSIGNMENTS)
         self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
-        self._controllers = CachedFunction(controller_of, _related_keys(plan.keys, ("controller.algorithm",)))
-        self._programs = CachedFunction(_program_of, _program_keys(plan))
-        self._rail = CachedFunction(friction_laws, _related_keys(plan.keys, FRICTION_KEYS))
-        self._judged = CachedFunction(_scenario_itself, _related_keys(plan.keys, JUDGED_KEYS))
-        self._rejection = CachedFunction(_rejection_of(plan.keys), plan.keys)
+        self._controllers = ScenarioFunction(
+            controller_of, related_keys(plan.keys, ("controller.algorithm",))
+        )
+        self._programs = ScenarioFunction(_program_of, _program_keys(plan), by_numbers=True)
+        self._rail = ScenarioFunction(friction_laws, related_keys(plan.keys, FRICTION_KEYS))
+        self._judged_keys = related_keys(plan.keys, JUDGED_KEYS)
+        self._rejection = ScenarioFunction(_rejection_of(plan.keys), plan.keys)
 
     def block(self, indices: NDArray[np.int64]) -> CaseBlock:
         """Return the records of the cases with the given indices."""
@@ -125,28 +106,34 @@ class BlockAssembler:
     def of_settings(self, indices: NDArray[np.int64], ids: list[str], settings: Settings) -> CaseBlock:
         """Return the records of cases that are given by their ids and values."""
         variants = ScenarioVariants(self._plan.base.scenario, settings, indices.size)
-        rejections: list[str] = self._rejection.per_case(variants)
+        rejections = [_reason(result) for result in self._rejection.per_case(variants)]
         parameters = np.repeat(self._record[None], indices.size)
-        for values in self._parameters:
-            rejections = _fill(parameters, values.per_case(variants), rejections)
+        for setter in self._parameters:
+            _fill(parameters, setter.results(variants), rejections)
         wheelsets = np.repeat(self._wheelset_records[None], indices.size, axis=0)
         for place, setters in enumerate(self._wheelset_parameters):
-            for values in setters:
-                rejections = _fill(wheelsets[:, place], values.per_case(variants), rejections)
-        parameters["case_key"] = [zlib.crc32(name.encode()) for name in ids]
-        rail = _stacked(self._rail.per_case(variants))
+            for setter in setters:
+                _fill(wheelsets[:, place], setter.results(variants), rejections)
+        rail = _stacked(list(self._rail.results(variants)), indices.size, rejections)
+        parameters["noise_key"] = noise_keys(parameters, wheelsets, rail)
         programs = self._programs.per_case(variants)
         return CaseBlock(
             *(indices, ids, settings, parameters, wheelsets, rail),
             *(self._controllers.per_case(variants), programs, _configs(programs, parameters, wheelsets)),
-            *(self._judged.per_case(variants), rejections),
+            *(self._judged_as(variants), rejections),
         )
+
+    def _judged_as(self, variants: ScenarioVariants) -> ScenarioVariants:
+        """Return the scenarios as far as they are judged; numbers in their criteria keep cases apart."""
+        settings = {key: variants.settings[key] for key in self._judged_keys}
+        settings |= {key: settings[key].one_by_one() for key in related_keys(settings, ("criteria",))}
+        return ScenarioVariants(variants.base, settings, variants.count)
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
-        parameters = {key: values[place].text for key, values in block.settings.items()}
+        parameters = {key: column.texts[place] for key, column in block.settings.items()}
         base = self._plan.base
-        return Case(block.ids[place], block.judged_as[place], base.path, parameters, {})
+        return Case(block.ids[place], block.judged_as.at(place), base.path, parameters, {})
 
 
 def _program_of(scenario: Scenario) -> ControllerProgram | None:
@@ -155,7 +142,7 @@ def _program_of(scenario: Scenario) -> ControllerProgram | None:
 
 def _program_keys(plan: Plan) -> tuple[str, ...]:
     """Return the swept keys that the program depends on: none where all controllers are built in."""
-    return _related_keys(plan.keys, (CONTROLLER,)) if any(programs_of(plan)) else ()
+    return related_keys(plan.keys, (CONTROLLER,)) if any(programs_of(plan)) else ()
 
 
 def _configs(
@@ -167,36 +154,22 @@ def _configs(
     ]
 
 
-def _related_keys(swept: Iterable[str], read: Iterable[str]) -> tuple[str, ...]:
-    """Return the swept keys at, below or above one that is read."""
-    return tuple(key for key in swept if any(_related(key, other) for other in read))
-
-
-def _related(one: str, other: str) -> bool:
-    return one == other or one.startswith(f"{other}.") or other.startswith(f"{one}.")
-
-
-def _setters(swept: Iterable[str], assignments: Iterable[Assignment]) -> list[CachedFunction]:
+def _setters(swept: Iterable[str], assignments: Iterable[Assignment]) -> list[ScenarioFunction]:
     """Group assignments by the swept keys that they depend on, leaving out those that depend on none."""
     groups: dict[tuple[str, ...], list[Assignment]] = {}
     for assignment in assignments:
-        if keys := _related_keys(swept, assignment.keys):
+        if keys := related_keys(swept, assignment.keys):
             groups.setdefault(keys, []).append(assignment)
-    return [CachedFunction(_values_or_reason(group), keys) for keys, group in groups.items()]
+    return [ScenarioFunction(partial(_field_values, group), keys) for keys, group in groups.items()]
 
 
-def _values_or_reason(assignments: Sequence[Assignment]) -> Callable[[Scenario], FieldValues | str]:
-    def fields_or_reason(scenario: Scenario) -> FieldValues | str:
-        try:
-            return {name: _numbers(value) for name, value in assigned(assignments, scenario).items()}
-        except (ValueError, ArithmeticError) as error:
-            return f"{type(error).__name__}: {error}"
-
-    return fields_or_reason
+def _field_values(assignments: Sequence[Assignment], scenario: Scenario) -> FieldValues:
+    return {name: _values(value) for name, value in assigned(assignments, scenario).items()}
 
 
-def _numbers(value: float | list[float]) -> float | list[float]:
-    return value if isinstance(value, list) else float(value)
+def _values(value: float | list[float]) -> Any:
+    """Return a number, or the numbers of several cases; of a table with the table along the last axis."""
+    return np.stack(np.broadcast_arrays(*value), axis=-1) if isinstance(value, list) else np.asarray(value)
 
 
 def _rejection_of(keys: Iterable[str]) -> Callable[[Scenario], str]:
@@ -209,28 +182,38 @@ def _rejection_of(keys: Iterable[str]) -> Callable[[Scenario], str]:
     return rejection
 
 
-def _scenario_itself(scenario: Scenario) -> Scenario:
-    return scenario
+def _reason(result: str | Rejected) -> str:
+    return result.reason if isinstance(result, Rejected) else result
 
 
 def _fill(
-    parameters: NDArray[Any], results: Sequence[FieldValues | str], rejections: Sequence[str]
-) -> list[str]:
-    """Write the fields of a group into the records, and return the rejections including its own."""
-    reasons = [
-        rejection or (result if isinstance(result, str) else "")
-        for rejection, result in zip(rejections, results, strict=True)
-    ]
-    computed = [result for result in results if not isinstance(result, str)]
-    places = [place for place, result in enumerate(results) if not isinstance(result, str)]
-    for name in computed[0] if computed else ():
-        parameters[name][places] = [result[name] for result in computed]
-    return reasons
+    parameters: NDArray[Any],
+    results: Iterable[tuple[Places, FieldValues | Rejected]],
+    rejections: list[str],
+) -> None:
+    """Write the fields of a group into the records, and its rejections where there is none yet."""
+    for places, result in results:
+        if isinstance(result, Rejected):
+            _reject(places, result, rejections)
+            continue
+        for name, value in result.items():
+            parameters[name][places] = value
 
 
-def _stacked(laws: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+def _stacked(
+    results: Sequence[tuple[Places, NDArray[np.float64] | Rejected]], count: int, rejections: list[str]
+) -> NDArray[np.float64]:
     """Return friction laws as one array; the record of a law has its length."""
-    stacked = np.zeros((len(laws), 4, max(law.shape[1] for law in laws)))
-    for place, law in enumerate(laws):
-        stacked[place, :, : law.shape[1]] = law
+    longest = max((law.shape[-1] for _, law in results if not isinstance(law, Rejected)), default=1)
+    stacked = np.zeros((count, 4, longest))
+    for places, law in results:
+        if isinstance(law, Rejected):
+            _reject(places, law, rejections)
+        else:
+            stacked[places, :, : law.shape[-1]] = law
     return stacked
+
+
+def _reject(places: Places, rejected: Rejected, rejections: list[str]) -> None:
+    for place in places.tolist():
+        rejections[place] = rejections[place] or rejected.reason

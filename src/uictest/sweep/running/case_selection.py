@@ -14,7 +14,7 @@ from uictest.sweep.plan.plan import Plan
 from uictest.sweep.running.device import Device
 
 _SMALLEST_CHUNK: Final = 16
-_CHUNKING: Final[dict[str, tuple[int, int]]] = {"cpu": (256, 32), "cuda": (65_536, 8)}
+_CHUNKING: Final[dict[str, tuple[int, int]]] = {"cpu": (1024, 32), "cuda": (65_536, 8)}
 """Most cases in a chunk and the number of chunks to aim at, by device: a GPU needs many cases at once."""
 _IDS_AT_ONCE: Final = 4096
 
@@ -34,7 +34,7 @@ class CaseSelection:
 
     @property
     def chunk_size(self) -> int:
-        """Cases in a chunk: about a second of work, and the same on every machine."""
+        """Cases in a chunk: seconds of work, and the same on every machine."""
         largest, chunks = _CHUNKING[self.device]
         return min(largest, max(_SMALLEST_CHUNK, self.size // chunks))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections import namedtuple
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -13,13 +12,13 @@ from numpy.typing import NDArray
 
 from uictest import rig
 from uictest.campaign import ThreadedMap
-from uictest.evaluation import CaseResult, error_result, evaluate_simulated
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.ensemble import Places, rows_at
+from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, result_columns
 from uictest.sweep.plan.plan import Plan
 from uictest.sweep.running.case_blocks import BlockAssembler, CaseBlock
 from uictest.sweep.running.case_selection import CaseSelection
 from uictest.sweep.running.device import Device, Measures, Simulate, simulator
-from uictest.sweep.running.table import rows
+from uictest.sweep.running.table import REPEATED_TEXTS, rows
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -30,10 +29,6 @@ WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _CHUNKS_AHEAD = 2
 """Chunks that wait or are ready beyond those in progress: bounds memory."""
-# Judging reads many fields, and a numpy record takes ten times as long to read as a tuple.
-_tuple_of: Any = namedtuple
-_Stop = _tuple_of("_Stop", STOP_MEASURES.names)
-_Wheelset = _tuple_of("_Wheelset", WHEELSET_MEASURES.names)
 
 
 @dataclass(frozen=True)
@@ -59,21 +54,30 @@ class ChunkRunner:
         block.parameters["cycles"] = 1
         self.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
 
-    def results(self, block: CaseBlock) -> list[CaseResult]:
+    def results(self, block: CaseBlock) -> ResultColumns:
         """Return the results of a block; an error in a case is its result."""
-        places = [place for place, reason in enumerate(block.rejections) if not reason]
-        if not places:
-            return self._judge(block, [], _no_measures())
-        try:
-            measures = self._simulated(block, places)
-        except Exception as error:
-            return self._run_one_by_one(block, error)
-        return self._judge(block, places, measures)
+        places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
+        columns = result_columns(len(block.ids))
+        if places.size:
+            try:
+                measures = self._simulated(block, places)
+            except Exception as error:
+                return self._run_one_by_one(block, error)
+            self._judge(block, places, measures, columns)
+        for place, reason in enumerate(block.rejections):
+            if reason:
+                columns.put(place, error_result(self.assembler.case(block, place), reason))
+        return columns
 
-    def _simulated(self, block: CaseBlock, places: Sequence[int]) -> Measures:
+    def _simulated(self, block: CaseBlock, places: Places) -> Measures:
         """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
         controllers = [block.controllers[place] for place in places]
-        inputs = block.parameters[places], block.wheelset_parameters[places], block.rail[places], controllers
+        inputs = (
+            rows_at(block.parameters, places),
+            rows_at(block.wheelset_parameters, places),
+            rows_at(block.rail, places),
+            controllers,
+        )
         programs = [block.programs[place] for place in places]
         if not any(programs):
             return self.simulate(*inputs)
@@ -83,27 +87,37 @@ class ChunkRunner:
             block.rejections[place] = failure
         return run.measures, run.wheelset_measures
 
-    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
+    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> ResultColumns:
         """Find the case that caused the error of the block."""
         if len(block.ids) == 1:
             block.rejections[0] = f"{type(error).__name__}: {error}"
-            return self._judge(block, [], _no_measures())
-        return [result for place in range(len(block.ids)) for result in self.results(_single(block, place))]
+            return self.results(block)
+        columns = result_columns(len(block.ids))
+        for place in range(len(block.ids)):
+            at = np.array([place])
+            columns.put_block(at, self.results(block.take(at)))
+        return columns
 
-    def _judge(self, block: CaseBlock, places: Sequence[int], measures: Measures) -> list[CaseResult]:
-        """Return the results of all cases; those that were not simulated, or failed, have a rejection."""
-        stops = dict(zip(places, zip(*(each.tolist() for each in measures), strict=True), strict=True))
-        return [self._judge_case(block, place, stops.get(place)) for place in range(len(block.ids))]
+    def _judge(self, block: CaseBlock, places: Places, measures: Measures, columns: ResultColumns) -> None:
+        """Set the results of the simulated cases at some places, group by group of the same criteria."""
+        position = np.full(len(block.ids), -1)
+        position[places] = np.arange(places.size)
+        for group in block.judged_as.groups(by_numbers=False):
+            own = group[position[group] >= 0]
+            own = own[[not block.rejections[place] for place in own]]
+            if own.size:
+                of_stops, of_wheelsets = (rows_at(each, position[own]) for each in measures)
+                columns.put_block(own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets)))
 
-    def _judge_case(self, block: CaseBlock, place: int, stop: Any) -> CaseResult:
-        case = self.assembler.case(block, place)
-        if block.rejections[place]:
-            return error_result(case, block.rejections[place])
-        try:
-            wheelsets = [_Wheelset(*wheelset) for wheelset in stop[1]]
-            return evaluate_simulated(case, _Stop(*stop[0]), wheelsets, explain=False)
-        except Exception as error:  # a case that cannot be judged becomes a row and does not end the sweep
-            return error_result(case, f"{type(error).__name__}: {error}")
+    def _stops(
+        self, block: CaseBlock, places: Places, measures: NDArray[Any], wheelset_measures: NDArray[Any]
+    ) -> StopBlock:
+        return StopBlock(
+            measures,
+            wheelset_measures,
+            lambda place: self.assembler.case(block, int(places[place])),
+            lambda own: block.judged_as.together(places[own]),
+        )
 
 
 def chunk_runner(plan: Plan, run_block: RunBlock, device: Device = "cpu") -> ChunkRunner:
@@ -126,31 +140,12 @@ def run_on_threads(
             write_chunk(number, content)
 
 
-def _no_measures() -> Measures:
-    return np.zeros(0, STOP_MEASURES), np.zeros((0, 4), WHEELSET_MEASURES)
-
-
-def _single(block: CaseBlock, place: int) -> CaseBlock:
-    at: Sequence[int] = [place]
-    return CaseBlock(
-        block.indices[at],
-        [block.ids[place]],
-        {key: [values[place]] for key, values in block.settings.items()},
-        block.parameters[at],
-        block.wheelset_parameters[at],
-        block.rail[at],
-        [block.controllers[place]],
-        [block.programs[place]],
-        [block.configs[place]],
-        [block.judged_as[place]],
-        [block.rejections[place]],
-    )
-
-
 def parquet_bytes(table: pa.Table) -> bytes:
     """Return a table as a Parquet file; the same table gives the same bytes."""
     import pyarrow.parquet as pq
 
     buffer = io.BytesIO()
-    pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)
+    pq.write_table(
+        table, buffer, compression="lz4", use_dictionary=list(REPEATED_TEXTS), write_page_checksum=True
+    )
     return buffer.getvalue()

@@ -17,8 +17,9 @@ from uictest.sweep.running.case_selection import CaseSelection
 
 SCHEMA: Final = "uictest/sweep-manifest/1"
 SOURCES: Final = (
-    *("physics", "controllers", "measures", "lanes", "rig", "evaluation", "scenario", "sweep"),
-    *("record.py", "units.py"),
+    *("physics", "controllers", "faults", "measures", "lanes", "rig"),
+    *("evaluation", "scenario", "series_measures", "statistics", "sweep"),
+    *("ensemble.py", "record.py", "units.py"),
 )
 """Rooms and modules of the package that determine the result of a case."""
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from uictest.evaluation import CaseResult, narrowest_margin
+from uictest.evaluation import ResultColumns
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.sweep.plan.plan import ListedGroup, Plan, is_numeric
 from uictest.sweep.running.case_blocks import CaseBlock
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 WHEELSETS: Final = 4
 _OWN: Final = ("expect", "outcome", "reason")
+REPEATED_TEXTS: Final = (*_OWN, "narrowest_criterion")
+"""Columns whose texts recur from case to case; to look for numbers that do takes half of writing."""
 
 
 def text_column(key: str) -> str:
@@ -74,29 +76,23 @@ def row_schema(plan: Plan) -> pa.Schema:
     )
 
 
-def rows(plan: Plan, block: CaseBlock, results: Sequence[CaseResult]) -> pa.Table:
+def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
     """Return the rows of a block; a measure without a value is null."""
     import pyarrow as pa
 
     columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
-    for key, values in block.settings.items():
-        columns[text_column(key)] = [value.text for value in values]
+    for key, column in block.settings.items():
+        columns[text_column(key)] = column.texts
     for key in numeric_keys(plan):
-        columns[number_column(key)] = [value.number for value in block.settings[key]]
-    for name in (*_OWN, "met"):
-        columns[name] = [getattr(result, name) for result in results]
-    margins = zip(*map(narrowest_margin, results), strict=True)
-    columns["narrowest_margin"], columns["narrowest_criterion"] = margins
-    columns.update(zip(measure_columns(), zip(*map(_measures, results), strict=True), strict=True))
-    arrays = [pa.array(columns[column.name], column.type, from_pandas=True) for column in row_schema(plan)]
-    return pa.table(arrays, schema=row_schema(plan))
-
-
-def _measures(result: CaseResult) -> Iterator[float | None]:
-    of_stop, of_wheelsets = result.measures or {}, result.wheelsets or ({},) * WHEELSETS
-    yield from (of_stop.get(name) for name in STOP_COLUMNS)
-    for name in WHEELSET_COLUMNS:
-        yield from (wheelset.get(name) for wheelset in of_wheelsets)
+        columns[number_column(key)] = block.settings[key].numbers
+    columns |= {"expect": results.expectations, "outcome": results.outcomes, "reason": results.reasons}
+    columns |= {"met": results.met, "narrowest_margin": results.margins}
+    columns["narrowest_criterion"] = results.criteria
+    columns |= results.measures
+    for name, numbers in results.wheelsets.items():
+        columns |= zip(wheelset_columns(name), numbers.T, strict=True)
+    schema = row_schema(plan)
+    return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
 
 
 def _numbers() -> range:

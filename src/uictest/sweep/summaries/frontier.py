@@ -16,6 +16,7 @@ from uictest.campaign import map_on_threads
 from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.scenario import Setting, value_label
 from uictest.scenario.yaml import Document, Entry, Place, Quantity, Scalar
+from uictest.sweep.plan.column import ParameterValue, content_of
 from uictest.sweep.plan.decimal_quantity import (
     DecimalQuantity,
     common_unit,
@@ -23,7 +24,7 @@ from uictest.sweep.plan.decimal_quantity import (
     quantity_text,
     rounded_decimal,
 )
-from uictest.sweep.plan.plan import ListedGroup, ParameterValue, Plan, content_of
+from uictest.sweep.plan.plan import ListedGroup, Plan
 from uictest.sweep.plan.scenario_values import is_free
 from uictest.sweep.running.case_blocks import BlockAssembler
 from uictest.sweep.running.chunk import ChunkRunner
@@ -192,7 +193,7 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
     runner = replace(runner, assembler=BlockAssembler(plan), plan=plan)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
-        return [result.met for result in runner.results(runner.assembler.block(block))]
+        return [bool(met) for met in runner.results(runner.assembler.block(block)).met]
 
     blocks = np.array_split(indices, max(jobs, -(-indices.size // _CASES_AT_ONCE)))
     verdicts = map_on_threads(met, [block for block in blocks if block.size], jobs=jobs)

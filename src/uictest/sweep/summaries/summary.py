@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from uictest.evaluation import EffectiveParts
 from uictest.report import MET, MeasureHistogram, SobolSensitivity, SweepResult, counted
+from uictest.scenario import named_requirements
 from uictest.sweep.plan.nominal import drawn_ranges
 from uictest.sweep.plan.plan import Plan, saltelli_sample
 from uictest.sweep.running.case_selection import CaseSelection
@@ -20,6 +21,7 @@ from uictest.sweep.summaries.histograms import HistogramCounts, reported_measure
 from uictest.sweep.summaries.maps import MapSums
 from uictest.sweep.summaries.sensitivity import sobol_sensitivities, uncertainty_note
 from uictest.sweep.summaries.summary_files import summary_files
+from uictest.sweep.summaries.tails import TailDraws
 from uictest.sweep.summaries.tally import Tally
 from uictest.sweep.summaries.trends import MOST_VALUES, TrendSums
 from uictest.sweep.summaries.worst import WorstCases
@@ -69,7 +71,13 @@ def summarize(
         sums,
         distributions=_histograms(sums.histograms, selection, store),
         sensitivities=sensitivities,
-        notes=(*_not_judged_notes(sums.tally.outcomes), *map(str, drawn_ranges(selection.plan)), *notes),
+        notes=(
+            *_requirement_notes(selection.plan),
+            *_not_judged_notes(sums.tally.outcomes),
+            *map(str, drawn_ranges(selection.plan)),
+            *notes,
+            *_selection_notes(selection),
+        ),
     )
     return SweepSummary(result, sums.verdicts, sums.worst.indices())
 
@@ -89,6 +97,8 @@ class _Sums:
             TrendSums(plan, each, shown) for each in bins.values() if len(each.values) <= MOST_VALUES
         ]
         self.histograms = [HistogramCounts(measure) for measure in shown]
+        # Of a selection of cases nothing is known of the others, so that ranks have no meaning.
+        self.tails = TailDraws(plan) if selection.selected is None else None
         self.verdicts = np.full(plan.size, UNKNOWN, np.int8)
         self._is_sample = saltelli_sample(plan) is not None and selection.selected is None
         self._columns = {name: np.full(plan.size, np.nan) for name in (measures if self._is_sample else ())}
@@ -103,6 +113,8 @@ class _Sums:
             trend.add(table)
         for histogram in self.histograms:
             histogram.add_range(table)
+        if self.tails is not None:
+            self.tails.add(table)
         indices = table.column("index").to_numpy()
         self.verdicts[indices] = table.column(MET).to_numpy(zero_copy_only=False)
         for name, values in self._columns.items():
@@ -134,10 +146,14 @@ def _result(
         trends=tuple(trend for each in sums.trends for trend in each.trends()),
         base=EffectiveParts().of(plan.base.scenario),
         varied=plan.keys,
+        requirements=named_requirements(plan.base.scenario),
+        test_case=plan.base.scenario.test_case or "",
         worst=(),
         subjects={},
         sensitivities=sensitivities,
         frontier=None,
+        quantiles=tuple(sums.tails.quantiles()) if sums.tails else (),
+        k_dry=tuple(sums.tails.k_dry()) if sums.tails else (),
         notes=notes,
     )
 
@@ -155,11 +171,22 @@ def _histograms(
     return tuple(each.histogram() for each in with_cases)
 
 
+def _requirement_notes(plan: Plan) -> Iterator[str]:
+    if requirements := named_requirements(plan.base.scenario):
+        yield f"requirements that the scenario and its criteria name: {', '.join(requirements)}"
+
+
 def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
     if count := outcomes["skipped"]:
         yield f"{counted(count, 'case')} not judged, since no criterion applies: met where `pass` is expected"
     if count := outcomes["inconclusive"]:
         yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
+
+
+def _selection_notes(selection: CaseSelection) -> Iterator[str]:
+    plan = selection.plan
+    if selection.selected is not None and (plan.quantiles or plan.k_dry):
+        yield f"no quantiles and no K_dry: -k selects {selection.size} of {counted(plan.size, 'case')}"
 
 
 def _sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:

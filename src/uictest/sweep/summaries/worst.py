@@ -9,7 +9,7 @@ import numpy as np
 
 from uictest.scenario import Case
 from uictest.sweep.plan.plan import Plan
-from uictest.sweep.running.case_blocks import ScenarioVariants
+from uictest.sweep.running.scenario_function import ScenarioVariants
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -10,6 +10,7 @@ from uictest.report.page.rendering import render
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
 from uictest.report.page.sweep.heat import HeatMap, heat_map
 from uictest.report.page.sweep.histogram import histogram_plot
+from uictest.report.page.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.notable import notable_cases
@@ -43,6 +44,8 @@ def sweep_page_html(content: SweepContent) -> str:
         frontier=_frontier(result.frontier),
         trends=_trends(result),
         histograms=list(map(histogram_plot, result.distributions)),
+        tails=list(tail_tables(result)),
+        tails_left_out=tables_left_out(result),
         notable=notable_cases(result),
         drawn=drawn,
         keys=keys,

@@ -20,6 +20,7 @@ from uictest.report.sweep.result import (
     SweepMap,
     SweepResult,
 )
+from uictest.report.sweep.tail_markdown import k_dry_findings, quantile_findings
 from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
@@ -68,6 +69,8 @@ def _findings(result: SweepResult) -> Iterator[Finding]:
         yield _frontier(result.frontier)
     if result.sensitivities:
         yield "Share of the variance that each parameter explains", _sensitivities(result.sensitivities)
+    yield from quantile_findings(result)
+    yield from k_dry_findings(result)
     if result.distributions:
         yield "Measures", _measures(result.distributions)
     if result.notes:

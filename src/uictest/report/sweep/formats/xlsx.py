@@ -1,4 +1,4 @@
-"""The workbook of a sweep: counts, cases, maps, trends, frontier, sensitivities, worst cases, provenance."""
+"""The workbook of a sweep: counts, cases, maps, trends, frontier, sensitivities, tails, worst cases."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tables import frontier_rows, rate_rows, sensitivity_rows, trend_rows
+from uictest.report.sweep.tail_tables import k_dry_rows, quantile_rows
 from uictest.report.sweep.wording import swept_words
 
 
@@ -44,6 +45,8 @@ def _tables(content: SweepContent) -> dict[str, list[Row]]:
         "Trends": [row for trend in result.trends for row in trend_rows(trend)],
         "Frontier": list(frontier_rows(result.frontier, "at ")) if result.frontier else [],
         "Sensitivity": list(sensitivity_rows(result, "at ")),
+        "Quantiles": list(quantile_rows(result, "at ")),
+        "K_dry": list(k_dry_rows(result, "at ")),
         "Worst cases": list(_worst(result)),
         "Parameters": list(_parameters(result)),
         "Provenance": list(manifest_rows(content.manifest)),

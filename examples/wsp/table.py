@@ -1,0 +1,55 @@
+"""Print the criteria of the series of a run side by side, as docs/series.md shows them.
+
+python table.py reports/latest
+"""
+
+import csv
+import sys
+from pathlib import Path
+
+Row = dict[str, str]
+
+
+def read(folder: Path) -> dict[str, dict[str, Row]]:
+    """Return the rows of a run by criterion and series."""
+    table: dict[str, dict[str, Row]] = {}
+    with (folder / "series-criteria.csv").open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            table.setdefault(row["criterion"], {})[row["series"]] = row
+    return table
+
+
+def cell(row: Row) -> str:
+    """Return a value with its interval, in bold where it misses its limit."""
+    text = short(row["value"])
+    if row["low"]:
+        text += f" ({short(row['low'])} .. {short(row['high'])})"
+    return text if row["verdict"] == "pass" else f"**{text}**"
+
+
+def short(number: str) -> str:
+    """Return a number with four significant digits."""
+    return f"{float(number):.4g}"
+
+
+def title(criterion: str, row: Row) -> str:
+    """Return a criterion with its unit and its limit."""
+    unit = "" if row["unit"] == "1" else f" {row['unit']}"
+    limit = f"≥ {short(row['lower'])}" if row["lower"] else f"≤ {short(row['upper'])}"
+    return f"`{criterion}` {limit}{unit}"
+
+
+def main(folder: Path) -> None:
+    table = read(folder)
+    series = list(dict.fromkeys(name for rows in table.values() for name in rows))
+    print(f"| criterion | {' | '.join(name.partition('[')[2].rstrip(']') for name in series)} |")
+    print(f"|---|{'--:|' * len(series)}")
+    for criterion, rows in table.items():
+        cells = [cell(rows[name]) for name in series]
+        print(f"| {title(criterion, rows[series[0]])} | {' | '.join(cells)} |")
+    missed = [sum(rows[name]["verdict"] != "pass" for rows in table.values()) for name in series]
+    print(f"| criteria missed, of {len(table)} | {' | '.join(map(str, missed))} |")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,106 @@
+"""`uictest list --requirements`: which requirement is verified by which scenarios, series and criteria."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from uictest import campaign, scenario, series
+from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.options import PlainFormat
+from uictest.cli.output import data, message, terminal_width
+from uictest.report import TableColumn, aligned, columns_not_shown, counted, counted_in, fitted, printable
+from uictest.scenario import yaml
+
+Status = Literal["covered", "uncovered", "unknown"]
+"""unknown: a scenario, series or criterion names it and the list of requirements does not."""
+
+
+@dataclass(frozen=True, slots=True)
+class RequirementRequest:
+    """The file with all requirements, if there is one, and whether uncovered ones exit with 1."""
+
+    file: Path | None = None
+    fail_uncovered: bool = False
+
+
+def list_requirements(
+    cases: Sequence[scenario.Case],
+    request: RequirementRequest,
+    shown: PlainFormat,
+    of_series: Sequence[series.Series] = (),
+) -> ExitCode:
+    """List the requirements that cases, series, their criteria or the file name.
+
+    Raises InvalidInputError.
+    """
+    listed = _listed(request.file)
+    coverage = campaign.requirement_coverage(cases, tuple(listed or ()), of_series)
+    rows = [(_status(each, listed), each) for each in coverage]
+    if shown is PlainFormat.JSON:
+        data(json.dumps([_form(status, each) for status, each in rows], indent=2))
+    elif rows:
+        data("\n".join(_lines(rows, terminal_width(sys.stdout))))
+    message(_tally([status for status, _ in rows]))
+    uncovered = any(status == "uncovered" for status, _ in rows)
+    return ExitCode.MISSED if request.fail_uncovered and uncovered else ExitCode.MET
+
+
+def _listed(file: Path | None) -> frozenset[str] | None:
+    try:
+        return None if file is None else frozenset(scenario.read_requirement_list(file))
+    except yaml.ScenarioErrors as errors:
+        raise InvalidInputError(str(errors)) from errors
+
+
+def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | None) -> Status:
+    if listed is not None and requirement.id not in listed:
+        return "unknown"
+    return "covered" if requirement.covered else "uncovered"
+
+
+def _lines(rows: Sequence[tuple[Status, campaign.CoveredRequirement]], width: int | None) -> Iterator[str]:
+    """Yield a table for a terminal, else a line per requirement with tabs between its texts."""
+    texts = [(status, each.id, "; ".join(map(_verifier_text, each.verifiers))) for status, each in rows]
+    if width is None:
+        yield from ("\t".join(map(printable, line)) for line in texts)
+        return
+    statuses, ids, verifiers = (list(map(printable, column)) for column in zip(*texts, strict=True))
+    columns = [
+        TableColumn("status", statuses),
+        TableColumn("requirement", ids, wraps=True),
+        TableColumn("verified by", verifiers, rank=1, wraps=True),
+    ]
+    fitting, hidden = fitted(columns, width)
+    yield from aligned(fitting)
+    if hidden:
+        yield columns_not_shown(hidden, "--format json has them")
+
+
+def _verifier_text(verifier: campaign.Verifier) -> str:
+    of_profile = f" of {verifier.profile}" if verifier.profile else ""
+    places = counted_in(len(verifier.cases), len(verifier.series))
+    return f"{verifier.kind} {verifier.name}{of_profile} ({places})"
+
+
+def _form(status: Status, requirement: campaign.CoveredRequirement) -> dict[str, Any]:
+    verifiers = [_verifier_form(each) for each in requirement.verifiers]
+    return {"id": requirement.id, "status": status, "verified_by": verifiers}
+
+
+def _verifier_form(verifier: campaign.Verifier) -> dict[str, Any]:
+    form: dict[str, Any] = {verifier.kind: verifier.name}
+    form |= {"profile": verifier.profile} if verifier.profile else {}
+    return form | {"cases": list(verifier.cases), "series_ids": list(verifier.series)}
+
+
+def _tally(statuses: Sequence[Status]) -> str:
+    counts = {status: statuses.count(status) for status in ("covered", "uncovered", "unknown")}
+    shown = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+    total = counted(len(statuses), "requirement")
+    nothing = "uictest: no scenario, series or criterion names a requirement"
+    return f"uictest: {total}: {shown}" if shown else nothing

@@ -1,0 +1,132 @@
+"""The stops of a repeated case on a page: a strip of outcomes, dots for each criterion, tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from uictest import evaluation
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
+from uictest.report.traces.quantities import WHEELSETS
+from uictest.report.wording import failing_first
+
+MOST_STOPS = 100
+"""Stops that are listed and drawn one by one; the numbers and the counts are those of all."""
+
+_AIR = 0.08
+"""Of the range of values and limits: what is left free on both sides; chosen."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dot:
+    """The value of one stop at `x` per cent of the scale, and its status; `row` keeps dots apart."""
+
+    x: float
+    row: int
+    status: evaluation.Status
+    seed: int
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class CriterionDots:
+    """The values of a criterion over the stops, on a scale of 100 that holds its bounds.
+
+    `first` and `last` are the ends of what the bounds allow, `median` the place of the median; None where no
+    stop has a value.
+    """
+
+    verdict: evaluation.Verdict
+    counts: evaluation.OverStops
+    first: float
+    last: float
+    median: float | None
+    dots: Sequence[Dot]
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureSpread:
+    """Median and spread of one column of results; `wheelset` is None for one of the stop."""
+
+    column: str
+    unit: str
+    wheelset: int | None
+    spread: evaluation.Spread
+
+
+@dataclass(frozen=True, slots=True)
+class RepeatsView:
+    """The stops of a case, those listed, and how many are not."""
+
+    sentences: Sequence[str]
+    drawn: str
+    criteria: Sequence[CriterionDots]
+    spreads: Sequence[MeasureSpread]
+    stops: Sequence[evaluation.RepeatedStop]
+    more: int
+
+
+def repeats_view(result: evaluation.CaseResult) -> RepeatsView | None:
+    """Return the view of the stops of a case; None for a case with one stop."""
+    repeats = result.repeats
+    if repeats is None:
+        return None
+    return RepeatsView(
+        sentences=list(repeat_sentences(result)),
+        drawn=drawn_sentence(result),
+        criteria=list(_criteria(result, repeats)),
+        spreads=list(_spreads(repeats)),
+        stops=repeats.stops[:MOST_STOPS],
+        more=max(len(repeats.stops) - MOST_STOPS, 0),
+    )
+
+
+def _criteria(result: evaluation.CaseResult, repeats: evaluation.Repeats) -> Iterator[CriterionDots]:
+    for verdict in failing_first(result.criteria):
+        counts = verdict.over_stops
+        if counts is not None and counts.lowest is not None and counts.highest is not None:
+            yield _dots(verdict, counts, repeats.stops[:MOST_STOPS])
+
+
+def _dots(
+    verdict: evaluation.Verdict, counts: evaluation.OverStops, stops: Sequence[evaluation.RepeatedStop]
+) -> CriterionDots:
+    ends = [counts.lowest, counts.highest, verdict.lower, verdict.upper]
+    known = [end for end in ends if end is not None and math.isfinite(end)]
+    low, high = min(known), max(known)
+    air = _AIR * (high - low) or 1.0
+
+    def at(value: float) -> float:
+        return round(100 * (value - low + air) / (high - low + 2 * air), 1)
+
+    dots: list[Dot] = []
+    taken: dict[int, int] = {}
+    for stop in stops:
+        own = stop.verdict(verdict.id)
+        if own is not None and own.value is not None and math.isfinite(own.value):
+            x = at(own.value)
+            taken[round(x)] = row = taken.get(round(x), -1) + 1
+            dots.append(Dot(x, row, own.status, stop.seed, own.value))
+    first = 0.0 if verdict.lower is None else at(verdict.lower)
+    last = 100.0 if verdict.upper is None else at(verdict.upper)
+    median = None if verdict.value is None else at(verdict.value)
+    return CriterionDots(verdict, counts, first, last, median, dots)
+
+
+def _spreads(repeats: evaluation.Repeats) -> Iterator[MeasureSpread]:
+    """Yield the spread of every column that is not the same in all stops."""
+    for name, column in STOP_COLUMNS.items():
+        yield from _spread(name, column.unit, repeats, None)
+    for name, wheelset_column in WHEELSET_COLUMNS.items():
+        for wheelset in WHEELSETS:
+            yield from _spread(name, wheelset_column.unit, repeats, wheelset)
+
+
+def _spread(
+    name: str, unit: str, repeats: evaluation.Repeats, wheelset: int | None
+) -> Iterator[MeasureSpread]:
+    spread = evaluation.spread_of(repeats.values(name, wheelset))
+    if spread is not None and spread.lowest != spread.highest:
+        yield MeasureSpread(name, unit, wheelset, spread)

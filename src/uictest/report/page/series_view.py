@@ -1,0 +1,153 @@
+"""A series as its page shows it: the distances of its stops as dots, against the dry stop and the bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from uictest import evaluation
+from uictest.report.page.axis import Axis, Tick
+from uictest.report.series.comparison import comparison_columns, comparison_rows, value_with_interval
+from uictest.report.series.wording import (
+    confidence_words,
+    count_sentences,
+    not_counted_sentences,
+    of_dry_stop,
+    percent,
+    series_word,
+)
+from uictest.report.wording import limits, quantity
+from uictest.series import SeriesResult, SeriesStop, stops_of
+from uictest.series_measures import SERIES_MEASURES
+
+_LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
+_DISTANCE = "braking_distance_m"
+_OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_distance")
+"""Measures whose bounds are drawn as lines."""
+
+
+SERIES_WORDS: Final = {
+    "comparison_columns": comparison_columns,
+    "comparison_rows": comparison_rows,
+    "confidence_words": confidence_words,
+    "count_sentences": count_sentences,
+    "limits": limits,
+    "not_counted_sentences": not_counted_sentences,
+    "of_dry_stop": of_dry_stop,
+    "percent": percent,
+    "quantity": quantity,
+    "value_with_interval": value_with_interval,
+}
+"""What the template of series puts things into words by."""
+
+
+@dataclass(frozen=True, slots=True)
+class DotRow:
+    """The stops of one case at a height in pixels: places of those that count, and of those that do not."""
+
+    label: str
+    y: float
+    counted: Sequence[float]
+    not_counted: Sequence[float]
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A distance that is marked: the dry stop, or a bound."""
+
+    x: float
+    label: str
+    bound: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DotPlot:
+    """The braking distances from one speed, drawn."""
+
+    speed_kmh: float
+    rows: Sequence[DotRow]
+    lines: Sequence[Line]
+    ticks: Sequence[Tick]
+    height: int
+    left: int = _LEFT
+    right: int = _RIGHT
+    top: int = _TOP
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesView:
+    """A series with its word, its plots, and the names and units of its measures."""
+
+    key: str
+    result: SeriesResult
+    word: str
+    plots: Sequence[DotPlot]
+    units: dict[str, str]
+
+
+def series_view(key: str, result: SeriesResult) -> SeriesView:
+    """Return the view of a series; `key` is its anchor."""
+    stops = stops_of(result.cases, result.speed_tolerance_kmh)
+    plots = [_plot(result, speed.speed_kmh, stops) for speed in result.speeds]
+    units = {name: SERIES_MEASURES[name].unit for name in result.measures if name in SERIES_MEASURES}
+    return SeriesView(key, result, series_word(result), [plot for plot in plots if plot], units)
+
+
+def _plot(result: SeriesResult, speed_kmh: float, stops: Sequence[SeriesStop]) -> DotPlot | None:
+    """Return the distances from one speed; None where no stop has any."""
+    at_speed = [stop for stop in stops if stop.speed_kmh == speed_kmh]
+    known = [distance for stop in at_speed if math.isfinite(distance := _distance(stop))]
+    if not known:
+        return None
+    marked = list(_marked(result, at_speed))
+    ends = [*known, *(distance for distance, _, _ in marked)]
+    air = 0.04 * (max(ends) - min(ends)) or 1.0
+    axis = Axis(min(ends) - air, max(ends) + air, _LEFT, _RIGHT)
+    labels = _labels(result, speed_kmh)
+    rows = [_row(label, axis, place, case, at_speed) for place, (case, label) in enumerate(labels.items())]
+    lines = [Line(axis.at(distance), label, bound) for distance, label, bound in marked]
+    return DotPlot(speed_kmh, rows, lines, axis.tick_marks(6), _TOP + _ROW * len(labels) + 34)
+
+
+def _labels(result: SeriesResult, speed_kmh: float) -> dict[str, str]:
+    """Return a short name for every case from one speed: its own, and the values by which wet ones differ."""
+    cases = [each for each in result.cases if each.speed_kmh == speed_kmh]
+    wet = [each.case.parameters for each in cases if each.role == "wet"]
+    keys = dict.fromkeys(key for parameters in wet for key in parameters)
+    varied = [key for key in keys if len({parameters.get(key) for parameters in wet}) > 1]
+    return {each.case.id: _label(result, each.case, varied) for each in cases}
+
+
+def _label(result: SeriesResult, case: evaluation.CaseResult, varied: Sequence[str]) -> str:
+    head, _, rest = case.id.removeprefix(f"{result.id}.").partition("[")
+    own = [(key.rpartition(".")[2], case.parameters[key]) for key in varied if key in case.parameters]
+    return " ".join([f"{head}{rest.rpartition(']')[2]}", *(f"{key} {text}" for key, text in own)])
+
+
+def _row(label: str, axis: Axis, place: int, case: str, stops: Sequence[SeriesStop]) -> DotRow:
+    own = [stop for stop in stops if stop.case == case and math.isfinite(_distance(stop))]
+    counted, not_counted = (
+        [axis.at(_distance(stop)) for stop in own if stop.counts is counts] for counts in (True, False)
+    )
+    return DotRow(label, _TOP + _ROW * (place + 0.5), counted, not_counted)
+
+
+def _distance(stop: SeriesStop) -> float:
+    return stop.figures.measures.get(_DISTANCE, math.nan)
+
+
+def _marked(result: SeriesResult, stops: Sequence[SeriesStop]) -> Iterator[tuple[float, str, bool]]:
+    """Yield the mean of the dry stops, and every bound that refers to it."""
+    dry = [_distance(stop) for stop in stops if stop.role == "dry" and stop.counts]
+    reference = math.fsum(dry) / len(dry) if dry else math.nan
+    if not math.isfinite(reference):
+        return
+    yield reference, "dry", False
+    for each in result.criteria:
+        verdict = each.verdict
+        if verdict.measure in _OF_DISTANCE and each.of_dry_stop:
+            for bound in (verdict.lower, verdict.upper):
+                if bound is not None:
+                    yield reference * bound / 100.0, f"{bound:g} %", True

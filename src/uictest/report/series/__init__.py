@@ -1,0 +1,1 @@
+"""Series of stops in every format: tables, lines, JUnit, Markdown, the page."""

@@ -1,0 +1,37 @@
+"""Series as lines: the word first, then the id; made for grep."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from uictest.report.escaping import printable
+from uictest.report.series.wording import (
+    count_sentences,
+    not_counted_sentences,
+    series_verdict_sentence,
+    series_word,
+)
+from uictest.report.wording import line_word, number
+from uictest.series import SeriesResult
+
+SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")
+
+
+def series_line(result: SeriesResult) -> str:
+    """Return the line of a series: word, id, outcome, and its measures as `key=value`."""
+    words = [line_word(series_word(result)), printable(result.id)]
+    words += [f"outcome={result.outcome}", f"expect={result.expect}"]
+    for name in SHOWN_MEASURES:
+        estimate = result.measures[name].estimate
+        words.append(f"{name}={number(None if estimate is None else estimate.value)}")
+    if not result.met:
+        words.append(f"reason={printable(result.reason)}")
+    return " ".join(words)
+
+
+def series_lines(result: SeriesResult) -> Iterator[str]:
+    """Yield what stands below the line of a series: its criteria, the stops that count and that do not."""
+    for each in result.criteria:
+        yield f"criterion {printable(result.id)} {series_verdict_sentence(each, result.confidence)}"
+    for sentence in (*count_sentences(result), *not_counted_sentences(result)):
+        yield f"stops {printable(result.id)} {sentence}"

@@ -1,0 +1,107 @@
+"""Tables of series as rows: measures with their confidence, criteria, stops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from uictest.report.csv_text import Cell
+from uictest.report.series.wording import series_word
+from uictest.report.wording import definition_sentence
+from uictest.series import SeriesResult, SeriesVerdict, stops_of
+from uictest.series_measures import SERIES_MEASURES, Estimate, SeriesValue
+
+Row = dict[str, Cell]
+ALL_SPEEDS = "all"
+_ESTIMATE = ("low", "high", "confidence", "method", "stops", "smallest", "largest", "covered")
+
+
+def series_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
+    """Yield one row per series: word, outcome, share of stops that count."""
+    for result in results:
+        yield {
+            "series": result.id,
+            "title": result.title,
+            "file": result.file,
+            **{f"parameters.{key}": text for key, text in result.parameters.items()},
+            "verdict": series_word(result),
+            "outcome": result.outcome,
+            "expect": result.expect,
+            "met": result.met,
+            "wet_stops": result.wet_stops.run,
+            "wet_stops_counted": result.wet_stops.counted,
+            "test_case": result.test_case,
+            "requirements": "; ".join(result.requirements),
+            "reason": result.reason,
+        }
+
+
+def measure_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
+    """Yield one row per series, speed and measure; the speed `all` is the whole series."""
+    for result in results:
+        tables = {ALL_SPEEDS: result.measures, **{f"{s.speed_kmh:g}": s.measures for s in result.speeds}}
+        for speed, measures in tables.items():
+            for name, value in measures.items():
+                unit = SERIES_MEASURES[name].unit if name in SERIES_MEASURES else ""
+                about: Row = {"series": result.id, "speed_kmh": speed, "measure": name, "unit": unit}
+                yield {**about, **_value_cells(value)}
+
+
+def _value_cells(value: SeriesValue) -> Row:
+    estimate = value.estimate
+    cells: Row = {"value": None if estimate is None else estimate.value}
+    return {**cells, **_estimate_cells(estimate), "reason": value.unavailable_reason}
+
+
+def _estimate_cells(estimate: Estimate | None) -> Row:
+    return {name: None if estimate is None else getattr(estimate, name) for name in _ESTIMATE}
+
+
+def criterion_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
+    """Yield one row per series and criterion."""
+    for result in results:
+        for each in result.criteria:
+            yield {"series": result.id, "criterion": each.verdict.id, **_criterion_cells(each)}
+
+
+def _criterion_cells(each: SeriesVerdict) -> Row:
+    verdict = each.verdict
+    return {
+        "layer": verdict.layer,
+        "verdict": verdict.status,
+        "value": verdict.value,
+        "unit": verdict.unit,
+        "lower": verdict.lower,
+        "upper": verdict.upper,
+        "margin": verdict.margin,
+        "speed_kmh": each.speed_kmh,
+        "certain": each.confident,
+        "kept": each.kept,
+        **_estimate_cells(each.estimate),
+        "stops": each.stops if each.estimate is None else each.estimate.stops,
+        "reason": verdict.reason,
+        "requirements": "; ".join(verdict.requirements),
+        "definition": definition_sentence(verdict),
+    }
+
+
+def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
+    """Yield one row per stop of a series, repeats one by one, with all of its columns."""
+    for result in results:
+        for stop in stops_of(result.cases, result.speed_tolerance_kmh):
+            wheelsets = {
+                f"{name}_{position}": value
+                for position, wheelset in enumerate(stop.figures.wheelsets, start=1)
+                for name, value in wheelset.items()
+            }
+            yield {
+                "series": result.id,
+                "case": stop.case,
+                "role": stop.role,
+                "speed_kmh": stop.speed_kmh,
+                "seed": stop.seed,
+                "counts": stop.counts,
+                "outcome": stop.outcome,
+                "reason": stop.reason,
+                **stop.figures.measures,
+                **wheelsets,
+            }

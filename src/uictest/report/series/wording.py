@@ -1,0 +1,138 @@
+"""How the results of series are put into words, the same in every format."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from uictest import statistics
+from uictest.report.escaping import printable
+from uictest.report.wording import CASE_WORDS, counted, limits, outcome_word, quantity
+from uictest.series import SeriesResult, SeriesVerdict
+from uictest.series_measures import Estimate, Method
+
+_METHODS: Final[dict[Method, str]] = {
+    "median": "median of {}",
+    "mean": "mean of {}",
+    "share": "share of {}",
+    "largest": "largest of {}",
+    "smallest": "smallest of {}",
+}
+_INTERVALS: Final[dict[Method, str]] = {
+    "median": "by order statistics",
+    "mean": "by Student's t",
+    "share": "by Clopper and Pearson",
+}
+_SIDES: Final[dict[Method, str]] = {"largest": "below", "smallest": "above"}
+_REASONS_SHOWN: Final = 3
+
+
+def series_word(result: SeriesResult) -> str:
+    """Return the word of a series, one of those of cases."""
+    return outcome_word(result.outcome, met=result.met)
+
+
+def series_tally(results: Sequence[SeriesResult]) -> str:
+    """Return the counts of the series of a run, e.g. `2 series: 1 pass, 1 fail; 1 not as expected`."""
+    counts = Counter(map(series_word, results))
+    shown = ", ".join(f"{counts[word]} {word}" for word in CASE_WORDS if counts[word])
+    missed = sum(not each.met for each in results)
+    text = f"{len(results)} series: {shown}"
+    return f"{text}; {missed} not as expected" if missed else text
+
+
+def percent(share: float) -> str:
+    """Return a share of 1 as text in per cent."""
+    return f"{100.0 * share:.4g} %"
+
+
+def short(value: float | None) -> str:
+    """Return a number with four significant digits, `-` where there is none."""
+    return "-" if value is None or math.isnan(value) else f"{value:.4g}"
+
+
+def interval(estimate: Estimate) -> str:
+    """Return the ends of the interval of an estimate; empty where there is none."""
+    ends = estimate.low, estimate.high
+    return "" if any(map(math.isnan, ends)) else " .. ".join(map(short, ends))
+
+
+def estimate_words(estimate: Estimate) -> str:
+    """Return how an estimate was made and how sure it is: `mean of 9 stops, 95 % interval 1 .. 2 by ...`."""
+    made = _METHODS[estimate.method].format(counted(estimate.stops, "stop"))
+    at = percent(estimate.confidence)
+    if estimate.method in _SIDES:
+        covered = f"at least {percent(estimate.covered)} of such stops lie {_SIDES[estimate.method]} it"
+        return f"{made}; {covered} ({at} confidence)"
+    ends = interval(estimate)
+    if not ends:
+        return f"{made}, too few for a {at} interval"
+    return f"{made}, {at} interval {ends} {_INTERVALS[estimate.method]}"
+
+
+def confidence_words(each: SeriesVerdict, confidence: float) -> str:
+    """Return how sure a verdict is, in one clause; empty where nothing was estimated."""
+    at = percent(confidence)
+    if each.kept is not None and each.stops:
+        ends = " .. ".join(map(percent, statistics.proportion_interval(each.kept, each.stops, confidence)))
+        return f"{each.kept} of {counted(each.stops, 'stop')} keep it, {at} interval of the share {ends}"
+    if each.estimate is None:
+        return ""
+    uncertain = f"; the verdict is not certain at {at}: a limit lies in the interval"
+    return f"{estimate_words(each.estimate)}{uncertain if each.confident is False else ''}"
+
+
+def series_verdict_sentence(each: SeriesVerdict, confidence: float) -> str:
+    """Return the verdict on one line: value, limits, margin or reason, and how sure it is."""
+    verdict = each.verdict
+    head = f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}"
+    return printable(
+        "; ".join(filter(None, (f"{head}: {_substance(each)}", confidence_words(each, confidence))))
+    )
+
+
+def _substance(each: SeriesVerdict) -> str:
+    verdict = each.verdict
+    if verdict.value is None:
+        return verdict.reason
+    at_speed = "" if each.speed_kmh is None else f" from {each.speed_kmh:g} km/h"
+    value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(each)}{at_speed}"
+    return f"{value}, {limits(verdict)}, margin {quantity(verdict.margin, verdict.unit)}"
+
+
+def of_dry_stop(each: SeriesVerdict) -> str:
+    """Return what stands behind the value of a criterion whose bounds are shares of the dry stop."""
+    return " of the dry stop" if each.of_dry_stop else ""
+
+
+def count_sentences(result: SeriesResult) -> Iterator[str]:
+    """Yield for each speed how many stops count."""
+    for speed in result.speeds:
+        dry, wet = (f"{each.counted} of {each.run}" for each in (speed.dry, speed.wet))
+        share = f"{percent(speed.wet.share)}, {percent(result.valid_stops)} needed"
+        yield f"from {speed.speed_kmh:g} km/h {dry} dry and {wet} wet stops count ({share})"
+
+
+def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
+    """Yield how many stops do not count, by outcome, each with the first reasons."""
+    for outcome, count in Counter(stop.outcome for stop in result.not_counted).items():
+        stops = [stop for stop in result.not_counted if stop.outcome == outcome]
+        reasons = list(dict.fromkeys(stop.reason for stop in stops))
+        shown = "; ".join(reasons[:_REASONS_SHOWN])
+        if (more := len(reasons) - _REASONS_SHOWN) > 0:
+            shown += f"; {counted(more, 'more reason')}"
+        yield printable(f"{counted(count, 'stop')} {outcome}, not counted: {shown}")
+
+
+def series_explanation(result: SeriesResult) -> list[str]:
+    """Return the reasons for an outcome: expectation, stops that count, criteria that decided."""
+    deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
+    return [
+        f"expected {result.expect}, got {result.outcome}",
+        *([printable(result.reason)] if result.reason and not deciding else []),
+        *(series_verdict_sentence(each, result.confidence) for each in deciding),
+        *count_sentences(result),
+        *not_counted_sentences(result),
+    ]

@@ -1,0 +1,101 @@
+"""The largest creep force on a rail condition, for :func:`uictest.physics.highest_creep_force`."""
+
+from functools import cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
+from uictest.rig.model.running_gear import HIGHEST_LOAD, LOWEST_LOAD
+from uictest.scenario import RailCondition
+
+_SLIPS: Final = np.geomspace(1e-5, 60.0, 800)
+"""Values of x = B w among which the maximum is sought; it is flat, so that steps of 2 % suffice."""
+_WIDEST: Final = 3.0
+"""Largest u1; that of a fast train on dry rail is 0.8."""
+_NARROWEST: Final = 1e-3
+_NEAR: Final = 1.005
+"""Share of A to which the maximum has fallen at u1."""
+_LOWEST: Final = 0.25
+"""Or this share of mu0, where A is smaller: a polynomial does not follow so deep a fall."""
+_HALVINGS: Final = 12
+_NODES: Final = FITTED_TERMS + 4
+_DIGITS: Final = 9
+"""Decimals that are kept: they are alike on every machine."""
+
+
+def highest_creep_law(condition: RailCondition) -> tuple[float, tuple[float, ...]]:
+    """Return the scale B / u1^2 in s/m and the coefficients, lowest power first."""
+    law = condition.friction_ratio, condition.reduction_adhesion, condition.reduction_slip
+    end, coefficients = _fitted(*map(float, law))
+    return float(condition.friction_decay) / end**2, coefficients
+
+
+def highest_creep_forces(
+    condition: RailCondition,
+    speed: NDArray[np.float64],
+    wheel_load: NDArray[np.float64],
+    friction: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return the largest creep force of one wheel in N at each sample, NaN where something is not known.
+
+    Args:
+        condition: of the rail; its friction coefficient does not count.
+        speed: of the train, m/s.
+        wheel_load: of one wheel, N.
+        friction: initial friction coefficient under it.
+    """
+    scale, coefficients = highest_creep_law(condition)
+    stiffness, reference = condition.contact.creep_stiffness, float(condition.contact.reference_wheel_load)
+    least, most = LOWEST_LOAD * reference, HIGHEST_LOAD
+    highest = np.full(speed.shape, np.nan)
+    for k in np.flatnonzero(np.isfinite(speed * wheel_load * friction) & (speed >= 0.0)):
+        load = max(float(wheel_load[k]), least)
+        stiff = contact_stiffness(stiffness, min(load / reference, most))
+        highest[k] = highest_creep_force(
+            float(speed[k]), load, float(friction[k]), stiff, scale, *coefficients
+        )
+    return highest
+
+
+@cache
+def _fitted(
+    ratio: float, reduction_adhesion: float, reduction_slip: float
+) -> tuple[float, tuple[float, ...]]:
+    """Return u1 and the coefficients.
+
+    Args:
+        ratio: A.
+        reduction_adhesion: kA.
+        reduction_slip: kS.
+    """
+    law = (ratio, reduction_adhesion, reduction_slip)
+    end = round(_end(*law), _DIGITS)
+    shares = 0.5 - 0.5 * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
+    highest = highest_shares(end * shares, *law)
+    fitted = np.polynomial.Chebyshev.fit(shares, highest, FITTED_TERMS - 1, domain=[0.0, 1.0])
+    powers = fitted.convert(kind=np.polynomial.Polynomial).coef
+    return end, tuple(round(float(power), _DIGITS) for power in powers)
+
+
+def highest_shares(
+    u: NDArray[np.float64], ratio: float, reduction_adhesion: float, reduction_slip: float
+) -> NDArray[np.float64]:
+    """Return the maximum of F / (Q mu0) for each u > 0."""
+    falling = (1.0 - ratio) * np.exp(-_SLIPS) + ratio
+    gradient = _SLIPS / falling / np.square(u)[:, None]
+    adhering = reduction_adhesion * gradient
+    curve = falling * (adhering / (1.0 + adhering**2) + np.arctan(reduction_slip * gradient))
+    highest: NDArray[np.float64] = 2.0 / np.pi * curve.max(axis=1)
+    return highest
+
+
+def _end(ratio: float, reduction_adhesion: float, reduction_slip: float) -> float:
+    """Return u1: halve the interval of its logarithm."""
+    low, high = _NARROWEST, _WIDEST
+    for _ in range(_HALVINGS):
+        middle = (low * high) ** 0.5
+        (share,) = highest_shares(np.array([middle]), ratio, reduction_adhesion, reduction_slip)
+        low, high = (middle, high) if share > max(_NEAR * ratio, _LOWEST) else (low, middle)
+    return low

@@ -1,0 +1,140 @@
+"""Faults once per controller cycle: which are active, and what they make of sensors, commands and valves.
+
+Scalar code, only in stops that have faults. Where two faults act on one number, the later one of the list
+acts on what the earlier one has left.
+"""
+
+from collections.abc import Sequence
+
+from uictest.physics import FILL, clamp, fma, maximum, minimum, uniform
+from uictest.rig.model.cycle import CHANNELS, noise_words
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Car, Wheelset
+from uictest.rig.model.wheelset_parameters import WheelsetParameters
+
+_FAULT = 4
+"""Noise channel of a wheelset for the random errors of a faulty speed sensor."""
+
+
+def update_faults(
+    car: Car, wheelsets: Sequence[Wheelset], p: Parameters, wheelset_parameters: Sequence[WheelsetParameters]
+) -> None:
+    """Decide which faults are active in the coming cycle, and set what they change in the wheelsets."""
+    _decide_activity(car, p)
+    car.line_leak = 0.0
+    for i in range(4):
+        _make_sound(wheelsets[i], wheelset_parameters[i])
+    for k in range(p.fault_count):
+        if is_active(car, k):
+            car.line_leak += p.fault_line_leak[k]
+            _act(wheelsets[int(p.fault_wheelset[k])], p, k)
+
+
+def is_active(car: Car, k: int) -> bool:
+    """Return whether fault ``k`` is active in this cycle."""
+    return ((car.active_faults >> k) & 1) == 1
+
+
+def _decide_activity(car: Car, p: Parameters) -> None:
+    """Begin and end faults; what has begun goes on although the train should gain speed again."""
+    for k in range(p.fault_count):
+        if (
+            car.time >= p.fault_begin_time[k]
+            and car.speed <= p.fault_begin_speed[k]
+            and car.position >= p.fault_begin_distance[k]
+        ):
+            car.begun_faults |= 1 << k
+        if (
+            car.time >= p.fault_end_time[k]
+            and car.speed <= p.fault_end_speed[k]
+            and car.position >= p.fault_end_distance[k]
+        ):
+            car.ended_faults |= car.begun_faults & (1 << k)
+    car.active_faults = car.begun_faults & ~car.ended_faults
+
+
+def _make_sound(wheelset: Wheelset, own: WheelsetParameters) -> None:
+    """Give a wheelset what it has without faults."""
+    wheelset.speed_valid = 1
+    wheelset.speed_held = 0.0
+    wheelset.pressure_held = 0.0
+    wheelset.speed_sensor_faulty = 0.0
+    wheelset.tank_leak = 0.0
+    wheelset.missing_teeth = own.missing_teeth
+    wheelset.valve_travel_per_step = own.valve_travel_per_step
+
+
+def _act(wheelset: Wheelset, p: Parameters, k: int) -> None:
+    """Set what one active fault changes for the whole cycle."""
+    if p.fault_speed_valid[k] == 0.0:
+        wheelset.speed_valid = 0
+    wheelset.speed_held = maximum(wheelset.speed_held, p.fault_speed_held[k])
+    wheelset.pressure_held = maximum(wheelset.pressure_held, p.fault_pressure_held[k])
+    wheelset.speed_sensor_faulty = maximum(wheelset.speed_sensor_faulty, p.fault_of_speed_sensor[k])
+    wheelset.faulty = maximum(wheelset.faulty, p.fault_of_wheelset[k])
+    wheelset.tank_leak += p.fault_tank_leak[k]
+    wheelset.missing_teeth += p.fault_lost_teeth[k]
+    wheelset.valve_travel_per_step = minimum(wheelset.valve_travel_per_step, p.fault_travel_per_step[k])
+
+
+def falsify_readings(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Put in the place of the sensors' readings what faulty ones show to the controller."""
+    for i in range(4):
+        _hold_readings(wheelsets[i])
+    for k in range(p.fault_count):
+        if is_active(car, k):
+            _falsify(wheelsets[int(p.fault_wheelset[k])], car, p, k)
+
+
+def _hold_readings(wheelset: Wheelset) -> None:
+    """Keep the last readings for sensors that get stuck, and let stuck ones show them."""
+    if wheelset.speed_held > 0.0:
+        wheelset.measured_speed = wheelset.held_speed
+    wheelset.held_speed = wheelset.measured_speed
+    if wheelset.pressure_held == 0.0:
+        wheelset.shown_pressure = wheelset.pressure_reading
+        wheelset.held_pressure = wheelset.pressure_reading
+    else:
+        wheelset.shown_pressure = wheelset.held_pressure
+
+
+def _falsify(wheelset: Wheelset, car: Car, p: Parameters, k: int) -> None:
+    speed = fma(wheelset.measured_speed, p.fault_speed_factor[k], p.fault_speed_offset[k])
+    if p.fault_speed_jump[k] > 0.0 or p.fault_drop_out[k] > 0.0:
+        number = int(p.fault_wheelset[k])
+        word_0, word_1 = noise_words(p, car.cycle, number * CHANNELS + _FAULT)
+        speed += p.fault_speed_jump[k] * (2.0 * uniform((word_0, word_1)) - 1.0)
+        if uniform((word_1, word_0)) < p.fault_drop_out[k]:
+            speed = 0.0
+    wheelset.measured_speed = maximum(speed, 0.0)
+    pressure = fma(wheelset.shown_pressure, p.fault_pressure_factor[k], p.fault_pressure_offset[k])
+    wheelset.shown_pressure = maximum(pressure, 0.0)
+
+
+def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """While no command reaches the valves, let them keep the last one, and fill once that lasts too long."""
+    silent = False
+    released = False
+    for k in range(p.fault_count):
+        if is_active(car, k) and p.fault_silent[k] > 0.0:
+            silent = True
+            released = released or car.silent_cycles >= p.fault_release_cycles[k]
+    car.silent_cycles = car.silent_cycles + 1 if silent else 0
+    for i in range(4):
+        if silent:
+            wheelsets[i].valve_command = FILL if released else wheelsets[i].kept_command
+        else:
+            wheelsets[i].kept_command = wheelsets[i].valve_command
+
+
+def limit_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Keep the openings that the valves are commanded to within what faulty magnets and valves can do."""
+    for k in range(p.fault_count):
+        if is_active(car, k):
+            wheelset = wheelsets[int(p.fault_wheelset[k])]
+            least, most = p.fault_fill_at_least[k], p.fault_fill_at_most[k]
+            wheelset.fill_before = clamp(wheelset.fill_before, least, most)
+            wheelset.fill_after = clamp(wheelset.fill_after, least, most)
+            least, most = p.fault_vent_at_least[k], p.fault_vent_at_most[k]
+            wheelset.vent_before = clamp(wheelset.vent_before, least, most)
+            wheelset.vent_after = clamp(wheelset.vent_after, least, most)

@@ -1,0 +1,182 @@
+"""Measures of a stop, fed by the rig once per controller cycle."""
+
+from collections.abc import Sequence
+
+from uictest.measures import (
+    StopMeasures,
+    WheelsetMeasures,
+    begin_build_up,
+    begin_contact,
+    begin_slides,
+    begin_train,
+    begin_utilisation,
+    begin_wheelset,
+    begin_window,
+    close_contacts,
+    keep_slide,
+    keep_window,
+    note_standstill,
+    observe_build_up,
+    observe_contact,
+    observe_reaction,
+    observe_reference,
+    observe_reservoir_margin,
+    observe_train,
+    observe_wheelset,
+)
+from uictest.physics import highest_creep_force, maximum, select
+from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual, rail_work
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Bogie, Car, Wheelset
+
+NAN = float("nan")
+
+
+def begin_stop_measures(
+    car: Car, measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], p: Parameters
+) -> None:
+    """Start the measures of a stop that are one number."""
+    begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
+    begin_build_up(measures, p.commanded_pressure, car.line_pressure - p.atmospheric_pressure)
+    begin_utilisation(measures)
+    for i in range(4):
+        begin_wheelset(wheelset_measures[i])
+        begin_contact(wheelset_measures[i])
+
+
+def begin_tables(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
+    """Start the measures of a stop that are a table."""
+    begin_window(measures)
+    for i in range(4):
+        begin_slides(wheelset_measures[i])
+
+
+def observe_cycle(
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
+) -> None:
+    """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
+    stands = car.stopped > 0.0
+    time = select(stands, car.stop_time, car.time)
+    position = select(stands, car.stop_position, car.position)
+    speed = select(stands, 0.0, car.speed)
+    line_pressure = car.line_pressure - p.atmospheric_pressure
+    reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
+    for i in range(4):
+        wheelset = wheelsets[i]
+        observed = wheelset_measures[i]
+        observe_wheelset(
+            observed,
+            measures,
+            p,
+            i + 1,
+            time,
+            speed,
+            wheelset.rotation * wheelset.wheel_radius,
+            select(stands, observed.venting, wheelset.venting),
+            select(stands, 0.0, wheelset.clamping_force),
+            wheelset.disc_surface_temperature,
+        )
+        observe_contact(
+            observed,
+            measures,
+            p,
+            time,
+            speed,
+            wheelset.pressure - p.atmospheric_pressure,
+            line_pressure,
+            rail_work(wheelset, p),
+            wheelset.contact_loss,
+            _highest_force(wheelset, speed, p),
+        )
+    observe_reservoir_margin(measures, reservoir_pressure, _highest_cylinder_pressure(wheelsets))
+    observe_build_up(measures, p, time, position, speed, line_pressure)
+    observe_train(measures, p, time, position, speed, reservoir_pressure)
+    note_standstill(measures, stands, time, position)
+
+
+def observe_faults(
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
+) -> None:
+    """Feed the measures of the reaction to faults, after the others of the same cycle; scalar code."""
+    if car.begun_faults == 0:
+        return
+    observe_reference(measures, p, car.reference_speed)
+    largest = 0.0
+    for i in range(4):
+        largest = maximum(largest, wheelsets[i].clamping_force)
+    for i in range(4):
+        observe_reaction(
+            wheelset_measures[i],
+            measures,
+            p,
+            wheelsets[i].faulty,
+            wheelsets[i].speed_sensor_faulty,
+            wheelsets[i].clamping_force,
+            largest,
+        )
+
+
+def _highest_force(wheelset: Wheelset, speed: float, p: Parameters) -> float:
+    """Largest creep force of both wheels on the rail as it is, N."""
+    return 2.0 * highest_creep_force(
+        speed,
+        wheelset.wheel_load,
+        wheelset.friction,
+        wheelset.contact_stiffness,
+        p.highest_creep_scale,
+        p.highest_creep_0,
+        p.highest_creep_1,
+        p.highest_creep_2,
+        p.highest_creep_3,
+        p.highest_creep_4,
+        p.highest_creep_5,
+        p.highest_creep_6,
+        p.highest_creep_7,
+    )
+
+
+def _highest_cylinder_pressure(wheelsets: Sequence[Wheelset]) -> float:
+    leading = maximum(wheelsets[0].compensated_pressure, wheelsets[1].compensated_pressure)
+    trailing = maximum(wheelsets[2].compensated_pressure, wheelsets[3].compensated_pressure)
+    return maximum(leading, trailing)
+
+
+def keep_tables(
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    samples: StopMeasures,
+    wheelset_samples: Sequence[WheelsetMeasures],
+    p: Parameters,
+) -> None:
+    """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
+    keep_window(measures, samples)
+    for i in range(4):
+        keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
+
+
+def close_stop_measures(
+    car: Car,
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
+) -> None:
+    """Add the ledgers and balances of the whole stop."""
+    close_contacts(measures, wheelset_measures, p.total_mass)
+    measures.air_consumed = car.consumed_air
+    measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
+    measures.air_residual = air_residual(car, wheelsets)
+    measures.air_energy_residual = air_energy_residual(car, wheelsets, p)
+    for i in range(4):
+        wheelset_measures[i].air_vented = wheelsets[i].vented_air
+        if p.models_disc_temperature == 0.0:
+            wheelset_measures[i].maximum_disc_temperature = NAN

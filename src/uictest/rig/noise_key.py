@@ -1,0 +1,52 @@
+"""Key of the sensors' noise: what the train, its brake and the rail are, never what the case is called.
+
+With the seed it decides every draw. Neither the controller nor anything else of the rig has a part in it, so
+that two controllers, two compensations or two topologies meet the same noise in the same stop.
+"""
+
+from __future__ import annotations
+
+import zlib
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
+
+_OF_STOP: Final = ("initial_speed", "commanded_pressure", "static_wheel_load")
+_OF_WHEELSETS: Final = ("wheel_radius", "brake_force", "reference_pad_friction")
+_ALONG_TRACK: Final = slice(PLACES, FRICTIONS + 1)
+_OVER_TIME: Final = slice(TIMES, FACTORS + 1)
+
+
+def noise_keys(
+    parameters: NDArray[Any], wheelset_parameters: NDArray[Any], rail: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """Return the noise keys of n stops: CRC-32 of initial speed, commanded pressure and wheel load, of each
+    wheelset's radius, brake force and pad friction, and of the friction along the track and over time.
+
+    Stops that differ in other values share their noise. So few values decide because any further one would
+    change the noise of every stop.
+
+    Args:
+        parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
+        wheelset_parameters: of :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, (n, 4).
+        rail: friction laws, shape (n, 4, points); points beyond those of a law do not count.
+    """
+    columns = [parameters[name][:, None] for name in _OF_STOP]
+    columns += [wheelset_parameters[name] for name in _OF_WHEELSETS]
+    values = np.concatenate(columns, axis=1)
+    points = np.column_stack([parameters["friction_points"], parameters["friction_times"]])
+    keys = np.zeros(len(values), np.int64)
+    for places, times in np.unique(points, axis=0).tolist():
+        alike = np.flatnonzero((points == (places, times)).all(axis=1))
+        along, over_time = rail[alike, _ALONG_TRACK, :places], rail[alike, _OVER_TIME, :times]
+        laws = [law.reshape(alike.size, -1) for law in (along, over_time)]
+        keys[alike] = _crc32_of_rows(np.concatenate([values[alike], *laws], axis=1))
+    return keys
+
+
+def _crc32_of_rows(rows: NDArray[np.float64]) -> list[int]:
+    content, length = rows.tobytes(), rows.shape[1] * rows.itemsize
+    return [zlib.crc32(content[first : first + length]) for first in range(0, len(content), length)]

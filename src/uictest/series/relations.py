@@ -1,0 +1,80 @@
+"""Stops of a series against the dry stop: criteria of stops whose bounds refer to it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from uictest import evaluation
+from uictest.measures import MEASURES
+from uictest.scenario import Criterion
+from uictest.series.counting import SeriesStop
+from uictest.series.plan.series import Series
+
+
+def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesStop]:
+    """Return the stops with a verdict on every criterion whose bounds are shares of the dry stop.
+
+    A wet stop that misses one does not pass any more. One that would pass otherwise, but lacks data for one,
+    is inconclusive.
+    """
+    criteria = [
+        criterion
+        for profile in series.criteria
+        for criterion in profile.criteria
+        if criterion.scope == "stop" and criterion.of_dry_stop
+    ]
+    for criterion in criteria:
+        stops = [_judged(series, criterion, stop, stops) for stop in stops]
+    return list(stops)
+
+
+def _judged(
+    series: Series, criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]
+) -> SeriesStop:
+    if stop.role == "dry" or not stop.counts or not _applies(series, criterion, stop):
+        return stop
+    verdict = _verdict(criterion, _percent_of_dry(criterion, stop, stops))
+    verdicts = (*(each for each in stop.criteria if each.id != criterion.id), verdict)
+    if stop.figures.passed and verdict.status == "inconclusive":
+        reason = f"{criterion.id}: {verdict.reason}"
+        return replace(stop, criteria=verdicts, outcome="inconclusive", reason=reason)
+    passed = stop.figures.passed and verdict.status == "pass"
+    return replace(stop, criteria=verdicts, figures=replace(stop.figures, passed=passed))
+
+
+def _applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
+    scenario = next(each.case.scenario for each in series.stops if each.case.id == stop.case)
+    conditions = evaluation.test_conditions_of(scenario)
+    return not evaluation.unmet_conditions(criterion.applies, conditions, float(scenario.initial_speed))
+
+
+def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]) -> float:
+    column = MEASURES[criterion.measure].column
+    assert column is not None
+    dry = [
+        each.figures.measures[column.name]
+        for each in stops
+        if each.role == "dry" and each.counts and each.speed_kmh == stop.speed_kmh
+    ]
+    reference = math.fsum(dry) / len(dry) if dry else math.nan
+    return 100.0 * stop.figures.measures[column.name] / reference if reference else math.nan
+
+
+def _verdict(criterion: Criterion, percent: float) -> evaluation.Verdict:
+    bounds = evaluation.bounds_of(criterion)
+    known = math.isfinite(percent)
+    held = bounds.hold(percent)
+    return evaluation.Verdict(
+        id=criterion.id,
+        layer=criterion.layer,
+        value=percent if known else None,
+        unit=criterion.unit,
+        lower=bounds.lower,
+        upper=bounds.upper,
+        margin=bounds.margin(percent) if known else None,
+        status="inconclusive" if not known else "pass" if held else "fail",
+        reason="" if known else "no value of this stop, or of the dry stop, to compare",
+        measure=criterion.measure,
+    )

@@ -1,0 +1,149 @@
+"""The result of a series: its stops, its measures with their confidence, its verdicts and its outcome."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
+
+from uictest.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty
+from uictest.series.forms import WrittenEstimate, WrittenValue
+
+Role = Literal["dry", "wet"]
+"""dry: the reference. wet: a stop on a slippery rail, in which the WSP is at work."""
+
+NOT_COUNTED = ("invalid", "inconclusive", "skipped", "error")
+"""Outcomes of stops that do not count: no test, not judged, or failed to run."""
+
+
+def _case_named(name: object, info: ValidationInfo) -> CaseResult:
+    """Return the case of an id; the context of the validation holds all by id."""
+    cases: Mapping[object, CaseResult] = info.context or {}
+    if not isinstance(name, str) or name not in cases:
+        raise ValueError(f"the document has no case {name!r}")
+    return cases[name]
+
+
+def _id_of(case: CaseResult) -> str:
+    return case.id
+
+
+NamedCase = Annotated[CaseResult, PlainValidator(_case_named), PlainSerializer(_id_of)]
+"""In JSON a series names its cases by their ids."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesCase:
+    """The result of one case of a series; a repeated case holds several stops."""
+
+    role: Role
+    speed_kmh: float
+    case: NamedCase
+
+
+@dataclass(frozen=True, slots=True)
+class StopCounts:
+    """How many stops were run, and how many of them count."""
+
+    run: int
+    counted: int
+
+    @property
+    def share(self) -> float:
+        """The share of stops that count; 0 without any."""
+        return self.counted / self.run if self.run else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class UncountedStop:
+    """A stop that does not count as a test of its series, and why. `seed` is None where it has no repeats."""
+
+    case: str
+    role: Role
+    seed: int | None
+    outcome: Outcome
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedResult:
+    """What the stops from one nominal initial speed (km/h) show.
+
+    `dry` and `wet` count the stops; `measures` maps the name of a measure of series to its value.
+    """
+
+    speed_kmh: float
+    dry: StopCounts
+    wet: StopCounts
+    measures: Mapping[str, WrittenValue]
+
+
+WrittenVerdict = Annotated[Verdict, absent_if_empty("requirements", "over_stops")]
+"""In JSON what only some verdicts have is absent from the others."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesVerdict:
+    """The verdict of one criterion over a series.
+
+    Args:
+        verdict: status, value, bounds, margin and reason, as for a stop.
+        estimate: the value with its interval, in the unit of the verdict; None where there is none.
+        confident: whether the whole interval says the same; None without an interval.
+        speed_kmh: the initial speed that decides; None where all do.
+        kept: for a criterion of stops: how many of the stops keep it that count and that it applies to.
+        stops: of how many.
+        of_dry_stop: whether value and bounds are in % of the dry stop.
+
+    """
+
+    verdict: WrittenVerdict
+    estimate: WrittenEstimate | None = None
+    confident: bool | None = None
+    speed_kmh: float | None = None
+    kept: int | None = None
+    stops: int | None = None
+    of_dry_stop: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesResult:
+    """One series, judged.
+
+    `file` is shown with forward slashes. `confidence` is that of all intervals, `valid_stops` the least share
+    of wet stops that must count; both are shares of 1. `speed_tolerance_kmh` is that of the initial speed.
+    `measures` are those of the whole series. `requirements` are the ids of those that the series verifies as
+    a whole; its criteria may verify others. `test_case` is its id in a test management tool. The document has
+    these two only where there is something in them.
+    """
+
+    id: str
+    file: str
+    title: str
+    parameters: Mapping[str, str]
+    expect: Expectation
+    outcome: Outcome
+    reason: str
+    confidence: Annotated[float, Field(gt=0.0, lt=1.0)]
+    valid_stops: Annotated[float, Field(gt=0.0, le=1.0)]
+    speed_tolerance_kmh: Annotated[float, Field(ge=0.0)]
+    criteria: tuple[SeriesVerdict, ...]
+    measures: Mapping[str, WrittenValue]
+    speeds: tuple[SpeedResult, ...]
+    not_counted: tuple[UncountedStop, ...]
+    cases: tuple[SeriesCase, ...]
+    requirements: tuple[str, ...] = ()
+    test_case: str = ""
+
+    @property
+    def wet_stops(self) -> StopCounts:
+        """How many wet stops of all speeds were run, and how many count."""
+        wet = [speed.wet for speed in self.speeds]
+        return StopCounts(sum(each.run for each in wet), sum(each.counted for each in wet))
+
+    @property
+    def met(self) -> bool:
+        """Whether the outcome is the expected one; a skipped series counts as `pass`."""
+        return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")

@@ -1,0 +1,1 @@
+"""Every measure of a series: each module declares its own as MEASURES."""

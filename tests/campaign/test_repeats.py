@@ -1,0 +1,223 @@
+"""Cases that repeat their stop: the same stops as one by one, whatever runs them in which order."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest import rig, scenario
+from uictest.campaign import CaseRun, RecordingRequest, run_case, run_cases
+from uictest.evaluation import CaseResult, json_form, result_document, to_json
+
+STOP = """
+schema: uictest/scenario/1
+name: {name}
+initial_speed: 30 km/h
+rail: {{condition: wet, friction: 0.05}}
+criteria: uictest-stop
+{more}
+"""
+NOTHING = RecordingRequest("none")
+Write = Callable[..., list[scenario.Case]]
+
+
+@pytest.fixture
+def cases(tmp_path: Path) -> Write:
+    """Write a scenario that repeats its stop, and return its cases."""
+
+    def write(name: str = "stop", more: str = "repeat: 4", *overrides: str) -> list[scenario.Case]:
+        path = tmp_path / f"{name}.yaml"
+        path.write_text(STOP.format(name=name, more=more), "utf-8")
+        return scenario.load([path], overrides)
+
+    return write
+
+
+def without_names(result: CaseResult) -> CaseResult:
+    return replace(result, id="", scenario="", parameters={}, duration=0.0)
+
+
+def document(results: Sequence[CaseResult]) -> str:
+    return to_json(result_document(results))
+
+
+def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
+    (result,) = run_cases(cases(more="repeat: 3\nseed: 5"), recording=NOTHING).results
+    assert result.repeats is not None
+    for stop, seed in zip(result.repeats.stops, (5, 6, 7), strict=True):
+        (alone,) = cases(more=f"seed: {seed}")
+        single = run_case(alone, NOTHING).result
+        assert (stop.seed, stop.outcome) == (seed, single.outcome)
+        assert json_form([stop.measures, stop.wheelsets]) == json_form([single.measures, single.wheelsets])
+        assert [verdict.value for verdict in stop.criteria] == [verdict.value for verdict in single.criteria]
+
+
+def test_measures_are_medians_and_seeds_differ(cases: Write) -> None:
+    (result,) = run_cases(cases(more="repeat: 5"), recording=NOTHING).results
+    assert result.repeats is not None
+    assert result.measures is not None
+    distances = result.repeats.values("braking_distance_m")
+    assert len(set(distances)) == 5
+    assert result.measures["braking_distance_m"] == sorted(distances)[2]
+
+
+def test_neither_threads_nor_order_nor_name_change_a_digit(cases: Write) -> None:
+    more = "repeat: 3\nmatrix: {brake.command: [80 %, 100 %]}"
+    here = cases(more=more)
+    results = run_cases(here, jobs=1, recording=NOTHING).results
+    for jobs in (2, 5):
+        assert document(run_cases(here, jobs=jobs, recording=NOTHING).results) == document(results)
+    backwards = run_cases(here[::-1], jobs=2, recording=NOTHING).results
+    assert document(backwards[::-1]) == document(results)
+    renamed = run_cases(cases("another", more), jobs=2, recording=NOTHING).results
+    assert [document([without_names(each)]) for each in renamed] == [
+        document([without_names(each)]) for each in results
+    ]
+
+
+def test_two_controllers_meet_the_same_noise_until_one_of_them_acts(cases: Write) -> None:
+    """With every seed; what they estimate differs from the first cycle on."""
+    (first,), (second,) = (
+        cases("stop", "repeat: 2", f"controller={name}") for name in ("threshold", "slip-band")
+    )
+    for seed in (0, 1):
+        one, other = (rig.simulate(_with_seed(case, seed), 0.01).recording for case in (first, second))
+        acting = [np.flatnonzero(_commands(each).any(axis=0)) for each in (one, other)]
+        until = min(int(cycles[0]) for cycles in acting if len(cycles))
+        assert until > 20
+        for name in set(one.channels) - {"reference_speed"}:
+            samples = one.channels[name]
+            assert np.array_equal(samples[:until], other.channels[name][:until], equal_nan=True), name
+
+
+def _with_seed(case: scenario.Case, seed: int) -> scenario.Case:
+    return replace(case, scenario=case.scenario.model_copy(update={"seed": seed}))
+
+
+def _commands(recording: Any) -> Any:
+    return np.array([recording.channels[f"valve_command_{n}"] for n in (1, 2, 3, 4)])
+
+
+def test_only_the_first_stop_is_recorded_and_says_so(cases: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs: list[CaseRun] = []
+    simulate, recorded = rig.simulate, []
+
+    def asked(case: scenario.Case, record_every: float | None, *arguments: Any) -> Any:
+        recorded.append((case.scenario.seed, record_every is not None))
+        return simulate(case, record_every, *arguments)
+
+    monkeypatch.setattr(rig, "simulate", asked)
+    run_cases(cases(more="repeat: 3"), recording=RecordingRequest("all"), on_result=runs.append)
+    (run,) = runs
+    assert recorded == [(0, True), (1, False), (2, False)]
+    assert run.recording is not None
+    assert run.recording.metadata["seed"] == "0, the first of 3 stops"
+    stop = run.result.drawn_stop
+    assert stop.measures is not None
+    assert run.recording["distance"][-1] == pytest.approx(stop.measures["braking_distance_m"], abs=0.5)
+
+
+@pytest.mark.parametrize(("expect", "recorded"), [("pass", False), ("fail", True)])
+def test_a_case_is_recorded_for_what_all_its_stops_come_to(cases: Write, expect: str, recorded: bool) -> None:
+    runs: list[CaseRun] = []
+    written = cases(more=f"repeat: 2\nexpect: {expect}")
+    run_cases(written, recording=RecordingRequest("failed"), on_result=runs.append)
+    assert [run.recording is not None for run in runs] == [recorded]
+
+
+@pytest.fixture
+def fails_with(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
+    """Let the stop of one seed end in an exception."""
+    simulate = rig.simulate
+
+    def let_fail(seed: int) -> None:
+        def failing(case: scenario.Case, *arguments: Any) -> Any:
+            if case.scenario.seed == seed:
+                raise ZeroDivisionError("no wheel load")
+            return simulate(case, *arguments)
+
+        monkeypatch.setattr(rig, "simulate", failing)
+
+    return let_fail
+
+
+@pytest.mark.parametrize("rule", ["all", "median", "{at_least: 50 %}"])
+def test_an_error_with_one_seed_never_vanishes(
+    cases: Write, fails_with: Callable[[int], None], rule: str
+) -> None:
+    fails_with(2)
+    runs: list[CaseRun] = []
+    run_cases(cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"), recording=NOTHING, on_result=runs.append)
+    (run,) = runs
+    assert run.result.outcome == "error"
+    assert run.result.reason == (
+        "error in 1 of 4 stops (seed 2), with seed 2: ZeroDivisionError: no wheel load"
+    )
+    assert "ZeroDivisionError: no wheel load" in run.traceback
+    assert run.result.repeats is not None
+    assert [stop.outcome for stop in run.result.repeats.stops] == ["pass", "pass", "error", "pass"]
+
+
+def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(
+    cases: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    released, simulate = threading.Event(), rig.simulate
+
+    def slow(case: scenario.Case, *arguments: Any) -> Any:
+        if case.scenario.brake.command < 0.95 and case.scenario.seed == 1:
+            released.wait(60.0)
+        return simulate(case, *arguments)
+
+    def interrupt(run: CaseRun) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(rig, "simulate", slow)
+    written = cases(more="repeat: 2\nmatrix: {brake.command: [100 %, 90 %]}")
+    try:
+        batch = run_cases(written, jobs=1, recording=NOTHING, on_result=interrupt)
+    finally:
+        released.set()
+    assert batch.interrupted
+    assert [result.id for result in batch.results] == ["stop[command=100]"]
+    assert batch.results[0].repeats is not None
+    assert len(batch.results[0].repeats.stops) == 2
+
+
+def test_stops_are_counted_as_they_finish(cases: Write) -> None:
+    stops: list[None] = []
+    run_cases(cases(more="repeat: 3"), recording=NOTHING, on_stop=lambda: stops.append(None))
+    assert len(stops) == 3
+
+
+WSP = """
+from uictest.controllers import Outputs
+
+
+class Wsp:
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs):
+        return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+"""
+
+
+@pytest.mark.parametrize("in_process", [False, True])
+def test_controllers_from_outside_repeat_their_stops_as_well(
+    cases: Write, tmp_path: Path, in_process: bool
+) -> None:
+    (tmp_path / "wsp.py").write_text(WSP, "utf-8")
+    controller = "controller: {python: wsp.py, class: Wsp, version: 1.2.0, time_limit: 600 s}"
+    written = cases("outside", f"repeat: 3\n{controller}")
+    (result,) = run_cases(written, jobs=2, recording=NOTHING, in_process=in_process).results
+    assert result.repeats is not None
+    assert [stop.outcome for stop in result.repeats.stops] == [result.repeats.stops[0].outcome] * 3
+    (bypassed,) = run_cases(cases("inside", "repeat: 3\nrig: {wsp: bypassed}"), recording=NOTHING).results
+    assert bypassed.repeats is not None
+    distances = result.repeats.values("braking_distance_m")
+    assert distances == bypassed.repeats.values("braking_distance_m")

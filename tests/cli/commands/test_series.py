@@ -1,0 +1,232 @@
+"""Series as users meet them: run, listed, checked, reported again, evaluated from recordings."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from uictest import recording, series
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+DRY = "tags: [reference]\nrail: {condition: dry}\ncriteria: uictest-stop\n"
+WET = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
+PROFILE = """schema: uictest/criteria/1
+name: own
+criteria:
+  - {id: stopping-distance, layer: requirement, scope: series, measure: median_braking_distance, upper: LIMIT}
+"""
+SERIES = """schema: uictest/series/1
+name: small
+tags: [acceptance]
+repeat: 2
+dry: {scenario: dry.yaml, repeat: 1}
+wet: wet.yaml
+criteria: own.yaml
+"""
+
+
+@pytest.fixture
+def campaign(scenario: Write) -> Callable[..., Path]:
+    """scenarios/small.series.yaml with a dry stop and two wet ones from 30 km/h, and its own criteria."""
+
+    def write(limit: str = "900 % of the dry stop", text: str = "") -> Path:
+        scenario("dry", DRY)
+        scenario("wet", WET)
+        Path("scenarios/own.yaml").write_text(PROFILE.replace("LIMIT", limit))
+        path = Path("scenarios/small.series.yaml")
+        path.write_text(SERIES + text)
+        return path
+
+    return write
+
+
+def test_requirements_of_series_are_listed(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign(text="requirements: [BR-1, BR-2]\n")
+    answer = call("list", path, "--requirements")
+    assert answer.out == "covered\tBR-1\tseries small (1 series)\ncovered\tBR-2\tseries small (1 series)\n"
+    (first, _) = json.loads(call("list", path, "--requirements", "--format", "json").out)
+    assert first["verified_by"] == [{"series": "small", "cases": [], "series_ids": ["small"]}]
+
+
+def test_an_id_that_a_series_names_twice_is_refused(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("check", campaign(text="requirements: [BR-1, BR-1]\n"))
+    assert answer.code == 4
+    assert "small.series.yaml:8:22: requirements.1: 'BR-1' appears twice" in answer.err
+
+
+def results() -> Any:
+    return json.loads(Path("reports/latest/results.json").read_text())
+
+
+def test_a_series_is_run_judged_and_reported(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("run", campaign(), "--report", "csv,html,md,xlsx")
+    assert answer.code == 0
+    assert answer.out.splitlines()[0].startswith("pass small outcome=pass expect=pass k_wet=0.")
+    assert "criterion small stopping-distance (requirement) pass:" in answer.out
+    assert "from 30 km/h 1 of 1 dry and 2 of 2 wet stops count" in answer.out
+    assert "uictest: 1 series: 1 pass in" in answer.err
+    files = {path.name for path in Path("reports/latest/").iterdir()}
+    assert {"series.csv", "series-criteria.csv", "series-stops.csv", "summary.md", "report.xlsx"} <= files
+    (testcase,) = ElementTree.parse("reports/latest/junit.xml").iter("testcase")
+    assert testcase.get("name") == "small: stopping-distance"
+    # Its stops are no cases of the run: a wet stop that fails is a figure, not a failure.
+    assert results()["cases"] == []
+
+
+def test_a_series_that_misses_a_criterion_is_a_miss(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("run", campaign("101 % of the dry stop"))
+    assert answer.code == 1
+    assert "fail small" in answer.out
+    assert call("run", campaign("101 % of the dry stop", "expect: fail\n")).code == 0
+
+
+def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: Callable[..., Path]) -> None:
+    campaign()
+    answer = call("run", "scenarios")
+    assert answer.code == 0
+    assert [line.split()[1] for line in answer.out.splitlines() if line.startswith("pass")] == [
+        "dry",
+        "wet",
+        "small",
+    ]
+    assert "uictest: 2 cases: 2 pass; 1 series: 1 pass in" in answer.err
+    assert [case["id"] for case in results()["cases"]] == ["dry", "wet"]
+
+
+def test_the_document_is_all_that_json_prints(call: Call, campaign: Callable[..., Path]) -> None:
+    document = json.loads(call("run", campaign(), "--format", "json").out)
+    (read,) = series.series_results_of(document["series"])
+    assert (read.id, read.outcome) == ("small", "pass")
+    assert [stop.seed for stop in series.stops_of(read.cases, 3.0)] == [None, 0, 1]
+
+
+def test_github_gets_an_annotation(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("run", campaign("101 % of the dry stop"), "--format", "github")
+    assert "::error file=scenarios/small.series.yaml,title=fail small::expected pass, got fail" in answer.out
+
+
+def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign()
+    for arguments in (("run", path, "--dry-run"), ("list", path)):
+        assert call(*arguments).out.splitlines() == ["small", "  dry small.dry", "  wet small.wet x 2"]
+    (listed,) = json.loads(call("list", path, "--format", "json").out)
+    assert [stop["role"] for stop in listed["stops"]] == ["dry", "wet"]
+
+
+@pytest.mark.parametrize(
+    ("options", "ids"),
+    [
+        (("-k", "small"), ["small"]),
+        (("-k", "wet"), ["wet"]),
+        (("-m", "acceptance"), ["small"]),
+        (("-m", "reference"), ["dry"]),
+    ],
+)
+def test_series_are_selected_like_cases(
+    call: Call, campaign: Callable[..., Path], options: tuple[str, str], ids: list[str]
+) -> None:
+    campaign()
+    listed = call("list", "scenarios", *options).out.splitlines()
+    assert [line for line in listed if not line.startswith(" ")] == ids
+
+
+def test_nothing_selected_names_the_tags_of_series(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("run", campaign(), "-k", "nothing")
+    assert answer.code == 5
+    assert "0 cases and 1 series; their tags: acceptance" in answer.err
+
+
+def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign()
+    assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
+    (read,) = series.series_results_of(results()["series"])
+    assert [stop.seed for stop in series.stops_of(read.cases, 3.0)] == [40, 41, 42, 40, 41, 42]
+    values = {
+        p.value
+        for each in read.cases
+        for part in each.case.parts.values()
+        for p in part.parameters
+        if p.key == "rig.wsp"
+    }
+    assert values == {"bypassed"}
+
+
+def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
+    assert "fail small[controller=slip-band]" not in call("run", path, "-x").out
+    (read,) = series.series_results_of(results()["series"])
+    assert read.id == "small[controller=threshold]"
+    assert results()["complete"] is False
+
+
+def test_missed_series_are_selected_again(call: Call, campaign: Callable[..., Path]) -> None:
+    campaign("101 % of the dry stop")
+    call("run", "scenarios")
+    assert call("run", "scenarios", "--lf", "--dry-run").out.splitlines()[0] == "small"
+
+
+def test_check_finds_the_errors_of_series(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign()
+    assert "and 1 series, no error" in call("check", "scenarios").err
+    path.write_text(SERIES.replace("wet.yaml", "wett.yaml"))
+    answer = call("check", "scenarios")
+    assert answer.code == 4
+    assert "scenarios/small.series.yaml:6:6: wet: no such file: 'wett.yaml'" in answer.err
+
+
+def test_a_finished_run_is_reported_again(call: Call, campaign: Callable[..., Path]) -> None:
+    call("run", campaign())
+    assert call("report", "reports/latest", "--format", "junit,md,csv", "-o", "again").code == 0
+    for name in ("series.csv", "series-stops.csv", "series-criteria.csv"):
+        assert Path("again", name).read_text() == Path("reports/latest", name).read_text()
+
+
+def test_series_are_not_run_in_real_time(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("run", campaign(), "--real-time")
+    assert answer.code == 4
+    assert "is a series" in answer.err
+
+
+def test_recorded_stops_give_the_figures_of_the_simulated_ones(
+    call: Call, campaign: Callable[..., Path]
+) -> None:
+    path = campaign()
+    call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "1000")
+    (simulated,) = series.series_results_of(results()["series"])
+    folder = Path("reports/latest/recordings")
+    for name in ("dry", "wet"):
+        written = recording.read_parquet(folder / f"small.{name}.parquet")
+        recording.formats.writer_of("csv")(written, Path(f"scenarios/{name}.csv"))
+    path.write_text(
+        SERIES.replace("dry.yaml, repeat: 1", "dry.yaml, recordings: [dry.csv]").replace(
+            "wet: wet.yaml", "wet: {scenario: wet.yaml, recordings: [wet.csv], map: uictest}"
+        )
+    )
+    answer = call("evaluate", path)
+    assert answer.code == 0, answer.err
+    (recorded,) = series.series_results_of(results()["series"])
+    assert [each.case.id for each in recorded.cases] == ["small.dry.dry", "small.wet.wet"]
+    for name in ("stopping_distance_extension", "k_wet", "worst_slid_distance", "median_air_consumed"):
+        one, other = (each.measures[name].estimate for each in (simulated, recorded))
+        assert one is not None
+        if other is not None:  # no record holds every measure
+            assert other.value == pytest.approx(one.value, rel=5e-3), name
+    assert recorded.measures["k_wet"].estimate is not None
+
+
+def test_a_recorded_series_needs_recordings(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("evaluate", campaign())
+    assert answer.code == 4
+    assert "small.dry names no recording: list them under `recordings`" in answer.err
+
+
+def test_a_recorded_series_says_itself_what_was_tested(call: Call, campaign: Callable[..., Path]) -> None:
+    answer = call("evaluate", campaign(), "--rail", "wet")
+    assert answer.code == 4
+    assert "a series says itself" in answer.err

@@ -1,0 +1,246 @@
+"""What the stops of a repeated case come to, on lists of outcomes and values made by hand."""
+
+from collections import Counter
+from statistics import median
+
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.evaluation.bounds import Bounds
+from uictest.evaluation.decision import Decision
+from uictest.evaluation.outcome_rule import (
+    OutcomeRule,
+    decision_over_stops,
+    outcome_over_stops,
+    over_stops,
+    seeds_text,
+)
+from uictest.evaluation.repeats import RepeatedStop
+
+ALL, MEDIAN = OutcomeRule("all"), OutcomeRule("median")
+LETTERS = {"p": "pass", "f": "fail", "i": "invalid", "u": "inconclusive", "s": "skipped", "e": "error"}
+DISTANCE = Bounds(440.0, 490.0)
+
+
+def at_least(share: float) -> OutcomeRule:
+    return OutcomeRule("at_least", share)
+
+
+def stops(letters: str) -> list[RepeatedStop]:
+    return [RepeatedStop(seed, LETTERS[letter], f"why {seed}") for seed, letter in enumerate(letters)]  # type: ignore[arg-type]
+
+
+def outcome(letters: str, expect: str, rule: OutcomeRule) -> str:
+    return outcome_over_stops(stops(letters), expect, rule, ("pass", ""))[0]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("letters", "expect", "came_out"),
+    [
+        ("ppp", "pass", "pass"),
+        ("pps", "pass", "pass"),
+        ("sss", "pass", "skipped"),
+        ("ppf", "pass", "fail"),
+        ("ppi", "pass", "invalid"),
+        ("pfi", "pass", "fail"),  # a valid stop that fails says more than one that is no test
+        ("ppu", "pass", "inconclusive"),
+        ("puf", "pass", "fail"),
+        ("fff", "fail", "fail"),
+        ("ffp", "fail", "pass"),
+        ("ffi", "fail", "invalid"),
+        ("fpi", "fail", "pass"),
+        ("ffs", "fail", "skipped"),
+        ("ffu", "fail", "inconclusive"),
+        ("iii", "invalid", "invalid"),
+        ("iip", "invalid", "pass"),
+        ("iif", "invalid", "fail"),
+        ("ipf", "invalid", "fail"),
+        ("ppe", "pass", "error"),
+        ("ffe", "fail", "error"),
+    ],
+)
+def test_all_stops_must_come_out_as_expected(letters: str, expect: str, came_out: str) -> None:
+    assert outcome(letters, expect, ALL) == came_out
+    # The order of the seeds says nothing.
+    assert outcome(letters[::-1], expect, ALL) == came_out
+
+
+@pytest.mark.parametrize(
+    ("letters", "expect", "share", "came_out"),
+    [
+        ("pppppppppf", "pass", 0.9, "pass"),
+        ("ppppppppff", "pass", 0.9, "fail"),
+        ("ppppppppfu", "pass", 0.9, "inconclusive"),  # the undecided stop could be the ninth
+        ("pppppppffu", "pass", 0.9, "fail"),
+        ("pppppppppi", "pass", 0.9, "pass"),
+        ("ppppppppii", "pass", 0.9, "invalid"),
+        ("pf", "pass", 0.5, "pass"),
+        ("pf", "pass", 0.51, "fail"),
+        ("fffffffffp", "fail", 0.9, "fail"),
+        ("ffffffffpp", "fail", 0.9, "pass"),
+        ("pppppppppe", "pass", 0.1, "error"),  # an error never vanishes
+        ("ppp", "pass", 1.0, "pass"),
+    ],
+)
+def test_a_share_of_the_stops_must_come_out_as_expected(
+    letters: str, expect: str, share: float, came_out: str
+) -> None:
+    assert outcome(letters, expect, at_least(share)) == came_out
+
+
+def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one() -> None:
+    assert outcome_over_stops(stops("fff"), "pass", MEDIAN, ("pass", "")) == ("pass", "")
+    assert outcome_over_stops(stops("pep"), "pass", MEDIAN, ("pass", "")) == (
+        "error",
+        "error in 1 of 3 stops (seed 1), with seed 1: why 1",
+    )
+
+
+def test_the_reason_names_the_stops() -> None:
+    reason = outcome_over_stops(stops("fpfpfffi"), "pass", ALL, ("pass", ""))[1]
+    assert reason == (
+        "fail in 5 of 8 stops (seeds 0, 2, 4..6), with seed 0: why 0;"
+        " invalid in 1 of 8 stops (seed 7), with seed 7: why 7"
+    )
+    assert outcome_over_stops(stops("ppp"), "pass", ALL, ("pass", "")) == ("pass", "")
+
+
+@given(
+    letters=st.text("pfius", min_size=1, max_size=12),
+    expect=st.sampled_from(("pass", "fail", "invalid")),
+    share=st.floats(0.01, 1.0),
+)
+def test_as_expected_if_and_only_if_enough_stops_are(letters: str, expect: str, share: float) -> None:
+    counts = Counter(LETTERS[letter] for letter in letters)
+    expected = counts[expect] + (counts["skipped"] if expect == "pass" else 0)
+    came_out = outcome(letters, expect, at_least(share))
+    as_expected = came_out == expect or (expect == "pass" and came_out == "skipped")
+    assert as_expected == (expected >= share * len(letters) - 1e-9)
+    assert came_out in counts or came_out == "inconclusive"
+    assert outcome(letters, expect, at_least(1.0)) == outcome(letters, expect, ALL)
+
+
+@given(letters=st.text("pfius", min_size=1, max_size=12), data=st.data())
+def test_the_order_of_the_stops_does_not_matter(letters: str, data: st.DataObject) -> None:
+    shuffled = "".join(data.draw(st.permutations(letters)))
+    rule = at_least(data.draw(st.floats(0.01, 1.0)))
+    assert outcome(letters, "pass", rule) == outcome(shuffled, "pass", rule)
+
+
+def test_nine_of_ten_are_ninety_per_cent_whatever_binary_makes_of_it() -> None:
+    for stops_needed in range(1, 101):
+        assert OutcomeRule("at_least", stops_needed / 100).needed(100) == stops_needed
+    assert OutcomeRule("at_least", 0.1 + 0.2).needed(10) == 3
+
+
+def decided(value: float | None, status: str = "") -> Decision:
+    if status:
+        return Decision(status, value, "made up")  # type: ignore[arg-type]
+    assert value is not None
+    return Decision("pass" if DISTANCE.hold(value) else "fail", value, "")
+
+
+def together(decisions: list[Decision], rule: OutcomeRule) -> Decision:
+    return decision_over_stops(decisions, DISTANCE, "m", rule)
+
+
+def test_a_criterion_has_the_median_and_is_judged_by_the_rule() -> None:
+    values = [450.0, 460.0, 495.0]
+    decisions = [decided(value) for value in values]
+    assert [together(decisions, rule).status for rule in (ALL, MEDIAN, at_least(0.6), at_least(0.7))] == [
+        *("fail", "pass", "pass", "fail")
+    ]
+    assert together(decisions, ALL).value == 460.0
+    assert together(decisions, ALL).reason == (
+        "2 of 3 stops pass (3 needed): median 460 in 450 .. 495, against 440 .. 490 m"
+    )
+    assert together(decisions, MEDIAN).reason.startswith("2 of 3 stops pass: median")
+
+
+def test_stops_that_a_criterion_does_not_apply_to_do_not_count() -> None:
+    skipped = decided(None, "not_applicable")
+    both = together([decided(450.0), skipped, decided(460.0)], ALL)
+    assert (both.status, both.value) == ("pass", 455.0)
+    assert both.reason.startswith("2 of 2 stops pass (2 needed), not applicable to 1 more: ")
+    assert together([skipped, skipped], ALL) == skipped
+
+
+def test_where_all_stops_agree_so_does_the_median() -> None:
+    """Two stops too short and two too long have a median inside the limits, and still all fail."""
+    decisions = [decided(value) for value in (400.0, 410.0, 520.0, 530.0)]
+    assert together(decisions, MEDIAN).value == 465.0
+    assert together(decisions, MEDIAN).status == "fail"
+
+
+@pytest.mark.parametrize(
+    ("known", "unknown", "status"),
+    [
+        ([450.0, 460.0, 470.0, 480.0, 485.0], 1, "pass"),  # the median lies between 455 and 482.5 at worst
+        ([445.0, 460.0, 486.0, 495.0], 1, "pass"),  # between 460 and 486
+        ([445.0, 460.0, 492.0, 495.0], 1, "inconclusive"),  # between 460 and 492
+        ([495.0, 500.0, 505.0, 460.0], 1, "fail"),
+        ([495.0, 500.0, 505.0, 510.0, 460.0], 1, "fail"),
+        ([450.0], 2, "inconclusive"),
+    ],
+)
+def test_a_stop_without_a_value_may_have_any_value_in_the_median(
+    known: list[float], unknown: int, status: str
+) -> None:
+    decisions = [*map(decided, known), *[decided(None, "inconclusive")] * unknown]
+    assert together(decisions, MEDIAN).status == status
+    assert together(decisions, MEDIAN).reason.endswith("; made up")
+
+
+@given(
+    values=st.lists(st.floats(400.0, 530.0), min_size=1, max_size=9),
+    unknown=st.integers(0, 4),
+    fillings=st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4),
+)
+def test_a_decided_median_stays_whatever_the_unknown_values_are(
+    values: list[float], unknown: int, fillings: list[float]
+) -> None:
+    decisions = [*map(decided, values), *[decided(None, "inconclusive")] * unknown]
+    verdict = together(decisions, MEDIAN)
+    filled = [*values, *fillings[:unknown]]
+    if verdict.status == "inconclusive" or len({decided(each).status for each in filled}) == 1:
+        return
+    assert (verdict.status == "pass") == DISTANCE.hold(median(filled))
+
+
+@pytest.mark.parametrize(
+    ("statuses", "share", "status"),
+    [
+        (["pass", "pass", "inconclusive"], 1.0, "inconclusive"),
+        (["pass", "pass", "inconclusive"], 0.6, "pass"),
+        (["pass", "fail", "inconclusive"], 1.0, "fail"),
+        (["pass", "fail", "inconclusive"], 0.6, "inconclusive"),
+    ],
+)
+def test_inconclusive_stops_decide_only_where_they_could_make_up_the_number(
+    statuses: list[str], share: float, status: str
+) -> None:
+    value = {"pass": 450.0, "fail": 500.0, "inconclusive": None}
+    decisions = [decided(value[each], each) for each in statuses]
+    assert together(decisions, at_least(share)).status == status
+
+
+def test_counts_and_range_over_stops() -> None:
+    counts = over_stops([decided(450.0), decided(495.0), decided(None, "not_applicable")])
+    assert (counts.passed, counts.failed, counts.not_applicable, counts.stops) == (1, 1, 1, 3)
+    assert (counts.lowest, counts.highest) == (450.0, 495.0)
+    assert counts.turns
+    assert not over_stops([decided(450.0), decided(460.0)]).turns
+
+
+@pytest.mark.parametrize(
+    ("seeds", "text"),
+    [
+        ([3], "seed 3"),
+        ([3, 4], "seeds 3, 4"),
+        ([3, 4, 5], "seeds 3..5"),
+        ([0, 2, 3, 4, 9], "seeds 0, 2..4, 9"),
+        (list(range(0, 20, 2)), "seeds 0, 2, 4, 6, 8, 10 and 4 more"),
+    ],
+)
+def test_seeds_for_a_reader(seeds: list[int], text: str) -> None:
+    assert seeds_text(seeds) == text

@@ -1,0 +1,40 @@
+"""What every row of the catalogue of faults promises."""
+
+from dataclasses import astuple
+
+import pytest
+
+from uictest.faults import FAULT_KINDS, Effects, FaultKind
+from uictest.scenario.yaml import parse_quantity
+from uictest.units import KINDS
+
+ROWS = list(FAULT_KINDS.values())
+NAMES = ["-".join(key) for key in FAULT_KINDS]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_every_value_has_a_range_of_its_kind(row: FaultKind) -> None:
+    if row.value is not None:
+        assert row.value.kind in KINDS
+        low, high = (parse_quantity(text, row.value.kind) for text in (row.value.at_least, row.value.at_most))
+        assert low < high
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_every_fault_changes_something(row: FaultKind) -> None:
+    """With its largest value; without one where it needs none."""
+    value = None if row.value is None else float(parse_quantity(row.value.at_most, row.value.kind))
+    assert astuple(row.effects(value)) != astuple(Effects())
+    if row.value is None or row.value.without:
+        assert astuple(row.effects(None)) != astuple(Effects())
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_only_what_the_train_has_once_belongs_to_no_wheelset(row: FaultKind) -> None:
+    assert row.of_wheelset == (row.part not in ("brake-line", "controller"))
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_descriptions_are_sentences_that_explain_the_value(row: FaultKind) -> None:
+    assert row.description.endswith(".")
+    assert ("`value`" in row.description) == (row.value is not None)

@@ -1,0 +1,92 @@
+"""Every kind of fault, judged by `uictest-wsp-faults`: which criteria the shipped controller misses."""
+
+from pathlib import Path
+
+import pytest
+
+from uictest import campaign
+from uictest.evaluation import CaseResult
+from uictest.faults import FAULT_KINDS
+from uictest.scenario import load
+
+VALUES = {
+    ("speed-sensor", "factor"): "50 %",
+    ("speed-sensor", "offset"): "30 km/h",
+    ("speed-sensor", "jumps"): "40 km/h",
+    ("speed-sensor", "drop-out"): "20 %",
+    ("speed-sensor", "missing-teeth"): "2",
+    ("fill-valve", "blocked"): "70 %",
+    ("vent-valve", "blocked"): "70 %",
+    ("wsp-valve", "slow"): "200 ms",
+    ("tank", "leak"): "5e-9 m3/(s Pa)",
+    ("brake-line", "leak"): "2e-8 m3/(s Pa)",
+    ("pressure-sensor", "offset"): "2 bar",
+    ("pressure-sensor", "factor"): "50 %",
+    ("controller", "silent"): "2 s",
+}
+LOCKED = {"locked-wheels"}
+"""The faulty wheelset itself is locked for longer than a second."""
+MISSED = {
+    # It follows the other wheelset of its bogie, which slides less.
+    **dict.fromkeys(
+        [("speed-sensor", kind) for kind in ("lost", "stuck", "factor", "offset", "jumps")], LOCKED
+    ),
+    # It cannot be vented, or fills meanwhile.
+    ("hold-magnet", "open-circuit"): LOCKED,
+    ("fill-valve", "stuck-open"): LOCKED,
+    ("vent-magnet", "open-circuit"): LOCKED,
+    ("vent-valve", "stuck-closed"): LOCKED,
+    # Nobody protects anything.
+    ("controller", "silent"): LOCKED | {"sound-wheelsets-turn"},
+}
+"""Criteria that are missed; all others pass or do not apply."""
+NOT_OF_A_SENSOR = "brake-force-returns"
+
+
+def judged(tmp_path: Path, part: str, kind: str, controller: str = "threshold") -> CaseResult:
+    """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
+    own = "" if part in ("brake-line", "controller") else ", wheelset: 2"
+    value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
+    sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
+    path = tmp_path / "stop.yaml"
+    path.write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
+        f"rail: {{condition: wet, friction: 0.09}}\nrig: {{sensors: {sensors}}}\ncontroller: {controller}\n"
+        f"criteria: [uictest-wsp-faults, uictest-stop]\n"
+        f"faults: [{{at: 3 s, part: {part}, kind: {kind}{own}{value}}}]\n"
+    )
+    [case] = load([path])
+    return campaign.run_case(case, campaign.RecordingRequest("none")).result
+
+
+@pytest.mark.parametrize(("part", "kind"), FAULT_KINDS, ids="-".join)
+def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(
+    tmp_path: Path, part: str, kind: str
+) -> None:
+    result = judged(tmp_path, part, kind)
+    statuses = {each.id: each.status for each in result.criteria}
+    assert {name for name, status in statuses.items() if status == "fail"} == MISSED.get((part, kind), set())
+    applies = statuses[NOT_OF_A_SENSOR] != "not_applicable"
+    assert applies == (part == "speed-sensor")
+    for balance in ("energy-balance", "air-balance", "air-energy-balance"):
+        assert statuses[balance] == "pass"
+
+
+def test_the_criteria_ask_nothing_of_a_stop_without_a_fault(tmp_path: Path) -> None:
+    path = tmp_path / "stop.yaml"
+    path.write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\ncriteria: uictest-wsp-faults\n"
+    )
+    [case] = load([path])
+    statuses = [
+        each.status for each in campaign.run_case(case, campaign.RecordingRequest("none")).result.criteria
+    ]
+    assert statuses == ["pass", "not_applicable", "not_applicable", "not_applicable"]
+
+
+def test_the_simplest_controller_misses_them(tmp_path: Path) -> None:
+    lost = judged(tmp_path, "speed-sensor", "lost", "slip-band")
+    stuck = judged(tmp_path, "speed-sensor", "stuck", "slip-band")
+    failed = [{each.id for each in result.criteria if each.status == "fail"} for result in (lost, stuck)]
+    assert "sound-wheelsets-turn" in failed[0]
+    assert "reference-not-captured" in failed[1]

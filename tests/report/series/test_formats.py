@@ -1,0 +1,156 @@
+"""A series in every format: what a reader must find there."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import openpyxl
+import pytest
+
+from uictest import series
+from uictest.evaluation import CaseResult
+from uictest.report import RunContent, read_run, series_table, write_formats, write_reports
+from uictest.report.formats.junit import junit_xml
+from uictest.report.formats.md import markdown_summary
+from uictest.report.series.lines import series_line, series_lines
+from uictest.report.series.wording import series_explanation, series_tally
+
+MakeSeries = Callable[..., series.SeriesResult]
+MakeContent = Callable[..., RunContent]
+MakeResult = Callable[..., CaseResult]
+
+
+@pytest.fixture
+def content(make_content: MakeContent, make_series: MakeSeries) -> RunContent:
+    return make_content(series=[make_series()])
+
+
+def test_the_run_is_counted_by_its_series(
+    content: RunContent, make_result: MakeResult, missed: series.SeriesResult
+) -> None:
+    assert content.tally == "1 series: 1 pass"
+    assert series_tally([missed]) == "1 series: 1 fail; 1 not as expected"
+
+
+def test_lines_tell_the_criteria_and_what_does_not_count(make_series: MakeSeries) -> None:
+    result = make_series()
+    assert series_line(result).startswith("pass acceptance outcome=pass expect=pass k_wet=0.86957 ")
+    criterion, counted, not_counted = series_lines(result)
+    assert criterion.startswith(
+        "criterion acceptance k-wet (requirement) pass: 0.86957 from 120 km/h, lower limit 0.8, margin"
+    )
+    assert "mean of 5 stops, 95 % interval 0.8" in criterion
+    assert counted.endswith("from 120 km/h 1 of 1 dry and 5 of 6 wet stops count (83.33 %, 80 % needed)")
+    assert not_counted == "stops acceptance 1 stop invalid, not counted: energy-balance: 3 % misses < 0.1 %"
+
+
+def test_a_terminal_shows_the_same_in_its_width(make_series: MakeSeries) -> None:
+    for width in (60, 100, 200):
+        lines = list(series_table([make_series()], width))
+        text = " ".join(" ".join(lines).split())
+        assert "pass acceptance" in text
+        assert "5 of 6 wet stops count" in text
+        assert "1 stop invalid, not counted" in text
+
+
+def test_tables_have_a_row_per_measure_criterion_and_stop(content: RunContent, tmp_path: Path) -> None:
+    write_formats(tmp_path, content, ["csv"])
+    rows = {
+        name: list(csv.DictReader(io.StringIO((tmp_path / name).read_text())))
+        for name in ("series.csv", "series-criteria.csv", "series-stops.csv")
+    }
+    k_wet = next(row for row in rows["series.csv"] if (row["measure"], row["speed_kmh"]) == ("k_wet", "120"))
+    assert (float(k_wet["value"]), k_wet["method"], k_wet["stops"]) == (pytest.approx(100 / 115), "mean", "5")
+    (criterion,) = rows["series-criteria.csv"]
+    assert (criterion["criterion"], criterion["verdict"], criterion["certain"]) == ("k-wet", "pass", "true")
+    stops = [
+        (row["role"], row["seed"], row["counts"], row["braking_distance_m"])
+        for row in rows["series-stops.csv"]
+    ]
+    assert stops[0] == ("dry", "0", "true", "460.0")
+    assert stops[-1] == ("wet", "5", "false", "2000.0")
+    assert len(stops) == 7
+
+
+def test_a_run_without_series_has_none_of_their_files(
+    make_content: MakeContent, make_result: MakeResult, tmp_path: Path
+) -> None:
+    write_formats(tmp_path, make_content(make_result()), ["csv"])
+    assert not list(tmp_path.glob("series*"))
+
+
+def test_the_workbook_has_a_sheet_for_each_table(content: RunContent, tmp_path: Path) -> None:
+    write_formats(tmp_path, content, ["xlsx"])
+    book = openpyxl.load_workbook(tmp_path / "report.xlsx")
+    assert [name for name in book.sheetnames if name.startswith("Series")] == [
+        "Series",
+        "Series criteria",
+        "Series measures",
+        "Series stops",
+    ]
+    header, row = list(book["Series"].values)
+    assert dict(zip(header, row, strict=True))["wet_stops_counted"] == 5
+
+
+def test_markdown_compares_and_judges(
+    content: RunContent, missed: series.SeriesResult, make_content: MakeContent
+) -> None:
+    text = markdown_summary(content)
+    assert "| `acceptance` | pass | 5 of 6 |" in text
+    assert "| **fail** | `acceptance` | `k-wet` |" in markdown_summary(make_content(series=[missed]))
+    for limit in (400, 1000, 3000):
+        assert len(markdown_summary(content, limit).encode()) <= limit
+
+
+def test_the_page_draws_every_stop_and_marks_those_that_do_not_count(
+    content: RunContent, tmp_path: Path
+) -> None:
+    write_formats(tmp_path, content, ["html"])
+    page = (tmp_path / "index.html").read_text()
+    assert len(re.findall(r'<circle class="dot"', page)) == 6
+    assert len(re.findall(r'<circle class="dot uncounted"', page)) == 1
+    assert "1 stop invalid, not counted: energy-balance: 3 % misses &lt; 0.1 %" in page
+
+
+def test_hostile_texts_stay_texts(
+    make_series: MakeSeries, make_content: MakeContent, hostile: str, tmp_path: Path
+) -> None:
+    not_counted = (series.UncountedStop(hostile, "wet", 1, "invalid", hostile),)
+    result = make_series(id=hostile, title=hostile, not_counted=not_counted, outcome="error", reason=hostile)
+    content = make_content(series=[result])
+    write_formats(tmp_path, content, ["html", "xlsx", "csv"])
+    assert "<b>&" not in (tmp_path / "index.html").read_text()
+    assert "\x1b" not in "".join(
+        [*series_table([result], 80), series_line(result), *series_explanation(result)]
+    )
+    assert "\x1b" not in markdown_summary(content)
+    ElementTree.fromstring(junit_xml([], series=[result]))
+
+
+def test_a_finished_run_is_read_back_as_it_was(
+    make_series: MakeSeries, make_content: MakeContent, tmp_path: Path
+) -> None:
+    content = make_content(series=[make_series()])
+    write_reports(tmp_path, content)
+    document = json.loads((tmp_path / "results.json").read_text())
+    assert document["cases"] == []
+    assert document["series"]["schema"] == "uictest/series-result/1"
+    read = read_run(tmp_path)
+    assert series.series_document(read.series) == series.series_document(content.series)
+
+
+def test_a_spoiled_series_is_no_run(
+    make_series: MakeSeries, make_content: MakeContent, tmp_path: Path
+) -> None:
+    write_reports(tmp_path, make_content(series=[make_series()]))
+    document = json.loads((tmp_path / "results.json").read_text())
+    document["series"]["series"][0]["criteria"][0]["estimate"]["stops"] = "many"
+    (tmp_path / "results.json").write_text(json.dumps(document))
+    with pytest.raises(ValueError, match=r"series.0.criteria.0.estimate.stops"):
+        read_run(tmp_path)

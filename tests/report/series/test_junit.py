@@ -1,0 +1,68 @@
+"""JUnit of series: one testcase per criterion, in the form that Jenkins' xUnit plugin checks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from xml.etree import ElementTree
+
+from uictest import series
+from uictest.evaluation import CaseResult
+from uictest.report.formats.junit import junit_xml
+
+MakeSeries = Callable[..., series.SeriesResult]
+MakeResult = Callable[..., CaseResult]
+
+
+def suites(*results: series.SeriesResult) -> list[ElementTree.Element]:
+    return list(ElementTree.fromstring(junit_xml([], series=results)))
+
+
+def test_every_criterion_is_a_testcase(make_series: MakeSeries) -> None:
+    (suite,) = suites(make_series())
+    (testcase,) = suite
+    assert suite.get("name") == "uictest series: acceptance"
+    assert (testcase.get("classname"), testcase.get("name")) == (
+        "tests.acceptance.series",
+        "acceptance: k-wet",
+    )
+    assert [child.tag for child in testcase] == ["system-out"]
+
+
+def test_a_missed_criterion_is_a_failure_that_says_everything(missed: series.SeriesResult) -> None:
+    (suite,) = suites(missed)
+    assert suite.get("failures") == "1"
+    text = suite.findtext("testcase/failure") or ""
+    assert "k-wet (requirement) fail: 0.86957 from 120 km/h, lower limit 0.9, margin -0.03" in text
+    assert "5 of 6 wet stops count" in text
+    assert "1 stop invalid, not counted" in text
+
+
+def test_an_expected_failure_is_none(missed: series.SeriesResult) -> None:
+    (suite,) = suites(replace(missed, expect="fail"))
+    assert suite.get("failures") == "0"
+
+
+def test_an_unexpected_pass_and_an_error_have_a_testcase_of_their_own(make_series: MakeSeries) -> None:
+    (unexpected,) = suites(make_series(expect="fail"))
+    assert [case.get("name") for case in unexpected] == ["acceptance: k-wet", "acceptance: outcome"]
+    assert unexpected.get("failures") == "1"
+    (error,) = suites(make_series(outcome="error", reason="1 of 7 stops failed to run; it broke"))
+    assert (error.get("errors"), error.get("failures")) == ("1", "0")
+    assert "it broke" in (error.findtext("testcase/error") or "")
+
+
+def test_an_inconclusive_criterion_is_a_failure(make_series: MakeSeries) -> None:
+    result = make_series()
+    (each,) = result.criteria
+    open_verdict = replace(
+        each.verdict, status="inconclusive", value=None, margin=None, reason="too few stops"
+    )
+    criteria = (series.SeriesVerdict(open_verdict),)
+    (suite,) = suites(replace(result, criteria=criteria, outcome="inconclusive", reason="too few stops"))
+    assert suite.get("failures") == "1"
+
+
+def test_series_stand_behind_the_cases(make_result: MakeResult, make_series: MakeSeries) -> None:
+    root = ElementTree.fromstring(junit_xml([make_result()], series=[make_series()]))
+    assert [suite.get("name") for suite in root] == ["uictest", "uictest series: acceptance"]

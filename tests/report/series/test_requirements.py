@@ -1,0 +1,161 @@
+"""Series are evidence on requirements, like cases, in every report."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import openpyxl
+import pytest
+
+from uictest import series
+from uictest.evaluation import CaseResult
+from uictest.report import RunContent, read_run, write_formats, write_reports
+from uictest.report.formats.junit import FORMAT, junit_xml
+from uictest.report.formats.md import markdown_summary
+from uictest.report.requirements import Evidence, verified_requirements
+
+MakeSeries = Callable[..., series.SeriesResult]
+MakeContent = Callable[..., RunContent]
+MakeResult = Callable[..., CaseResult]
+BY_CRITERION = ("BR-1",)
+
+
+def naming(result: series.SeriesResult, status: str = "pass", **changes: Any) -> series.SeriesResult:
+    """The series with a criterion of this status that names BR-1."""
+    (each,) = result.criteria
+    verdict = replace(each.verdict, status=status, requirements=BY_CRITERION)  # type: ignore[arg-type]
+    return replace(result, criteria=(replace(each, verdict=verdict),), **changes)
+
+
+@pytest.fixture
+def named(make_series: MakeSeries) -> series.SeriesResult:
+    """A series that names BR-9 and the test case WSP-TC-7, with a criterion that names BR-1."""
+    return naming(make_series(requirements=("BR-9",), test_case="WSP-TC-7"))
+
+
+@pytest.mark.parametrize(
+    ("expect", "outcome", "word", "status"),
+    [
+        ("pass", "pass", "pass", "met"),
+        ("pass", "fail", "fail", "not met"),
+        ("pass", "inconclusive", "inconclusive", "not met"),
+        ("pass", "error", "error", "not met"),
+        ("pass", "skipped", "skipped", "not tested"),
+        ("fail", "fail", "expected fail", "met"),
+    ],
+)
+def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(
+    make_series: MakeSeries, expect: str, outcome: str, word: str, status: str
+) -> None:
+    result = make_series(expect=expect, outcome=outcome, requirements=("BR-9",))
+    (requirement,) = verified_requirements([], [result])
+    assert requirement.evidence == (Evidence("series", "acceptance", word),)
+    assert requirement.status == status
+
+
+@pytest.mark.parametrize(
+    ("status", "outcome", "word"),
+    [
+        ("pass", "pass", "pass"),
+        ("pass", "fail", "pass"),
+        ("fail", "fail", "fail"),
+        ("inconclusive", "inconclusive", "inconclusive"),
+        ("not_applicable", "skipped", "not applicable"),
+        ("pass", "error", "error"),
+    ],
+)
+def test_a_requirement_of_a_criterion_follows_its_verdict_unless_stops_failed_to_run(
+    make_series: MakeSeries, status: str, outcome: str, word: str
+) -> None:
+    (requirement,) = verified_requirements([], [naming(make_series(), status, outcome=outcome)])
+    assert requirement.evidence == (Evidence("series", "acceptance", word, ("k-wet",)),)
+
+
+def test_criteria_of_a_series_that_must_not_pass_say_nothing(make_series: MakeSeries) -> None:
+    assert not verified_requirements([], [naming(make_series(), "fail", expect="fail", outcome="fail")])
+
+
+def test_stops_of_a_series_are_no_evidence_of_their_own(make_series: MakeSeries) -> None:
+    result = make_series()
+    cases = tuple(replace(each, case=replace(each.case, requirements=("BR-5",))) for each in result.cases)
+    assert not verified_requirements([], [replace(result, cases=cases)])
+
+
+def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
+    named: series.SeriesResult, make_result: MakeResult, make_content: MakeContent, tmp_path: Path
+) -> None:
+    case = make_result(id="acceptance", requirements=("BR-9",), outcome="fail")
+    content = make_content(case, series=[named])
+    write_formats(tmp_path, content, ["csv", "xlsx", "html"])
+    rows = list(csv.reader(io.StringIO((tmp_path / "requirements.csv").read_text())))
+    assert rows[1:] == [
+        ["BR-1", "met", "series", "acceptance", "pass", "k-wet"],
+        ["BR-9", "not met", "case", "acceptance", "fail", ""],
+        ["BR-9", "not met", "series", "acceptance", "pass", ""],
+    ]
+    book = openpyxl.load_workbook(tmp_path / "report.xlsx")
+    header, _, row = book["Requirements"].values
+    matrix = dict(zip(header, row, strict=True))
+    assert (matrix["acceptance"], matrix["series acceptance"]) == ("fail", "pass")
+    assert "| `BR-9` | **not met** | 2 | acceptance (fail) |" in markdown_summary(content)
+    page = (tmp_path / "index.html").read_text()
+    assert "1 case, 1 series" in page
+    assert '<a href="#series-1">series acceptance</a>' in page
+    assert "WSP-TC-7: BR-9" in page
+
+
+def test_tables_of_series_name_test_case_and_requirements(
+    named: series.SeriesResult, make_content: MakeContent, tmp_path: Path
+) -> None:
+    write_formats(tmp_path, make_content(series=[named]), ["csv", "xlsx"])
+    (row,) = csv.DictReader(io.StringIO((tmp_path / "series-criteria.csv").read_text()))
+    assert row["requirements"] == "BR-1"
+    header, values = openpyxl.load_workbook(tmp_path / "report.xlsx")["Series"].values
+    sheet = dict(zip(header, values, strict=True))
+    assert (sheet["test_case"], sheet["requirements"]) == ("WSP-TC-7", "BR-9")
+
+
+def _properties(element: ElementTree.Element | None) -> dict[str | None, str | None]:
+    assert element is not None
+    return {each.get("name"): each.get("value") for each in element.findall("properties/property")}
+
+
+def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(
+    named: series.SeriesResult,
+) -> None:
+    unexpected = replace(named, expect="fail")
+    suite = ElementTree.fromstring(junit_xml([], series=[unexpected], test_properties=True))[0]
+    of_criterion, outcome = suite.findall("testcase")
+    ids = {"polarion-testcase-id": "WSP-TC-7", "test_key": "WSP-TC-7"}
+    assert _properties(of_criterion) == {**ids, "requirements": "BR-9,BR-1"}
+    assert _properties(outcome) == {**ids, "requirements": "BR-9"}
+    assert _properties(suite) == {"requirements": "BR-1,BR-9"}
+    plain = ElementTree.fromstring(junit_xml([], series=[unexpected]))[0]
+    assert _properties(plain) == {"requirements": "BR-1,BR-9"}
+    assert not plain.findall("testcase/properties")
+
+
+def test_the_file_for_test_management_is_there_where_a_series_has_something_for_it(
+    make_series: MakeSeries, make_content: MakeContent
+) -> None:
+    def files(result: series.SeriesResult) -> set[str]:
+        return set(FORMAT.files(make_content(series=[result])))
+
+    both = {"junit.xml", "junit-properties.xml"}
+    assert files(make_series()) == {"junit.xml"}
+    assert files(make_series(test_case="WSP-TC-7")) == files(naming(make_series())) == both
+
+
+def test_requirements_are_read_back(
+    named: series.SeriesResult, make_content: MakeContent, tmp_path: Path
+) -> None:
+    write_reports(tmp_path, make_content(series=[named]))
+    (read,) = read_run(tmp_path).series
+    assert (read.requirements, read.test_case) == (("BR-9",), "WSP-TC-7")
+    assert read.criteria[0].verdict.requirements == BY_CRITERION

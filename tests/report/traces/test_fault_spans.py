@@ -1,0 +1,39 @@
+"""When faults were active, from the bits that a recording has of them."""
+
+import numpy as np
+
+from uictest.recording import Recording
+from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
+from uictest.report.traces.fault_spans import FaultSpan, fault_spans
+from uictest.report.traces.trace import trace_of
+
+TIME = np.arange(0.0, 10.0, 0.1)
+
+
+def record(bits: np.ndarray, faults: str) -> Recording:
+    channels = {"time": TIME, "speed": 30.0 - TIME, "active_faults": bits}
+    return Recording(channels, {"time": "s", "speed": "m/s", "active_faults": "1"}, {"faults": faults})
+
+
+def test_each_fault_has_its_own_stretches() -> None:
+    lost, leak = "speed-sensor-lost-2", "brake-line-leak"
+    bits = 1.0 * ((TIME >= 1.95) & (TIME < 3.95)) + 2.0 * (TIME >= 2.95) + 1.0 * (TIME >= 7.95)
+    spans = fault_spans(record(bits, f"{lost}, {leak}"))
+    rounded = [FaultSpan(each.label, round(each.start, 3), round(each.end, 3)) for each in spans]
+    assert rounded == [FaultSpan(lost, 2.0, 4.0), FaultSpan(lost, 8.0, 9.9), FaultSpan(leak, 3.0, 9.9)]
+
+
+def test_a_stop_without_faults_has_none() -> None:
+    plain = Recording({"time": TIME, "speed": 30.0 - TIME}, {"time": "s", "speed": "m/s"}, {})
+    assert fault_spans(plain) == ()
+    assert fault_spans(record(np.zeros_like(TIME), "brake-line-leak")) == ()
+
+
+def test_the_page_shades_the_time_and_says_it() -> None:
+    trace = trace_of(record(1.0 * (TIME >= 2.95), "brake-line-leak"))
+    marks = list(fault_marks(trace))
+    assert [(mark.plot, mark.kind, round(mark.x0 or 0.0, 3), mark.label) for mark in marks] == [
+        ("speed", "window", 3.0, "brake-line-leak"),
+        ("force", "window", 3.0, ""),
+    ]
+    assert fault_sentence(trace.faults[0]) == "Fault brake-line-leak from 3 s to 9.9 s."

@@ -1,0 +1,101 @@
+"""Series made of stops whose results are written down, and files in a folder of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from uictest import series
+from uictest.evaluation import CaseResult, RepeatedStop, Repeats
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+
+Write = Callable[[str, str], Path]
+SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n{text}"
+SERIES = "schema: uictest/series/1\nname: campaign\n{text}"
+PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
+
+
+@pytest.fixture
+def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+    """Write a file into the working folder, which holds dry.yaml and wet.yaml."""
+    monkeypatch.chdir(tmp_path)
+
+    def to(name: str, text: str) -> Path:
+        path = Path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+        return path
+
+    to("dry.yaml", SCENARIO.format(name="dry", text="rail: {condition: dry}\ncriteria: uictest-stop\n"))
+    wet = "rail: {condition: wet, friction: 0.08}\ncriteria: uictest-stop\n"
+    to("wet.yaml", SCENARIO.format(name="wet", text=wet))
+    return to
+
+
+@pytest.fixture
+def load(write: Write) -> Callable[..., list[series.Series]]:
+    """The series of a file that says this besides its schema and name."""
+
+    def read(text: str = PAIR, *overrides: str, seed: int | None = None) -> list[series.Series]:
+        return series.load_series(write("campaign.series.yaml", SERIES.format(text=text)), overrides, seed)
+
+    return read
+
+
+def columns(distance: float, speed_kmh: float = 120.0, **changes: float) -> dict[str, float]:
+    """The columns of a stop with this braking distance; its deceleration distance is 60 m shorter."""
+    own = {
+        "braking_distance_m": distance,
+        "mean_deceleration_mps2": (speed_kmh / 3.6) ** 2 / (2.0 * distance),
+        "deceleration_distance_m": distance - 60.0,
+    }
+    return dict.fromkeys(STOP_COLUMNS, 1.0) | own | changes
+
+
+@pytest.fixture
+def judge() -> Callable[..., series.SeriesResult]:
+    """Judge a series whose stops have these distances (m), outcomes and verdicts, dry ones first.
+
+    A list of distances makes a repeated case.
+    """
+
+    def judged(
+        planned: series.Series,
+        distances: Sequence[float | list[float]],
+        outcomes: Mapping[float, str] | None = None,
+        **changes: float,
+    ) -> series.SeriesResult:
+        cases = []
+        for stop, given in zip(planned.stops, distances, strict=True):
+            speed = round(stop.speed * 3.6, 6)
+            stops = [
+                _stop(seed, each, speed, (outcomes or {}).get(each, "pass"), changes)
+                for seed, each in enumerate(given if isinstance(given, list) else [given])
+            ]
+            result = CaseResult(stop.case.id, "x.yaml", {}, "pass", stops[0].outcome, stops[0].reason)
+            result = replace(
+                result,
+                criteria=stops[0].criteria,
+                measures=stops[0].measures,
+                wheelsets=stops[0].wheelsets,
+                repeats=Repeats("all", tuple(stops)) if isinstance(given, list) else None,
+            )
+            cases.append(series.SeriesCase(stop.role, speed, result))
+        return series.judge_series(planned, cases)
+
+    return judged
+
+
+def _stop(
+    seed: int,
+    distance: float,
+    speed: float,
+    outcome: str,
+    changes: Mapping[str, float],
+) -> RepeatedStop:
+    wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 0.0),) * 4
+    reason = "" if outcome == "pass" else f"because it is {outcome}"
+    return RepeatedStop(seed, outcome, reason, (), columns(distance, speed, **changes), wheelsets)  # type: ignore[arg-type]

@@ -1,0 +1,242 @@
+"""What a series file may say, and what is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest import series
+from uictest.scenario import ScenarioErrors
+
+Load = Callable[..., list[series.Series]]
+Write = Callable[[str, str], Path]
+PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
+
+
+def ids(planned: series.Series) -> list[tuple[str, str]]:
+    return [(stop.role, stop.case.id.removeprefix(f"{planned.id}.")) for stop in planned.stops]
+
+
+def test_the_least_that_a_series_says(load: Load) -> None:
+    (planned,) = load()
+    assert planned.id == "campaign"
+    assert ids(planned) == [("dry", "dry"), ("wet", "wet")]
+    assert [profile.name for profile in planned.criteria] == ["uictest-wsp"]
+    assert (planned.file.valid_stops, planned.file.confidence) == (0.8, 0.95)
+
+
+def test_values_of_an_entry_make_stops_whose_ids_name_them(load: Load) -> None:
+    text = (
+        "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.09], brake.command: 100 %}}\n"
+    )
+    (planned,) = load(text)
+    assert ids(planned)[1:] == [
+        ("wet", "wet[friction=0.07,command=100]"),
+        ("wet", "wet[friction=0.09,command=100]"),
+    ]
+    assert [float(stop.case.scenario.rail.friction or 0) for stop in planned.stops[1:]] == [0.07, 0.09]
+
+
+def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(load: Load) -> None:
+    text = "repeat: 5\nset: {seed: 7}\ndry: {scenario: dry.yaml, repeat: 1, set: {seed: 8}}\nwet: wet.yaml\n"
+    (planned,) = load(text)
+    assert [(stop.case.scenario.repeat, stop.case.scenario.seed) for stop in planned.stops] == [
+        (1, 8),
+        (5, 7),
+    ]
+    (planned,) = load(text, "repeat=2", seed=9)
+    assert [(stop.case.scenario.repeat, stop.case.scenario.seed) for stop in planned.stops] == [
+        (2, 9),
+        (2, 9),
+    ]
+
+
+def test_one_value_of_the_command_line_is_for_all_stops(load: Load) -> None:
+    (planned,) = load(PAIR, "controller=slip-band")
+    assert planned.id == "campaign"
+    assert {stop.case.scenario.controller.name for stop in planned.stops} == {"slip-band"}
+
+
+def test_several_values_make_a_series_each_as_those_under_matrix_do(load: Load) -> None:
+    for planned in (
+        load(PAIR, "controller=threshold,slip-band"),
+        load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n"),
+    ):
+        assert [each.id for each in planned] == [
+            "campaign[controller=threshold]",
+            "campaign[controller=slip-band]",
+        ]
+        assert [each.parameters for each in planned] == [
+            {"controller": "threshold"},
+            {"controller": "slip-band"},
+        ]
+        assert [each.stops[1].case.scenario.controller.name for each in planned] == ["threshold", "slip-band"]
+
+
+def test_the_command_line_takes_the_place_of_an_axis_of_the_file(load: Load) -> None:
+    (planned,) = load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n", "controller=slip-band")
+    assert planned.id == "campaign"
+    assert planned.stops[1].case.scenario.controller.name == "slip-band"
+
+
+def test_two_speeds_have_a_dry_stop_each(load: Load) -> None:
+    speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
+    (planned,) = load(f"dry: {{scenario: dry.yaml, {speeds}}}\nwet: {{scenario: wet.yaml, {speeds}}}\n")
+    assert [round(stop.speed * 3.6) for stop in planned.stops] == [80, 120, 80, 120]
+
+
+def test_stops_are_judged_by_the_criteria_of_their_scenario_and_those_of_the_series(load: Load) -> None:
+    (planned,) = load()
+    assert [each.name for each in planned.stops[1].case.scenario.criteria] == ["uictest-stop", "uictest-wsp"]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ("dry: dry.yaml\n", 1, "missing key 'wet'"),
+        ("dry: []\nwet: wet.yaml\n", 3, "an empty list"),
+        ("dry: dri.yaml\nwet: wet.yaml\n", 3, "no such file: 'dri.yaml'"),
+        ("dry: dry.yaml\nwet: [wet.yaml, wet.yaml]\n", 4, "a second stop 'campaign.wet'"),
+        ("dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.fricton: 0.1}}\n", 4, "unknown key 'fricton'"),
+        (
+            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {initial_speed: 80 km/h}}\n",
+            3,
+            "no wet stop from 120 km/h",
+        ),
+        (
+            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {brake.command: 80 %}}\n",
+            4,
+            "differ in 'brake.command'",
+        ),
+        (
+            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {vehicle: crh380a}}\n",
+            4,
+            "differ in 'vehicle'",
+        ),
+        (f"{PAIR}criteria: uictest-wps\n", 5, "no criteria 'uictest-wps' in the library"),
+        (f"{PAIR}criteria: [uictest-wsp, uictest-wsp]\n", 5, "is in profile 'uictest-wsp' as well"),
+        (f"{PAIR}valid_stops: 120 %\n", 5, "out of range"),
+        (f"{PAIR}repeat: 0\n", 5, "at least 1"),
+        (f"{PAIR}matrix: {{name: [a, b]}}\n", 5, "'name' belongs to the file"),
+        ("dry: dry.yaml\nwet: {scenario: wet.yaml, recordings: [a.csv]}\n", 4, "no such file: 'a.csv'"),
+        (
+            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: []}}\n",
+            4,
+            "an empty list makes no stop",
+        ),
+    ],
+)
+def test_what_makes_no_series_is_refused_at_its_place(load: Load, text: str, line: int, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(text)
+    shown = [each for each in caught.value.diagnostics if message in each.message]
+    assert shown, caught.value.diagnostics
+    assert shown[0].line == line
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "hint"),
+    [
+        ("name: x\n", "missing key 'schema'", "uictest/series/1"),
+        (
+            "schema: uictest/scenario/1\nname: x\n",
+            "expected uictest/series/1",
+            "does not end in .series.yaml",
+        ),
+    ],
+)
+def test_a_file_of_another_kind_is_refused(write: Write, text: str, message: str, hint: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        series.load_series(write("x.series.yaml", text))
+    (diagnostic,) = caught.value.diagnostics
+    assert message in diagnostic.message
+    assert hint in diagnostic.hint
+
+
+def test_a_criterion_in_both_profiles_is_refused(load: Load, write: Write) -> None:
+    own = """schema: uictest/criteria/1
+name: own
+criteria:
+  - {id: standstill, layer: requirement, measure: standstill, lower: 1}
+"""
+    write("own.yaml", own)
+    with pytest.raises(
+        ScenarioErrors, match="'standstill' is in the profiles of the series and of the scenario"
+    ):
+        load(f"{PAIR}criteria: own.yaml\n")
+
+
+def test_the_schema_accepts_what_is_accepted(write: Write) -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    schema = series.series_schema()
+    jsonschema.Draft7Validator.check_schema(schema)
+    head = {"schema": "uictest/series/1", "name": "campaign"}
+    for document in (
+        {"dry": "dry.yaml", "wet": ["wet.yaml", {"scenario": "wet.yaml", "set": {"seed": [1, 2]}}]},
+        {
+            "dry": {"scenario": "dry.yaml"},
+            "wet": ["wet.yaml"],
+            "criteria": ["uictest-wsp"],
+            "valid_stops": "90 %",
+        },
+    ):
+        jsonschema.validate(head | document, schema)
+    for document in ({"dry": "dry.yaml"}, {"dry": "dry.yaml", "wet": [1]}, {"dry": [], "wet": ["w.yaml"]}):
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate(head | document, schema)
+
+
+def test_a_profile_of_the_series_is_not_taken_for_another_one_of_the_same_name(
+    load: Load, write: Write
+) -> None:
+    profile = (
+        "schema: uictest/criteria/1\nname: own\ncriteria:\n"
+        "  - {{id: length, layer: requirement, measure: braking_distance, upper: {upper}}}\n"
+    )
+    write("own.yaml", profile.format(upper="5 m"))
+    write("other/own.yaml", profile.format(upper="500 m"))
+    text = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {criteria: %s}}\ncriteria: own.yaml\n"
+    with pytest.raises(ScenarioErrors, match="different profiles named 'own'"):
+        load(text % "other/own.yaml")
+    (planned,) = load(text % "own.yaml")
+    assert [profile.name for profile in planned.stops[1].case.scenario.criteria] == ["own"]
+
+
+@pytest.mark.parametrize(
+    "wet",
+    [
+        "{scenario: wet.yaml, repeat: 3, set: {seed: [0, 1]}}",
+        "[wet.yaml, {scenario: wet.yaml, set: {seed: 0}}]",
+        "[{scenario: wet.yaml, repeat: 3}, {scenario: again.yaml, set: {seed: 2}}]",
+    ],
+)
+def test_a_stop_that_is_run_twice_is_refused(load: Load, write: Write, wet: str) -> None:
+    write("again.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", "name: again"))
+    with pytest.raises(ScenarioErrors, match="again with seed"):
+        load(f"dry: dry.yaml\nwet: {wet}\n")
+
+
+def test_stops_that_differ_in_seed_or_conditions_are_run(load: Load) -> None:
+    (planned,) = load(
+        "dry: dry.yaml\n"
+        "wet: {scenario: wet.yaml, repeat: 3, set: {seed: [0, 3], rail.friction: [0.08, 0.09]}}\n"
+    )
+    assert len(planned.stops) == 5
+
+
+def test_the_reference_is_a_stop_on_dry_rail(load: Load) -> None:
+    with pytest.raises(ScenarioErrors, match=r"the rail of 'campaign\.wet' is 'wet'"):
+        load("dry: wet.yaml\nwet: dry.yaml\n")
+
+
+@pytest.mark.parametrize("role", ["dry", "wet"])
+def test_a_recording_is_one_stop(load: Load, write: Write, role: str) -> None:
+    write("a.csv", "")
+    write("b.csv", "")
+    dry = "a.csv, a.csv" if role == "dry" else "a.csv"
+    wet = "a.csv, b.csv" if role == "wet" else "b.csv"
+    entry = "{role}: {{scenario: {role}.yaml, recordings: [{files}]}}\n"
+    with pytest.raises(ScenarioErrors, match=r"'a\.csv' is named twice"):
+        load(entry.format(role="dry", files=dry) + entry.format(role="wet", files=wet))

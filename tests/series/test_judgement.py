@@ -1,0 +1,308 @@
+"""Series judged from results that are written down: what counts, what decides, and how sure it is."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from uictest import evaluation, series
+from uictest.scenario.yaml import parse_quantity
+
+Load = Callable[..., list[series.Series]]
+Judge = Callable[..., series.SeriesResult]
+Write = Callable[[str, str], Path]
+THREE = (
+    "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\ncriteria: own.yaml\n"
+)
+OWN = """schema: uictest/criteria/1
+name: own
+criteria:
+  - {id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 0.80}
+  - {id: each, layer: requirement, measure: braking_distance, upper: 130 % of the dry stop}
+  - {id: passing, layer: requirement, scope: series, measure: passing_share, lower: 60 %}
+"""
+
+
+@pytest.fixture
+def planned(load: Load, write: Write) -> series.Series:
+    """One dry stop and three wet ones, judged by three criteria."""
+    write("own.yaml", OWN)
+    (one,) = load(THREE)
+    return one
+
+
+def verdicts(result: series.SeriesResult) -> dict[str, series.SeriesVerdict]:
+    return {each.verdict.id: each for each in result.criteria}
+
+
+def test_a_series_that_keeps_everything_passes(planned: series.Series, judge: Judge) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0])
+    assert (result.outcome, result.met) == ("pass", True)
+    k_wet = verdicts(result)["k-wet"]
+    # Deceleration distances 440, 460, 480 m against 400 m: 15 % more in the mean.
+    assert k_wet.verdict.value == pytest.approx(100.0 / 115.0)
+    assert k_wet.verdict.margin == pytest.approx(100.0 / 115.0 - 0.8)
+    assert k_wet.speed_kmh == 120.0
+
+
+def test_one_stop_from_each_speed_has_a_speed_that_decides(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN)
+    speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
+    dry, wet = (f"{{scenario: {role}.yaml, {speeds}}}" for role in ("dry", "wet"))
+    (one,) = load(f"dry: {dry}\nwet: {wet}\ncriteria: own.yaml\n")
+    # Deceleration distances of 160 and 400 m grow by 12.5 and by 25 %.
+    k_wet = verdicts(judge(one, [220.0, 460.0, 240.0, 560.0]))["k-wet"]
+    assert (k_wet.verdict.value, k_wet.speed_kmh) == (pytest.approx(0.8), 120.0)
+
+
+def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load: Load, judge: Judge, write: Write) -> None:
+    share = "{id: locks, layer: requirement, scope: series, measure: worst_locked_time,"
+    write(
+        "own.yaml",
+        f"schema: uictest/criteria/1\nname: own\ncriteria: [{share} upper: 150 % of the dry stop}}]\n",
+    )
+    (one,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    locks = verdicts(judge(one, [460.0, 500.0]))["locks"].verdict
+    assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number, or zero")
+
+
+def test_a_verdict_whose_interval_crosses_the_bound_is_not_certain(
+    planned: series.Series, judge: Judge
+) -> None:
+    certain = judge(planned, [460.0, 519.0, 520.0, 521.0])
+    uncertain = judge(planned, [460.0, 480.0, 520.0, 560.0])
+    assert verdicts(certain)["k-wet"].confident is True
+    assert verdicts(uncertain)["k-wet"].confident is False
+    assert uncertain.outcome == "pass"
+
+
+def test_every_wet_stop_must_keep_a_criterion_of_stops(planned: series.Series, judge: Judge) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 600.0])
+    each = verdicts(result)["each"]
+    assert (each.verdict.status, each.kept, each.stops) == ("fail", 2, 3)
+    # The worst stop decides: 600 m is 130.43 % of 460 m.
+    assert each.verdict.value == pytest.approx(100.0 * 600.0 / 460.0)
+    assert each.of_dry_stop
+
+
+def test_a_stop_beyond_its_share_of_the_dry_stop_does_not_pass(planned: series.Series, judge: Judge) -> None:
+    result = judge(planned, [460.0, 500.0, 600.0, 610.0])
+    share = verdicts(result)["passing"]
+    assert share.verdict.value == pytest.approx(100.0 / 3.0)
+    assert share.verdict.status == "fail"
+
+
+def test_invalid_stops_do_not_count_and_are_named(planned: series.Series, judge: Judge) -> None:
+    # The invalid stop of 2000 m would spoil every figure.
+    planned = _with_valid_share(planned, "60 %")
+    result = judge(planned, [460.0, 500.0, 520.0, 2000.0], {2000.0: "invalid"})
+    (speed,) = result.speeds
+    assert (speed.wet.run, speed.wet.counted) == (3, 2)
+    assert verdicts(result)["k-wet"].verdict.value == pytest.approx(100.0 / 112.5)
+    assert [(stop.case, stop.outcome, stop.reason) for stop in result.not_counted] == [
+        ("campaign.wet[friction=0.09]", "invalid", "because it is invalid")
+    ]
+
+
+@pytest.mark.parametrize("outcome", ["invalid", "inconclusive", "skipped"])
+def test_too_few_stops_that_count_decide_nothing(planned: series.Series, judge: Judge, outcome: str) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0], {540.0: outcome})
+    assert result.outcome == "inconclusive"
+    assert {each.verdict.status for each in result.criteria} == {"inconclusive"}
+    assert "2 of 3 wet stops from 120 km/h count, 80 % must" in result.reason
+
+
+def test_without_a_dry_stop_that_counts_nothing_is_decided(planned: series.Series, judge: Judge) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0], {460.0: "invalid"})
+    assert result.outcome == "inconclusive"
+    assert "none of 1 dry stops from 120 km/h counts" in result.reason
+
+
+def test_a_stop_that_failed_to_run_is_an_error(planned: series.Series, judge: Judge) -> None:
+    assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
+
+
+def test_a_criterion_of_stops_with_a_bound_of_its_own_is_judged_by_their_verdicts(
+    load: Load, judge: Judge, write: Write
+) -> None:
+    own = """schema: uictest/criteria/1
+name: own
+criteria:
+  - {id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}
+"""
+    write("own.yaml", own)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    cases = []
+    for each, longest in zip(judge(planned, [460.0, 500.0]).cases, (0.0, 2.5), strict=True):
+        status: evaluation.Status = "pass" if longest <= 1.0 else "fail"
+        verdict = evaluation.Verdict(
+            "locks", "requirement", longest, "s", None, 1.0, 1.0 - longest, status, ""
+        )
+        case = replace(each.case, criteria=(verdict,), outcome=status, repeats=None)
+        cases.append(replace(each, case=case))
+    (over,) = series.judge_series(planned, cases).criteria
+    assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 1, 2)
+
+
+def test_a_failed_requirement_of_a_stop_counts_and_lowers_the_share(
+    planned: series.Series, judge: Judge
+) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "fail"})
+    assert result.speeds[0].wet.counted == 3
+    assert verdicts(result)["passing"].verdict.value == pytest.approx(200.0 / 3.0)
+
+
+def test_a_stop_from_another_speed_does_not_count(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    dry, wet = (each.case for each in judge(planned, [460.0, 500.0]).cases)
+    measures = dict(wet.measures or {}) | {"mean_deceleration_mps2": (115.0 / 3.6) ** 2 / 1000.0}
+    slower = evaluation.CaseResult(wet.id, "x", {}, "pass", "pass", measures=measures)
+    result = series.judge_series(
+        planned, [series.SeriesCase("dry", 120.0, dry), series.SeriesCase("wet", 120.0, slower)]
+    )
+    assert result.not_counted[0].reason == "initial speed is 115 km/h, nominal 120 +- 3 km/h"
+
+
+def test_every_repeat_is_a_stop(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    distances = [500.0, 505.0, 510.0, 515.0, 520.0, 525.0]
+    result = judge(planned, [[459.0, 461.0], distances])
+    estimate = result.measures["median_braking_distance"].estimate
+    assert estimate is not None
+    assert (estimate.value, estimate.low, estimate.high, estimate.stops) == (512.5, 500.0, 525.0, 6)
+    assert result.speeds[0].dry == series.StopCounts(2, 2)
+
+
+def test_the_dry_stop_is_the_mean_of_those_that_count(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    result = judge(planned, [[450.0, 470.0, 900.0], [552.0]], {900.0: "invalid"})
+    assert verdicts(result)["each"].verdict.value == pytest.approx(100.0 * 552.0 / 460.0)
+
+
+def test_a_verdict_names_the_requirements_of_its_criterion(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN.replace("lower: 0.80}", "lower: 0.80, requirements: [BR-WSP-12]}"))
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    assert verdicts(judge(planned, [460.0, 500.0]))["k-wet"].verdict.requirements == ("BR-WSP-12",)
+
+
+def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load: Load, judge: Judge) -> None:
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\nrequirements: [BR-9, BR-1]\ntest_case: WSP-TC-7\n")
+    document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0])])))
+    (read,) = series.series_results_of(document)
+    assert (read.requirements, read.test_case) == (("BR-9", "BR-1"), "WSP-TC-7")
+    assert document["series"][0]["requirements"] == ["BR-9", "BR-1"]
+
+
+def test_without_requirements_the_document_does_not_speak_of_them(
+    planned: series.Series, judge: Judge
+) -> None:
+    (form,) = series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])["series"]
+    assert not {"requirements", "test_case"} & form.keys()
+    assert not any("requirements" in each["verdict"] for each in form["criteria"])
+
+
+def test_expected_failures_are_met(load: Load, judge: Judge, write: Write) -> None:
+    write("own.yaml", OWN)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\nexpect: fail\n")
+    assert judge(planned, [460.0, 900.0]).met
+    assert not judge(planned, [460.0, 500.0]).met
+
+
+def test_a_series_is_judged_again_from_its_document(planned: series.Series, judge: Judge) -> None:
+    result = judge(_with_valid_share(planned, "60 %"), [460.0, 500.0, 520.0, 540.0], {540.0: "invalid"})
+    document = json.loads(json.dumps(series.series_document([result])))
+    (read,) = series.series_results_of(document)
+    assert json.dumps(series.series_document([read])) == json.dumps(document)
+    again = series.judge_series(_with_valid_share(planned, "60 %"), read.cases)
+    assert json.dumps(series.series_document([again])) == json.dumps(document)
+
+
+def test_cases_of_another_series_are_not_judged(planned: series.Series, load: Load, judge: Judge) -> None:
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0])
+    (other,) = load("dry: dry.yaml\nwet: wet.yaml\n")
+    with pytest.raises(ValueError, match="has no case"):
+        series.judge_series(other, result.cases)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda document: document.update(schema="uictest/series-result/2"), "expected schema"),
+        (lambda document: document.update(more=1), "expected the fields"),
+        (
+            lambda document: document["series"][0]["measures"].update(
+                new=document["series"][0]["measures"]["k_wet"]
+            ),
+            "no series has a measure 'new'",
+        ),
+        (lambda document: document["series"][0]["criteria"][1].update(kept=99), "99 of 3 stops keep 'each'"),
+        (lambda document: document["series"][0].update(outcome="good"), "series.0.outcome"),
+        (lambda document: document["series"][0].pop("confidence"), "series.0.confidence"),
+        (lambda document: document["series"][0]["cases"][0].update(case="other"), "no case 'other'"),
+        (lambda document: document["series"][0]["speeds"][0].update(speed="x"), "series.0.speeds.0.speed"),
+        (lambda document: document["cases"].append(document["cases"][0]), "same id"),
+        (lambda document: document["cases"][0].update(outcome=3), "series.cases.0.outcome"),
+    ],
+)
+def test_a_document_that_is_none_is_refused(
+    planned: series.Series, judge: Judge, spoil: Callable[[dict[str, object]], object], message: str
+) -> None:
+    document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])))
+    spoil(document)
+    with pytest.raises(ValueError, match=message):
+        series.series_results_of(document)
+
+
+def _with_valid_share(planned: series.Series, text: str) -> series.Series:
+    share = parse_quantity(text, "share")
+    return replace(planned, file=planned.file.model_copy(update={"valid_stops": share}))
+
+
+TWO_SPEEDS = "{role}: {{scenario: {role}.yaml, set: {{initial_speed: [80 km/h, 120 km/h]}}{more}}}\n"
+
+
+@pytest.fixture
+def two_speeds(load: Load, write: Write) -> series.Series:
+    """Dry and wet stops from two speeds, the wet ones repeated, by a bound above and one below."""
+    own = "  - {{id: {id}, layer: requirement, scope: series, measure: median_braking_distance, {bound}}}\n"
+    bounds = ("upper: 130 % of the dry stop", "lower: 105 % of the dry stop")
+    criteria = "".join(
+        own.format(id=key, bound=bound) for key, bound in zip(("long", "short"), bounds, strict=True)
+    )
+    write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria:\n{criteria}")
+    wet = TWO_SPEEDS.format(role="wet", more=", repeat: 7")
+    (one,) = load(TWO_SPEEDS.format(role="dry", more="") + wet + "criteria: own.yaml\n")
+    return one
+
+
+def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(
+    two_speeds: series.Series, judge: Judge
+) -> None:
+    result = verdicts(judge(two_speeds, [200.0, 400.0, [202.0] * 7, [500.0] * 7]))
+    assert (result["long"].verdict.status, result["long"].speed_kmh) == ("pass", 120.0)
+    assert (result["short"].verdict.status, result["short"].speed_kmh) == ("fail", 80.0)
+    assert result["short"].verdict.value == pytest.approx(101.0)
+
+
+def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(
+    two_speeds: series.Series, judge: Judge
+) -> None:
+    # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
+    scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
+    long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [500.0] * 7]))["long"]
+    assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
+
+
+def test_one_speed_that_misses_for_certain_makes_a_miss_certain(
+    two_speeds: series.Series, judge: Judge
+) -> None:
+    scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
+    long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [540.0] * 7]))["long"]
+    assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)

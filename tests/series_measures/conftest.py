@@ -1,0 +1,36 @@
+"""Stops of a series, made by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from uictest.series_measures import CountedStop, SpeedStops
+
+MakeStop = Callable[..., CountedStop]
+MakeSpeed = Callable[..., SpeedStops]
+
+
+@pytest.fixture
+def make_stop() -> MakeStop:
+    """A stop with a braking distance, a deceleration distance 60 m shorter, and whatever else is given."""
+
+    def make(
+        distance: float = 460.0, *, passed: bool = True, locked: float = 0.0, **columns: float
+    ) -> CountedStop:
+        measures = {"braking_distance_m": distance, "deceleration_distance_m": distance - 60.0} | columns
+        wheelsets = tuple({"locked_time_s": time} for time in (0.0, locked, 0.0, 0.0))
+        return CountedStop(measures, wheelsets, passed)
+
+    return make
+
+
+@pytest.fixture
+def make_speed(make_stop: MakeStop) -> MakeSpeed:
+    """Dry and wet stops by their braking distances."""
+
+    def make(dry: list[float], wet: list[float], speed: float = 120.0 / 3.6) -> SpeedStops:
+        return SpeedStops(speed, tuple(map(make_stop, dry)), tuple(map(make_stop, wet)))
+
+    return make
