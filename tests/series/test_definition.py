@@ -53,6 +53,13 @@ def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(
     ]
 
 
+def test_what_a_scenario_expects_of_itself_has_no_part_in_a_series(load: Load) -> None:
+    wet = Path("wet.yaml")
+    wet.write_text(f"{wet.read_text('utf-8')}expect: invalid\n", "utf-8")
+    (planned,) = load()
+    assert [stop.case.scenario.expect for stop in planned.stops] == ["pass", "pass"]
+
+
 def test_one_value_of_the_command_line_is_for_all_stops(load: Load) -> None:
     (planned,) = load(PAIR, "controller=slip-band")
     assert planned.id == "campaign"
