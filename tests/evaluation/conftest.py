@@ -51,6 +51,7 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
     return SimpleNamespace(
         rail=SimpleNamespace(condition=SimpleNamespace(name=condition), gradient=settings["gradient"]),
         rig=SimpleNamespace(wsp=settings["wsp"], topology="one-caliper"),
+        faults=(),
         brake=SimpleNamespace(position=settings["position"], command=settings["command"]),
         simulation=SimpleNamespace(maximum_duration=SimpleNamespace(text="60 s")),
         criteria=profiles,

@@ -72,16 +72,25 @@ def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(
         assert statuses[balance] == "pass"
 
 
-def test_the_criteria_ask_nothing_of_a_stop_without_a_fault(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("faults", "status", "outcome"),
+    [
+        ("[]", "not_applicable", "pass"),
+        ("[{at: 100 s, wheelset: 2, part: speed-sensor, kind: lost}]", "inconclusive", "inconclusive"),
+    ],
+)
+def test_a_stop_in_which_no_fault_begins_shows_no_reaction(
+    tmp_path: Path, faults: str, status: str, outcome: str
+) -> None:
     path = tmp_path / "stop.yaml"
     path.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\ncriteria: uictest-wsp-faults\n"
+        f"faults: {faults}\n"
     )
     [case] = load([path])
-    statuses = [
-        each.status for each in campaign.run_case(case, campaign.RecordingRequest("none")).result.criteria
-    ]
-    assert statuses == ["pass", "not_applicable", "not_applicable", "not_applicable"]
+    result = campaign.run_case(case, campaign.RecordingRequest("none")).result
+    assert [each.status for each in result.criteria] == ["pass", status, status, status]
+    assert result.outcome == outcome
 
 
 def test_the_simplest_controller_misses_them(tmp_path: Path) -> None:

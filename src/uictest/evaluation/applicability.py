@@ -14,7 +14,8 @@ from uictest.units import in_unit, value_text
 class TestConditions:
     """Conditions of a stop that a criterion can require.
 
-    `command` is a share of full service, `gradient` a share, positive uphill.
+    `command` is a share of full service, `gradient` a share, positive uphill. `has_faults` tells whether the
+    scenario injects any.
     """
 
     rail_condition: str
@@ -23,6 +24,7 @@ class TestConditions:
     command: float
     gradient: float
     topology: str
+    has_faults: bool = False
 
 
 def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
@@ -34,6 +36,7 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
         command=resolved.brake.command,
         gradient=resolved.rail.gradient,
         topology=resolved.rig.topology,
+        has_faults=bool(resolved.faults),
     )
 
 

@@ -29,6 +29,7 @@ JUDGED_KEYS = (
     "rig.topology",
     "rig.wsp",
     "simulation.maximum_duration",
+    "faults",
     "criteria",
     "measures",
     "expect",

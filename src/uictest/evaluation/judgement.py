@@ -122,6 +122,8 @@ def _not_applicable(
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if unknown and criterion.applies.initial_speed is not None:
         return Decision("inconclusive", None, unknown)
+    if criterion.of_faults and conditions.has_faults and is_nan(stop.measures.fault_time):
+        return Decision("inconclusive", None, "no fault of the scenario began while the train moved")
     return None
 
 

@@ -144,6 +144,7 @@ class Measure:
         meaning: what it is, in words.
         read: returns its value.
         of_wheelsets: whether every wheelset has a value.
+        of_faults: whether it says something about the reaction to faults: nothing, where none began.
         of_simulation: whether it says something about the simulation itself, nothing about a train.
         definitions: parameters that a criterion must define before the words mean a number.
         observed_by: fields of the scenario's `measures` part that decide what is observed.
@@ -161,6 +162,7 @@ class Measure:
     meaning: str
     read: Reader
     of_wheelsets: bool = False
+    of_faults: bool = False
     of_simulation: bool = False
     definitions: tuple[str, ...] = ()
     observed_by: tuple[str, ...] = ()

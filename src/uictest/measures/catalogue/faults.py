@@ -50,6 +50,7 @@ MEASURES = (
         meaning="longest time at a stretch that a wheelset without a fault of its own is locked",
         read=lambda stop, wheelsets, definition: longest_lock_of_sound_wheelsets(stop, wheelsets),
         observed_by=("locked_speed", "moving_speed"),
+        of_faults=True,
         recorded=_FAULTS,
     ),
     Measure(
@@ -61,6 +62,7 @@ MEASURES = (
         " once the brake is developed",
         read=lambda stop, wheelsets, definition: longest_release(stop, wheelsets),
         observed_by=("moving_speed", "developed_time", "released_share"),
+        of_faults=True,
         recorded=_FAULTS,
     ),
     Measure(
@@ -71,6 +73,7 @@ MEASURES = (
         meaning="largest excess of the controller's reference speed over the train's since the first fault",
         read=lambda stop, wheelsets, definition: reference_excess(stop),
         observed_by=("moving_speed",),
+        of_faults=True,
         recorded=_FAULTS,
     ),
 )

@@ -103,6 +103,11 @@ class Criterion(Model):
         return self._declared.course
 
     @property
+    def of_faults(self) -> bool:
+        """Whether the measure describes the reaction to faults."""
+        return self._declared.of_faults
+
+    @property
     def of_simulation(self) -> bool:
         """Whether the measure describes the simulation itself, not a train."""
         return self._declared.of_simulation

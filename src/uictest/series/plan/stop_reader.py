@@ -103,8 +103,8 @@ class StopReader:
             message = f"the id {quoted(name)} is longer than {LONGEST} characters"
             raise single_error(reference.place, message, "name")
         # What is expected of the scenario alone, by its own criteria, says nothing about a stop of a series.
-        own = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
-        return replace(case, id=name, scenario=case.scenario.model_copy(update=own))
+        judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
+        return replace(case, id=name, scenario=case.scenario.model_copy(update=judged_by))
 
     def _recorded(self, stops: Stops, node: Node) -> Recorded | None:
         """Return the recordings of an entry, None without any. Raises ScenarioErrors where one is missing."""
