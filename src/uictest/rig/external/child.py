@@ -39,6 +39,8 @@ def serve(exchange_file: int, lifeline: int, temporary_folder: str) -> None:
         try:
             request = read_message(requests)
         except StreamEndedError:
+            # The parent is gone: this process may end before the thread that waits for that has cleared up.
+            shutil.rmtree(temporary_folder, ignore_errors=True)
             return
         memory[:] = bytes(len(memory))
         answer = _answer(request, exchanges)
