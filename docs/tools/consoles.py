@@ -21,7 +21,9 @@ REPOSITORY = Path(__file__).parents[2]
 _PROMPT = "$ "
 _NUMBER = re.compile(r"[-+]?\d[\d.,]*(?:e[-+]?\d+)?|\bnan\b")
 _VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
-_SIGN_OF_LIFE = re.compile(r"^uictest: (?:compiling the rig|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE)
+_SIGN_OF_LIFE = re.compile(
+    r"^uictest: (?:compiling the rig|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE
+)
 _LONGEST = 120  # seconds that one command may take, the rig's compilation included
 
 
