@@ -1,6 +1,7 @@
 """Time and memory of a sweep as it grows: `python benchmarks/growth.py [--cases 100,1000,...] [--jobs 1,2]`.
 
 Each size runs `uictest sweep` as a process of its own on stops from 80 km/h with drawn friction and command.
+Beside the time on the clock there is that of the processor, which other load on the machine changes less.
 """
 
 import argparse
@@ -40,6 +41,8 @@ class Run:
     cases: int
     jobs: int
     seconds: float
+    processor: float
+    """Time of the processor, all threads together, s."""
     memory: float
     """Highest resident size, GB."""
 
@@ -64,7 +67,7 @@ def timed_sweep(cases: int, jobs: int) -> Run:
         seconds = time.perf_counter() - began
     if os.waitstatus_to_exitcode(status) not in (0, 1):
         raise SystemExit(f"the sweep of {cases} cases ended with status {os.waitstatus_to_exitcode(status)}")
-    return Run(cases, jobs, seconds, usage.ru_maxrss * _RSS_UNIT)
+    return Run(cases, jobs, seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * _RSS_UNIT)
 
 
 _RSS_UNIT = 1e-9 if sys.platform == "darwin" else 1024e-9
@@ -73,7 +76,8 @@ _RSS_UNIT = 1e-9 if sys.platform == "darwin" else 1024e-9
 
 def table(sizes: list[int], jobs: list[int]) -> list[Run]:
     """Run all sizes; print what each run took as soon as it is measured, and the gain over one thread."""
-    print(f"{'cases':>8} {'threads':>8} {'s':>9} {'cases/s':>9} {'peak GB':>8} {'speed-up':>9}", flush=True)
+    names = "   cases  threads         s   cases/s     CPU s  CPU ms/case  peak GB  speed-up"
+    print(names, flush=True)
     runs: list[Run] = []
     for cases in sizes:
         for threads in sorted(jobs):
@@ -81,8 +85,11 @@ def table(sizes: list[int], jobs: list[int]) -> list[Run]:
             runs.append(run)
             alone = [other for other in runs if (other.cases, other.jobs) == (run.cases, 1)]
             gain = f"{alone[0].seconds / run.seconds:9.2f}" if alone and run.jobs > 1 else ""
-            row = f"{run.cases:8} {run.jobs:8} {run.seconds:9.2f} {run.rate:9.1f} {run.memory:8.3f} {gain}"
-            print(row, flush=True)
+            print(
+                f"{run.cases:8} {run.jobs:8} {run.seconds:9.2f} {run.rate:9.1f} {run.processor:9.2f}"
+                f" {1e3 * run.processor / run.cases:12.3f} {run.memory:8.3f} {gain}",
+                flush=True,
+            )
     return runs
 
 
@@ -93,10 +100,11 @@ def judgement(runs: list[Run]) -> None:
     for jobs in sorted({run.jobs for run in runs}):
         before, last = sorted((run for run in runs if run.jobs == jobs), key=lambda run: run.cases)[-2:]
         times = last.seconds / before.seconds
+        each = 1e3 * (last.processor - before.processor) / (last.cases - before.cases)
         print(
             f"{jobs} threads, {before.cases} to {last.cases} cases: time x {times:.2f}"
             f" for cases x {last.cases / before.cases:.0f},"
-            f" memory {1e3 * (last.memory - before.memory):+.0f} MB"
+            f" memory {1e3 * (last.memory - before.memory):+.0f} MB, each further case {each:.3f} CPU ms"
         )
 
 

@@ -13,6 +13,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -22,9 +23,9 @@ import numpy as np
 from growth import SCENARIO
 
 from uictest import rig
-from uictest.sweep import ChunkRunner, Plan, chunk_runner, load_sweep
-from uictest.sweep.running.chunk import parquet_bytes
-from uictest.sweep.running.table import rows
+from uictest.sweeps import ChunkRunner, Plan, chunk_runner, load_sweep
+from uictest.sweeps.running.chunk import parquet_bytes
+from uictest.sweeps.running.table import rows
 
 SIMULATED = 256
 """Cases whose measures are repeated."""
@@ -81,11 +82,12 @@ def repeated_measures(runner: ChunkRunner) -> ChunkRunner:
     block = runner.assembler.block(np.arange(SIMULATED))
     simulated = runner.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
 
-    def simulate(parameters: Any, *others: Any) -> Any:
-        places = np.arange(parameters.size) % SIMULATED
+    @cache  # what repeating takes is not judging
+    def repeated(cases: int) -> Any:
+        places = np.arange(cases) % SIMULATED
         return tuple(each[places] for each in simulated)
 
-    return replace(runner, simulate=simulate)
+    return replace(runner, simulate=lambda parameters, *others: repeated(parameters.size))
 
 
 def seconds(call: Callable[[], Any]) -> tuple[float, Any]:

@@ -21,7 +21,7 @@ import numpy as np
 
 from uictest import rig
 from uictest.statistics import draws_needed
-from uictest.sweep import chunk_runner, load_sweep
+from uictest.sweeps import chunk_runner, load_sweep
 
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
 SWEEP = Path(__file__).parent.parent / "scenarios" / "dry-120-k-dry.sweep.yaml"

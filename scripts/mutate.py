@@ -1,7 +1,7 @@
 """Do the tests bite? Change the program in one place at a time and see whether a test fails.
 
     python scripts/mutate.py --seed 1 --count 60
-    python scripts/mutate.py physics sweep --count 10 --whole
+    python scripts/mutate.py physics sweeps --count 10 --whole
     python scripts/mutate.py --place src/uictest/physics/flow.py:5:20:constant
 
 Works in a temporary copy of the checkout, with a cache of compiled code of its own. Each place is tried with
@@ -32,7 +32,7 @@ ROOMS = {
     "measures": ("measures", "rig", "evaluation"),
     "controllers": ("controllers", "rig"),
     "evaluation": ("evaluation",),
-    "sweep": ("sweep",),
+    "sweeps": ("sweeps",),
 }
 """Rooms that can be mutated, and the rooms whose tests are run for each, nearest first."""
 _ONE_SOURCE = ("test_compiled.py", "test_cuda.py", "test_lanes.py", "test_native.py")

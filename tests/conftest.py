@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -11,12 +12,32 @@ from uictest import rig, scenario
 from uictest.physics import FILL, VENT
 from uictest.record import fields_of
 
+_LONGEST = (
+    "rig/backends/test_lanes.py",
+    "sweeps/running/test_judging.py",
+    "docs/test_examples.py",
+    "rig_fmu/test_stop.py",
+    "fitting/test_cleaning.py",
+    "fitting/test_one_slide.py",
+    "rig/backends/test_compiled.py",
+    "cli/commands/test_sweep.py",
+    "cli/commands/test_controller.py",
+)
+"""Files that take longest. They begin first, lest one process works on them while the others are done."""
+
 # How long an example takes says nothing about it on a machine that others use as well.
 settings.register_profile("same", deadline=None, derandomize=True)
 settings.register_profile("search", deadline=None, max_examples=1000)
 # The suite tries the same examples everywhere, so that no run fails by chance; HYPOTHESIS_PROFILE=search
 # tries others.
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the tests of the files that take longest first."""
+    tests = Path(__file__).parent
+    places = {tests / name: place for place, name in enumerate(_LONGEST)}
+    items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
 class ControllerOutside:

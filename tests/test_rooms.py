@@ -1,6 +1,7 @@
 """How the rooms of the package depend on each other."""
 
 import ast
+import re
 from collections.abc import Callable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
@@ -76,6 +77,20 @@ def test_imports_run_in_one_direction(part: Callable[[str], str]) -> None:
         graph.setdefault(part(module), set()).update(needed)
     # Raises CycleError, which names the circle.
     assert len(list(TopologicalSorter(graph).static_order())) > 1
+
+
+def test_the_list_of_rooms_names_each_and_imports_run_down_it() -> None:
+    text = (PACKAGE.parents[1] / "CONTRIBUTING.md").read_text("utf-8")
+    listed = [f"uictest.{name}" for name in re.findall(r"^    (\w+)(?:/|\.py) ", text, re.MULTILINE)]
+    assert sorted(listed) == sorted({room(module) for module in MODULES} - {"uictest"})
+    upwards = [
+        f"{module} imports {imported}"
+        for module in MODULES
+        for imported in imports(module)
+        if room(module) != "uictest" and room(imported) != "uictest"
+        if listed.index(room(imported)) < listed.index(room(module))
+    ]
+    assert upwards == []
 
 
 @pytest.mark.parametrize("face", FACES)

@@ -29,8 +29,8 @@ from uictest.scenario.yaml.quantities import Quantity
 from uictest.scenario.yaml.quantity_field import QuantityField
 from uictest.series import SeriesFile
 from uictest.series_measures import SERIES_MEASURES
-from uictest.sweep.plan.model import Distribution, Sample
-from uictest.sweep.plan.tail_model import KDryRequest, QuantileRequest
+from uictest.sweeps.plan.model import Distribution, Sample
+from uictest.sweeps.plan.tail_model import KDryRequest, QuantileRequest
 from uictest.units import KINDS
 
 HEADINGS = ("key", "written as", "default", "range", "meaning")

@@ -1,9 +1,9 @@
-"""Renews what the pages take from the program: generated tables and the output in console blocks.
+"""Renews what pages and notebooks take from the program: generated tables, the output of commands and code.
 
     python docs/tools/refresh.py [PAGE...]
 
-Without pages, all of them. Run it after a change to models, options, messages or calibrated numbers;
-the tests in tests/docs say when that is needed.
+Without pages, all of them and the notebooks. Run it after a change to models, options, messages or
+calibrated numbers; the tests in tests/docs and tests/examples say when that is needed.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import fields
+import notebooks
 from consoles import refreshed
 from markup import with_generated
 
@@ -51,6 +52,8 @@ def main(names: Sequence[str]) -> None:
             renewed = refreshed(with_generated(text, generated), Path(folder))
         if renewed != text:
             page.write_text(renewed, "utf-8")
+    for notebook in () if names else notebooks.notebooks():
+        notebooks.refresh(notebook)
 
 
 if __name__ == "__main__":

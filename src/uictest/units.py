@@ -195,6 +195,9 @@ KINDS: Final = MappingProxyType({kind.name: kind for kind in _KINDS if kind.unit
 _ZEROS: Final = {unit.symbol: float(unit.offset) for kind in _KINDS for unit in kind.all_units if unit.offset}
 """Symbol of a unit that has its own zero -> the SI value of that."""
 
+UNIT_SYMBOLS: Final = frozenset(symbol for kind in _KINDS for symbol in kind.units)
+"""Every unit that scenarios accept, as the package writes it."""
+
 SIZES: Final = {
     unit.symbol: float(unit.factor) for kind in _KINDS for unit in kind.all_units if not unit.offset
 }

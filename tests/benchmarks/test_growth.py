@@ -14,7 +14,7 @@ def test_each_row_is_printed_as_soon_as_its_sweep_has_run(
 
     def timed_sweep(cases: int, jobs: int) -> Any:
         printed.append(len(capsys.readouterr().out.splitlines()))
-        return growth.Run(cases, jobs, 10.0 / jobs, 0.3)
+        return growth.Run(cases, jobs, 10.0 / jobs, 10.0, 0.3)
 
     monkeypatch.setattr(growth, "timed_sweep", timed_sweep)
     runs = growth.table([100, 1000], [2, 1])

@@ -27,7 +27,11 @@ class Rig:
         recording = None if record_every is None else f"every {record_every} s"
         made_up = {"measures": None, "wheelset_measures": None, "response_times": None}
         return SimpleNamespace(
-            **made_up, recording=recording, controller_version="wsp 1.2.0", case_sha256="ab" * 32
+            **made_up,
+            recording=recording,
+            controller_version="wsp 1.2.0",
+            case_sha256="ab" * 32,
+            noise_key="00c0ffee",
         )
 
     def evaluate(
@@ -88,6 +92,7 @@ def test_a_result_says_which_controller_answered_in_which_stop(
     make_rig("pass")
     result = run_case(make_case("dry"), RecordingRequest("none")).result
     assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
+    assert result.noise_key == "00c0ffee"
 
 
 def test_a_stop_in_which_the_controller_failed_is_named_as_well(

@@ -147,6 +147,20 @@ def fails_with(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
     return let_fail
 
 
+def test_a_result_names_the_noise_that_its_stops_met(cases: Write, fails_with: Callable[[int], None]) -> None:
+    keys = set()
+    for controller in ("threshold", "slip-band"):
+        written = cases("stop", "repeat: 2", f"controller={controller}")
+        (result,) = run_cases(written, recording=NOTHING).results
+        (case,) = written
+        assert result.noise_key == f"{int(rig.assemble(case).parameters.noise_key):08x}"
+        keys |= {result.noise_key, run_case(case, NOTHING).result.noise_key}
+    assert len(keys) == 1
+    fails_with(0)
+    (result,) = run_cases(cases(more="repeat: 3"), recording=NOTHING).results
+    assert {result.noise_key} == keys
+
+
 @pytest.mark.parametrize("rule", ["all", "median", "{at_least: 50 %}"])
 def test_an_error_with_one_seed_never_vanishes(
     cases: Write, fails_with: Callable[[int], None], rule: str
@@ -216,7 +230,8 @@ def test_controllers_from_outside_repeat_their_stops_as_well(
     written = cases("outside", f"repeat: 3\n{controller}")
     (result,) = run_cases(written, jobs=2, recording=NOTHING, in_process=in_process).results
     assert result.repeats is not None
-    assert [stop.outcome for stop in result.repeats.stops] == [result.repeats.stops[0].outcome] * 3
+    ends = [(stop.outcome, stop.reason) for stop in result.repeats.stops]
+    assert ends == ends[:1] * 3
     (bypassed,) = run_cases(cases("inside", "repeat: 3\nrig: {wsp: bypassed}"), recording=NOTHING).results
     assert bypassed.repeats is not None
     distances = result.repeats.values("braking_distance_m")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -46,8 +47,14 @@ def scenarios(scenario: Write) -> None:
     Path("scenarios/speeds.sweep.yaml").write_text(SWEEP)
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-", "2>/dev/full"])
+# Each stream alone for a table with files, a sweep and a document; the others with none, or one that fails.
+@pytest.mark.parametrize(
+    ("command", "closed"),
+    [
+        *product(COMMANDS, ["<&- >&- 2>&-", "2>/dev/full"]),
+        *product(["run scenarios", "sweep scenarios/speeds.sweep.yaml", "schema"], ["<&-", ">&-", "2>&-"]),
+    ],
+)
 def test_closed_streams_and_a_full_stderr_change_no_exit_code(
     program: Path, scenarios: None, command: str, closed: str
 ) -> None:

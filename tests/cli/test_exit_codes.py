@@ -1,30 +1,33 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from uictest.campaign import BatchResult
-from uictest.cli.exit_codes import ExitCode, of_batch
+from uictest.cli.exit_codes import ExitCode, of_run
 from uictest.evaluation import CaseResult
+from uictest.report import RunContent
+from uictest.runs import Published
 
 
-def _campaign(*outcomes: str, interrupted: bool = False) -> BatchResult:
+def _run(*outcomes: str, interrupted: bool = False) -> Published:
     results = [CaseResult(outcome, "a.yaml", {}, "pass", outcome) for outcome in outcomes]  # type: ignore[arg-type]
-    return BatchResult(results, interrupted)
+    return Published(Path("run"), RunContent("run", results), "{}", interrupted)
 
 
 @pytest.mark.parametrize(
-    ("campaign", "code"),
+    ("run", "code"),
     [
-        (_campaign("pass", "skipped"), ExitCode.MET),
-        (_campaign("pass", "fail"), ExitCode.MISSED),
-        (_campaign("invalid"), ExitCode.MISSED),
-        (_campaign("fail", "error"), ExitCode.ERROR),
-        (_campaign("fail", "error", interrupted=True), ExitCode.INTERRUPTED),
-        (_campaign(interrupted=True), ExitCode.INTERRUPTED),
+        (_run("pass", "skipped"), ExitCode.MET),
+        (_run("pass", "fail"), ExitCode.MISSED),
+        (_run("invalid"), ExitCode.MISSED),
+        (_run("fail", "error"), ExitCode.ERROR),
+        (_run("fail", "error", interrupted=True), ExitCode.INTERRUPTED),
+        (_run(interrupted=True), ExitCode.INTERRUPTED),
     ],
 )
-def test_what_outweighs_what(campaign: BatchResult, code: ExitCode) -> None:
-    assert of_batch(campaign) is code
+def test_what_outweighs_what(run: Published, code: ExitCode) -> None:
+    assert of_run(run) is code
 
 
 def test_the_codes_are_those_that_the_documentation_promises() -> None:

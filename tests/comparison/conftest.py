@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.recording import Recording
 from uictest.report import CaseDescription, RunContent, RunManifest
@@ -73,5 +74,32 @@ def make_recording() -> Callable[..., Recording]:
         own = {"time": time, "speed": 30.0 - time, "slide_1": np.sin(time)}
         units = {"time": "s", "speed": "m/s", "slide_1": "1"}
         return Recording({**own, **channels}, {**units, **{n: units.get(n, "1") for n in channels}}, {})
+
+    return make
+
+
+@pytest.fixture
+def make_repeated() -> Callable[..., CaseResult]:
+    """A case that was repeated under these seeds: the braking distance (m) of each stop."""
+
+    def make(
+        distances: Mapping[int, float],
+        case_id: str = "slip",
+        noise_key: str = "00c0ffee",
+        **changes: Any,
+    ) -> CaseResult:
+        wheelset = dict.fromkeys(WHEELSET_COLUMNS, 0.0) | WHEELSET
+        stops = tuple(
+            RepeatedStop(
+                seed, "pass", "", (), FIGURES | {"braking_distance_m": distance}, (wheelset, wheelset)
+            )
+            for seed, distance in distances.items()
+        )
+        result = CaseResult(case_id, "slip.yaml", {}, "pass", "pass", noise_key=noise_key)
+        repeats = Repeats("all", stops)
+        medians = stops[0].measures, stops[0].wheelsets
+        return dataclasses.replace(
+            result, measures=medians[0], wheelsets=medians[1], repeats=repeats, **changes
+        )
 
     return make

@@ -14,10 +14,14 @@ from uictest.field_data import load_map
 from uictest.rig.bench.loading import load_bench
 from uictest.scenario import ScenarioErrors
 from uictest.scenario.references import KIND_OF_FOLDER
+from uictest.scenario.yaml import plain, read_file, validated
 from uictest.series import load_series
-from uictest.sweep import load_sweep
+from uictest.studies import STUDIES
+from uictest.sweeps import load_sweep
+from uictest.validation import ValidationFile
 
 REPOSITORY = Path(__file__).parents[2]
+SLOW_STUDIES = ("compensation-domain", "field-against-rig")
 KEYS = {
     "brake": "brake: {system: %s}",
     "pad": "brake: {pad: %s}",
@@ -27,11 +31,19 @@ KEYS = {
     "rail": "rail: {condition: %s}",
 }
 
+
+def load_validation_model(path: Path) -> Any:
+    """The page's commands make the recordings that the file names."""
+    tree = read_file(path)
+    return validated(ValidationFile, plain(tree), tree)
+
+
 LOADERS: dict[str, Callable[[Path], Any]] = {
     "bench": load_bench,
     "channel-map": lambda path: load_map(str(path)),
     "sweep": load_sweep,
     "series": load_series,
+    "validation": load_validation_model,
 }
 
 
@@ -81,12 +93,53 @@ def load_part(block: Any, kind: str, folder: Path) -> None:
     assert any(name.endswith(block.file_name) for name in case.inputs)
 
 
-def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
-    """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them."""
+def takes_long(block: Any) -> bool:
+    """Whether a console block runs one of the studies whose bands are judged among the slow tests."""
+    return any(f"reproduce {study}" in block.text for study in SLOW_STUDIES)
+
+
+def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> None:
+    """Run the console blocks of a page that are chosen, and compare what they print with the page."""
     from consoles import executed, prepare, shape
     from markup import blocks
 
     text = page.read_text("utf-8")
-    prepare(text, tmp_path)
-    for block in blocks(text, "console"):
-        assert shape(executed(block, tmp_path)) == shape(block.text), "run docs/tools/refresh.py"
+    prepare(text, folder)
+    for block in filter(chosen, blocks(text, "console")):
+        assert shape(executed(block, folder)) == shape(block.text), "run docs/tools/refresh.py"
+
+
+def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
+    """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them."""
+    check_consoles(page, tmp_path, lambda block: not takes_long(block))
+
+
+def titles_shown(text: str) -> list[str]:
+    """First column of the table of a study, its titles unwrapped: only their first line has a status."""
+    lines = text.splitlines()
+    [head] = (number for number, line in enumerate(lines) if line.split()[:2] == ["quantity", "paper"])
+    width, status = lines[head].index("paper"), lines[head].index("status")
+    titles: list[str] = []
+    for line in lines[head + 1 : lines.index("", head)]:
+        part = line[:width].strip()
+        if line[status:].strip():
+            titles.append(part)
+        elif part:
+            titles[-1] += f" {part}"
+    return titles
+
+
+def test_console_blocks_of_slow_studies_show_their_quantities() -> None:
+    from markup import blocks
+
+    page = (REPOSITORY / "docs" / "studies.md").read_text("utf-8")
+    shown = [block.text for block in blocks(page, "console") if takes_long(block)]
+    assert shown
+    for text in shown:
+        [study] = (study for name, study in STUDIES.items() if f"reproduce {name}" in text)
+        assert titles_shown(text) == [quantity.title for quantity in study.quantities]
+
+
+@pytest.mark.slow
+def test_console_blocks_of_slow_studies_show_what_the_program_prints(tmp_path: Path) -> None:
+    check_consoles(REPOSITORY / "docs" / "studies.md", tmp_path, takes_long)

@@ -96,6 +96,13 @@ def test_which_controller_answered_in_which_stop_is_there_only_where_it_is_known
     assert (back.controller_version, back.case_sha256) == ("wsp 1.2", "ab" * 32)
 
 
+def test_the_noise_of_a_simulated_stop_comes_back(results) -> None:
+    simulated = dataclasses.replace(results[0], noise_key="00c0ffee")
+    document = json.loads(to_json(result_document([simulated, *results[1:]])))
+    assert [case.get("noise_key") for case in document["cases"]] == ["00c0ffee", None, None]
+    assert results_of(document)[0].noise_key == "00c0ffee"
+
+
 def test_requirements_are_there_only_where_some_are_named_and_come_back(results) -> None:
     first = results[0]
     verdict = dataclasses.replace(first.criteria[0], requirements=("BR-2", "BR-1"))

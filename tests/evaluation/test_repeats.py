@@ -14,7 +14,7 @@ from uictest.evaluation import (
     RepeatedStop,
     Repeats,
     Verdict,
-    median_of,
+    column_medians,
     result_document,
     results_of,
     spread_of,
@@ -42,10 +42,12 @@ def test_neither_order_nor_missing_values_matter(values: list[float], data: st.D
 
 def test_without_any_number_there_is_no_spread_and_the_median_is_none() -> None:
     assert spread_of([math.nan, math.nan]) is None
-    medians = median_of([{"a": 1.0, "b": math.nan}, {"a": 4.0, "b": math.nan}, {"a": 2.0, "b": math.nan}])
+    medians = column_medians(
+        [{"a": 1.0, "b": math.nan}, {"a": 4.0, "b": math.nan}, {"a": 2.0, "b": math.nan}]
+    )
     assert medians["a"] == 2.0
     assert math.isnan(medians["b"])
-    assert median_of([]) == {}
+    assert column_medians([]) == {}
 
 
 def stop(seed: int, outcome: str, distance: float = 460.0) -> RepeatedStop:
@@ -70,6 +72,19 @@ def test_shares_count_the_stops() -> None:
     assert [REPEATS.as_expected(expect) for expect in ("pass", "fail", "invalid")] == [1, 1, 0]  # type: ignore[arg-type]
     assert REPEATS.values("braking_distance_m") == [460.0, 470.0]
     assert REPEATS.values("locked_time_s", wheelset=4) == [7.0, 8.0]
+
+
+def test_stops_none_of_which_was_judged_have_no_share() -> None:
+    skipped = Repeats("all", (stop(1, "skipped"), stop(2, "skipped")))
+    assert (skipped.passed, skipped.none_judged) == (0, True)
+    assert all(map(math.isnan, (skipped.share, *skipped.interval)))
+    before = result(skipped)
+    text = to_json(result_document([before]))
+    written = json.loads(text)["cases"][0]["repeats"]
+    assert (written["share"], written["interval"]) == (None, [None, None])
+    assert results_of(json.loads(text)) == [before]
+    one_judged = Repeats("all", (stop(1, "skipped"), stop(2, "fail")))
+    assert (one_judged.share, one_judged.none_judged) == (0.0, False)
 
 
 def result(repeats: Repeats | None) -> CaseResult:

@@ -14,7 +14,7 @@ import pytest
 from uictest import rig
 from uictest.cli.entry import execute
 from uictest.scenario import load
-from uictest.sweep import load_sweep
+from uictest.sweeps import load_sweep
 
 REPOSITORY = Path(__file__).parents[2]
 PI = REPOSITORY / "examples" / "pi"

@@ -46,8 +46,15 @@ def errors(fit: CleaningFit, energy: float, recovered: float) -> list[float]:
     ]
 
 
-@pytest.mark.parametrize("topology", ["one-caliper", "four-caliper"])
-@pytest.mark.parametrize("friction", [0.07, 0.1])
+@pytest.mark.parametrize(
+    ("friction", "topology"),
+    [
+        (0.07, "one-caliper"),
+        (0.1, "four-caliper"),
+        pytest.param(0.07, "four-caliper", marks=pytest.mark.slow),
+        pytest.param(0.1, "one-caliper", marks=pytest.mark.slow),
+    ],
+)
 def test_stops_with_deep_slides_tell_both_within_their_confidence(
     stop: Make, library: Scenario, friction: float, topology: str
 ) -> None:

@@ -25,17 +25,19 @@ def steady_slide(scenario: Scenario) -> StopSamples:
     """Samples of a stop whose four wheelsets lose as much per metre as long as it lasts."""
     friction = FRICTION - np.expm1(-LOSS / ENERGY) * (CLEAN - FRICTION)
     vehicle, rail = scenario.vehicle, scenario.rail.condition
-    load = np.array([vehicle.total_mass * STANDARD_GRAVITY / 8.0])
-    speeds, slips, forces, step = [30.0], [], [], 0.01
+    # Slip and force depend on the speed alone.
+    grid = np.linspace(9.0, 30.0, 2000)
+    load = np.full_like(grid, vehicle.total_mass * STANDARD_GRAVITY / 8.0)
+    slip = np.full_like(grid, 6.0)
+    for _ in range(100):
+        force = wheelset_creep(slip, grid, load, np.full_like(grid, friction), rail)
+        slip = 0.5 * (slip + LOSS * grid / force)
+    np.testing.assert_allclose(slip * force, LOSS * grid, rtol=1e-9)
+    speeds, step = [30.0], 0.01
     while speeds[-1] > 10.0:
-        speed, slip = np.array(speeds[-1:]), np.array(slips[-1:] or [6.0])
-        for _ in range(30):
-            force = wheelset_creep(slip, speed, load, np.array([friction]), rail)
-            slip = 0.5 * (slip + LOSS * speed / force)
-        slips.append(slip[0])
-        forces.append(force[0])
-        speeds.append(speeds[-1] - step * 4.0 * force[0] / vehicle.total_mass)
-    return samples(scenario, np.array(speeds[:-1]), np.array(slips), np.array(forces), step)
+        speeds.append(speeds[-1] - step * 4.0 * np.interp(speeds[-1], grid, force) / vehicle.total_mass)
+    speed = np.array(speeds[:-1])
+    return samples(scenario, speed, np.interp(speed, grid, slip), np.interp(speed, grid, force), step)
 
 
 def samples(

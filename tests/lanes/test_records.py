@@ -145,3 +145,34 @@ def test_a_block_may_lie_anywhere() -> None:
     shifted[:] = aligned
     double(shifted)
     assert np.array_equal(shifted["load"], 2.0 * aligned["load"])
+
+
+def test_a_write_is_seen_through_every_view_of_its_field() -> None:
+    """The compiler may keep a number in a register only as long as nothing writes its field."""
+
+    @numba.njit
+    def change(block: Any, i: int, number: int) -> tuple[float, float]:
+        records, one = vectors(block), lane(block, number)
+        records[0].load = records[0].speed
+        one[i].speed = 50.0
+        records[1].load = records[0].speed
+        records[i].speed = records[i].speed + 1.0
+        return one[0].speed, one[1].load
+
+    block = counted(4)
+    assert change(block, 0, 2) == (51.0, 50.0)
+    assert block["speed"][0].tolist() == [1.0, 2.0, 51.0, 4.0]
+    assert block["load"][0].tolist() == [0.0, 1.0, 2.0, 3.0]
+    assert block["load"][1].tolist() == [0.0, 1.0, 50.0, 3.0]
+
+
+def test_writing_one_field_does_not_make_the_compiler_read_another_again() -> None:
+    @numba.njit
+    def move(block: Any, other: Any) -> None:
+        vectors(other).load = vectors(block).speed + 1.0
+        vectors(block).load = vectors(block).speed + 2.0
+
+    block, other = counted(4), counted(4)
+    move(block, other)
+    (optimised,) = move.inspect_llvm().values()
+    assert optimised.count("load <4 x double>") == 1

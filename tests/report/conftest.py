@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,9 @@ from uictest.recording import Recording
 from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.result import read_sweep_document
-from uictest.report.traces.trace import PlotTrace
+from uictest.report.traces.trace import PlotTrace, trace_of
+
+from .chromium import emulate, requests, started, written
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 
@@ -109,6 +111,47 @@ def make_recording() -> Callable[..., Recording]:
         return Recording(channels, units, {"case": "dry-120", **metadata})
 
     return make
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A browser for the tests of one file."""
+    browser = started()
+    yield browser
+    browser.quit()
+
+
+@pytest.fixture
+def browser(chromium: Any) -> Iterator[Any]:
+    """The browser, as it starts: scripts allowed, light, its window wide, its logs read."""
+    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+    chromium.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    emulate(chromium, scheme="light")
+    for log in ("browser", "performance"):
+        chromium.get_log(log)
+    yield chromium
+    assert [entry for entry in chromium.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+    assert requests(chromium) == []
+
+
+@pytest.fixture
+def page(
+    tmp_path: Path,
+    make_content: Callable[..., RunContent],
+    make_result: Callable[..., CaseResult],
+    make_verdict: Callable[..., Verdict],
+    make_recording: Callable[..., Recording],
+) -> Path:
+    """A run of three cases, one of them missed, all drawn."""
+    distance = make_verdict(measure="braking_distance")
+    results = [
+        make_result(id="dry-120"),
+        make_result(id="slip-120", scenario="scenarios/slip.yaml", outcome="invalid", criteria=(distance,)),
+        make_result(id="wet-80", expect="fail", outcome="fail"),
+    ]
+    trace = trace_of(make_recording(sliding_time="5.0"))
+    traces = {result.id: trace for result in results}
+    return written(tmp_path, make_content(*results, traces=traces))
 
 
 def _wheelset(n: int) -> dict[str, float]:

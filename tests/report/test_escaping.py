@@ -31,14 +31,20 @@ def test_printable_keeps_ordinary_text_of_any_script() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["=1+1", "+A1", "-A1", "@SUM(A1)", "\t=1", "\r=1", " =1", "\uff1d1", "-5 permille"]
+    "text",
+    [
+        *("=1+1", "+A1", "-A1", "@SUM(A1)", "\t=1", "\r=1", " =1", "\uff1d1"),
+        *("-5 A1", "-5 bar+A1", "-5 bar|x", "-5  bar", "-5 bar\n", "-5 -5", "-bar", "+1 furlong"),
+    ],
 )
 def test_a_cell_never_begins_as_a_formula(text: str) -> None:
     assert csv_cell(text).startswith("'")
 
 
-@pytest.mark.parametrize("text", ["90 %", "slip-120", "-5", "+0.5", "-1.5e-3", ""])
-def test_text_and_plain_numbers_are_left_as_they_are(text: str) -> None:
+@pytest.mark.parametrize(
+    "text", ["90 %", "slip-120", "-5", "+0.5", "-1.5e-3", "", "-5 permille", "-0.05 bar", "-10 degC"]
+)
+def test_text_numbers_and_quantities_are_left_as_they_are(text: str) -> None:
     assert csv_cell(text) == text
 
 

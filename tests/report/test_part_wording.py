@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report import RunContent, case_annotations, junit_xml, part_lines, run_manifest
-from uictest.report.formats.csv import summary_csv
+from uictest.report import RunContent, case_annotations, csv_text, junit_xml, part_lines, run_manifest
+from uictest.report.formats.csv import summary_table
 from uictest.report.formats.md import markdown_summary
 from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
@@ -151,7 +151,7 @@ def test_tables_and_summaries_say_what_was_changed(
     make_result: MakeResult, make_content: MakeContent
 ) -> None:
     result = make_result(parts={"controller": CONTROLLER}, expect="fail")
-    (row,) = csv.DictReader(io.StringIO(summary_csv([result])))
+    (row,) = csv.DictReader(io.StringIO(csv_text(*summary_table([result]))))
     assert row["changed_parameters"] == CHANGE
     assert "3 km/h" in markdown_summary(make_content(result))
     assert CHANGE in "".join(case_annotations(result))

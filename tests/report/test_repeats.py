@@ -13,7 +13,15 @@ import openpyxl
 import pytest
 
 from uictest.evaluation import CaseResult, OverStops, RepeatedStop, Repeats, Verdict
-from uictest.report import RunContent, case_annotations, case_line, junit_xml, verdict_table
+from uictest.report import (
+    RunContent,
+    Table,
+    case_annotations,
+    case_line,
+    csv_text,
+    junit_xml,
+    verdict_table,
+)
 from uictest.report.formats import csv as tables
 from uictest.report.formats.md import markdown_summary
 from uictest.report.formats.xlsx import workbook_bytes
@@ -89,20 +97,31 @@ def test_the_share_is_that_of_the_expected_outcome(make_repeated: Make) -> None:
     assert "; fail 75 % (" in next(iter(repeat_sentences(result)))
 
 
+def test_stops_that_were_all_skipped_have_no_share(make_repeated: Make) -> None:
+    judged = make_repeated("pp")
+    assert judged.repeats is not None
+    stops = tuple(replace(stop, outcome="skipped") for stop in judged.repeats.stops)
+    result = replace(judged, outcome="skipped", repeats=replace(judged.repeats, stops=stops))
+    assert stops_text(result) == "skipped 2"
+    assert list(repeat_sentences(result)) == ["2 stops, seeds 0..1: all skipped; none was judged"]
+    (row,) = rows(tables.summary_table([result]))
+    assert (row["stops"], row["passed"], row["share"], row["share_low"]) == ("2", "0", "", "")
+
+
 def test_a_case_with_one_stop_says_nothing_of_stops(make_result: MakeResult) -> None:
     single = make_result()
     assert (stops_text(single), list(repeat_sentences(single)), drawn_sentence(single)) == ("", [], "")
-    assert "stops" not in tables.summary_csv([single]).splitlines()[0]
-    assert "stops" not in tables.criteria_csv([single]).splitlines()[0]
+    assert "stops" not in tables.summary_table([single]).columns
+    assert "stops" not in tables.criteria_table([single]).columns
 
 
-def rows(text: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(text)))
+def rows(table: Table) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(csv_text(*table))))
 
 
 def test_the_tables_have_shares_and_ranges(make_repeated: Make, make_result: MakeResult) -> None:
     results = [make_repeated("ppf"), make_result(id="single")]
-    repeated, single = rows(tables.summary_csv(results))
+    repeated, single = rows(tables.summary_table(results))
     assert (repeated["stops"], repeated["passed"]) == ("3", "2")
     assert [float(repeated[name]) for name in ("share", "share_low", "share_high")] == pytest.approx(
         [2 / 3, 0.0943, 0.9916], abs=5e-5
@@ -110,9 +129,9 @@ def test_the_tables_have_shares_and_ranges(make_repeated: Make, make_result: Mak
     ends = (repeated["braking_distance_m_lowest"], repeated["braking_distance_m_highest"])
     assert tuple(map(float, ends)) == (460.0, 500.0)
     assert single["stops"] == single["braking_distance_m_lowest"] == ""
-    wheelset = rows(tables.wheelsets_csv(results))[2]
+    wheelset = rows(tables.wheelsets_table(results))[2]
     assert wheelset["maximum_slide_lowest"] == wheelset["maximum_slide"] == wheelset["maximum_slide_highest"]
-    criterion = rows(tables.criteria_csv(results))[0]
+    criterion = rows(tables.criteria_table(results))[0]
     assert [criterion[name] for name in ("stops", "passed", "failed", "lowest", "highest")] == [
         *("3", "2", "1", "460.0", "500.0")
     ]
@@ -120,7 +139,7 @@ def test_the_tables_have_shares_and_ranges(make_repeated: Make, make_result: Mak
 
 def test_every_stop_has_a_row(make_repeated: Make, make_content: MakeContent) -> None:
     result = make_repeated("pfe")
-    written = rows(tables.repeats_csv([result]))
+    written = rows(tables.repeats_table([result]))
     assert [(row["seed"], row["outcome"], row["reason"]) for row in written] == [
         ("0", "pass", ""),
         ("1", "fail", "too long"),
@@ -129,7 +148,7 @@ def test_every_stop_has_a_row(make_repeated: Make, make_content: MakeContent) ->
     assert [row["braking_distance_m"] for row in written] == ["460.0", "500.0", ""]
     assert written[0]["maximum_slide_4"] == "0.08"
     sheet = openpyxl.load_workbook(io.BytesIO(workbook_bytes(make_content(result))))["Repeats"]
-    assert [cell.value for cell in sheet[3]][:4] == [result.id, 1, "fail", "too long"]
+    assert [cell.value for cell in sheet[4]][:4] == [result.id, 1, "fail", "too long"]
 
 
 def test_lines_and_the_terminal_show_how_many_stops_pass(

@@ -25,6 +25,21 @@ def test_a_taken_name_gets_a_number(tmp_path: Path) -> None:
             assert folder.publish().name == expected
 
 
+def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    with RunFolder(tmp_path, "run") as first, RunFolder(tmp_path, "run") as second:
+        names = first.name, second.name
+        assert names == ("run-2", "run-3")
+        places = second.publish(), first.publish()
+    assert tuple(place.name for place in reversed(places)) == names
+
+
+def test_a_name_that_is_taken_meanwhile_gets_a_number(tmp_path: Path) -> None:
+    with RunFolder(tmp_path, "run") as folder:
+        (tmp_path / "run").mkdir()
+        assert folder.publish() == tmp_path / "run-2"
+
+
 def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path: Path) -> None:
     def fail_halfway() -> None:
         with RunFolder(tmp_path / "deep" / "reports", "run") as folder:

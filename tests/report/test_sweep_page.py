@@ -55,10 +55,10 @@ def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(
     worst = make_result(id="stop[a]", parameters=parameters)
     traces = {"stop[a]": trace_of(make_recording())}
     page = Page(sweep_page_html(make_sweep((worst,), traces=traces)))
-    assert ("details", {"class": "stop", "id": "case-1"}) in page.elements
+    assert ("details", {"class": "stop", "id": "case-stop[a]"}) in page.elements
     links = [attributes.get("href") for tag, attributes in page.elements if tag == "a"]
     # From two maps and from the table of cases.
-    assert links.count("#case-1") == 3
+    assert links.count("#case-stop%5Ba%5D") == 3
 
 
 def test_without_recordings_there_is_nothing_to_draw(make_sweep: MakeSweep, make_result: MakeResult) -> None:

@@ -9,7 +9,7 @@ from uictest.field_data import load_map
 from uictest.identification.compensation_file import load_compensation
 from uictest.rig.bench.loading import load_bench
 from uictest.scenario import Diagnostic, ScenarioErrors, load
-from uictest.sweep import load_sweep
+from uictest.sweeps import load_sweep
 
 SECRET = "root:x:0:0 top secret\n"
 HEAD = "schema: uictest/scenario/1\nname: stop\n"

@@ -2,12 +2,10 @@
 #define RUNNING_GEAR_H
 
 #include "../physics/clamping_force.h"
-#include "../physics/contact.h"
 #include "../physics/vehicle.h"
-#include "records.h"
+#include "slip_search.h"
 
 #define LOWEST_LOAD 0.2
-#define HIGHEST_LOAD 2.5
 
 /* A force, a moment and the motions they advance stand in the same fields of a car body and of a bogie. */
 #define CLEAR_FORCES(frame)                       \
@@ -59,7 +57,8 @@ OURS void couple_body(Car *car, Bogie *bogie, const Parameters *p)
     car->damper_loss += p->step * p->secondary_vertical_damping * rate * rate;
 }
 
-OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Parameters *p)
+/* Returns the thrust of suspension and gradient on the wheelset. */
+OURS real couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Parameters *p)
 {
     real above = wheelset->wheel_radius - p->bogie_height;
     real shift = wheelset->position - longitudinal(bogie->position, bogie->pitch, above);
@@ -73,76 +72,27 @@ OURS void couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
     bogie->moment -= fma(above, pull, wheelset->ahead * lift);
     car->damper_loss += p->step * fma(p->primary_longitudinal_damping * rate, rate,
                                       p->primary_vertical_damping * rise_rate * rise_rate);
-    wheelset->thrust = -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
     wheelset->wheel_load = maximum(fma(-0.5, lift, p->static_wheel_load), LOWEST_LOAD * p->reference_load);
     wheelset->torque =
         wheelset->brake_force * brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
                                              wheelset->pad_friction, p->disc_radius);
+    return -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
 }
 
-OURS void find_friction_limit(Wheelset *wheelset, const Parameters *p)
-{
-    wheelset->friction_limit =
-        friction_limit(wheelset->slip_estimate, wheelset->wheel_load, wheelset->friction, p->friction_ratio,
-                       p->friction_decay, &wheelset->limit_slope);
-}
-
-OURS void find_stress_gradient(Wheelset *wheelset, const Parameters *p)
-{
-    Gradient g = stress_gradient(wheelset->slip_estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
-                                 wheelset->friction_limit, wheelset->contact_stiffness, p->reduction_adhesion,
-                                 p->reduction_slip);
-    wheelset->stress_numerator = g.pull;
-    wheelset->stress_denominator = g.hold;
-    wheelset->inverse_adhesion = g.inverse_adhesion;
-    wheelset->inverse_slip = g.inverse_slip;
-    wheelset->stress_angle = g.angle;
-    wheelset->stress_tangent = g.tangent;
-}
-
-/* One Newton step towards the slip speed; returns the creep force of both wheels before it. */
-OURS real refine_slip(Wheelset *wheelset, const Parameters *p)
-{
-    Gradient g = {wheelset->stress_numerator,  wheelset->stress_denominator,  wheelset->inverse_adhesion,
-                  wheelset->inverse_slip, wheelset->stress_angle, wheelset->stress_tangent};
-    real slope;
-    real force = force_and_slope(g, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)), wheelset->friction_limit,
-                                 wheelset->limit_slope, wheelset->contact_stiffness, p->reduction_adhesion,
-                                 p->reduction_slip, &slope);
-    wheelset->slip_estimate = refined_slip(wheelset->slip_estimate, &wheelset->lowest_slip, &wheelset->highest_slip,
-                                           wheelset->free_slip, wheelset->slip_response, force, slope);
-    return 2.0 * force;
-}
-
-OURS void bracket_slip(Wheelset *wheelset, const Parameters *p)
-{
-    real load_ratio = minimum(wheelset->wheel_load * p->load_scale, number(HIGHEST_LOAD));
-    wheelset->contact_stiffness = contact_stiffness(p->creep_stiffness, load_ratio);
-    real slip = fma(-wheelset->wheel_radius, wheelset->rotation, wheelset->speed);
-    real braking = turning_direction(wheelset->rotation, wheelset->speed) * wheelset->torque;
-    real pushed = fma(p->mass_response, wheelset->thrust, slip);
-    real free_slip = fma(p->inertia_response * wheelset->wheel_radius, braking, pushed);
-    real direction = choose(free_slip < 0.0, number(-1.0), number(1.0));
-    wheelset->slip_direction = direction;
-    wheelset->free_slip = direction * free_slip;
-    wheelset->highest_slip = wheelset->free_slip;
-    wheelset->lowest_slip =
-        lowest_slip(wheelset->free_slip, wheelset->slip_response, wheelset->wheel_load, wheelset->friction);
-    wheelset->slip_estimate = maximum(direction * slip, number(0.0));
-}
-
-OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
+/* Returns the torque that the brake transmits, and the mean rotation of the discs over the step. */
+OURS real step_wheelset(Wheelset *wheelset, Bogie *bogie, real thrust, real sliding_force, const Slip *slip,
+                        real *disc_rotation, const Parameters *p)
 {
     real speed = wheelset->speed;
     real rotation = wheelset->rotation;
     real direction = turning_direction(rotation, speed);
-    real slip_change = wheelset->free_slip - wheelset->slip_estimate;
-    real turning_creep = wheelset->slip_direction * slip_change * wheelset->slip_stiffness;
+    real slip_change = slip->free - slip->estimate;
+    real turning_creep = slip->direction * slip_change * wheelset->slip_stiffness;
     real moment = fma(wheelset->wheel_radius, turning_creep, -direction * wheelset->torque);
     real turned = fma(p->inertia_response, moment, rotation);
     mask locked = turned * direction <= 0.0;
-    real free_speed = fma(p->mass_response, wheelset->thrust, speed);
-    real sliding_creep = locked_force(speed, free_speed, wheelset->sliding_force, p->mass_response);
+    real free_speed = fma(p->mass_response, thrust, speed);
+    real sliding_creep = locked_force(speed, free_speed, sliding_force, p->mass_response);
     real holding = fma(wheelset->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
     real creep = choose(locked, sliding_creep, turning_creep);
     real braking = choose(locked, holding, direction * wheelset->torque);
@@ -150,19 +100,18 @@ OURS void step_wheelset(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
     wheelset->speed = fma(-p->mass_response, creep, free_speed);
     wheelset->rotation = choose(locked, number(0.0), turned);
     wheelset->position += p->step * wheelset->speed;
-    wheelset->slip_speed = fma(-wheelset->wheel_radius, wheelset->rotation, wheelset->speed);
     real turning = 0.5 * (rotation + wheelset->rotation);
     wheelset->angle += p->step * turning;
-    wheelset->braking = braking;
-    wheelset->disc_rotation = turning + bogie->pitch_rate;
+    *disc_rotation = turning + bogie->pitch_rate;
     wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - wheelset->wheel_radius * turning);
     bogie->moment -= braking;
+    return braking;
 }
 
-OURS void heat_disc(Wheelset *wheelset, Bogie *bogie, const Parameters *p)
+OURS void heat_disc(Wheelset *wheelset, const Bogie *bogie, real braking, real rotation, const Parameters *p)
 {
-    real rubbing = fma(number(0.5), bogie->pitch_change, wheelset->disc_rotation);
-    wheelset->brake_heat += p->step * wheelset->braking * rubbing;
+    real rubbing = fma(number(0.5), bogie->pitch_change, rotation);
+    wheelset->brake_heat += p->step * braking * rubbing;
 }
 
 OURS void step_body(Car *car, const Parameters *p)

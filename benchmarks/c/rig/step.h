@@ -6,14 +6,6 @@
 #include "pneumatics.h"
 #include "running_gear.h"
 
-OURS void find_creep(Wheelset *wheelsets, const Parameters *p)
-{
-    for (int i = 0; i < 4; i++)
-        find_friction_limit(&wheelsets[i], p);
-    for (int i = 0; i < 4; i++)
-        find_stress_gradient(&wheelsets[i], p);
-}
-
 OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p)
 {
     CLEAR_FORCES(car);
@@ -21,22 +13,18 @@ OURS void step_vehicle(Car *car, Bogie *bogies, Wheelset *wheelsets, const Param
     CLEAR_FORCES(&bogies[1]);
     couple_body(car, &bogies[0], p);
     couple_body(car, &bogies[1], p);
+    real thrusts[4], sliding_forces[4], braking[4], rotations[4];
+    Slip slips[4];
     for (int i = 0; i < 4; i++)
-        couple_wheelset(&wheelsets[i], &bogies[i / 2], car, p);
+        thrusts[i] = couple_wheelset(&wheelsets[i], &bogies[i / 2], car, p);
+    find_slips(slips, sliding_forces, wheelsets, thrusts, p);
     for (int i = 0; i < 4; i++)
-        bracket_slip(&wheelsets[i], p);
-    find_creep(wheelsets, p);
-    for (int i = 0; i < 4; i++)
-        wheelsets[i].sliding_force = refine_slip(&wheelsets[i], p);
-    find_creep(wheelsets, p);
-    for (int i = 0; i < 4; i++)
-        refine_slip(&wheelsets[i], p);
-    for (int i = 0; i < 4; i++)
-        step_wheelset(&wheelsets[i], &bogies[i / 2], p);
+        braking[i] = step_wheelset(&wheelsets[i], &bogies[i / 2], thrusts[i], sliding_forces[i], &slips[i],
+                                   &rotations[i], p);
     for (int j = 0; j < 2; j++)
         STEP_FRAME(&bogies[j], p->bogie_mass, p->bogie_mass_response, p->bogie_pitch_response, number(0.0), p);
     for (int i = 0; i < 4; i++)
-        heat_disc(&wheelsets[i], &bogies[i / 2], p);
+        heat_disc(&wheelsets[i], &bogies[i / 2], braking[i], rotations[i], p);
     step_body(car, p);
 }
 

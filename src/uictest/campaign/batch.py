@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from uictest import controllers, evaluation, rig, scenario
 from uictest.campaign.case import CaseRun, RecordingRequest, run_case
-from uictest.campaign.parts import PartsOfCases, with_parts
+from uictest.campaign.parts import PartsOfCases, with_domain, with_parts
 from uictest.campaign.repeats import CaseAssembly, Stop, StopRun, run_repeat, stops_of
 from uictest.campaign.threaded_map import ThreadedMap
 
@@ -27,6 +27,7 @@ def run_cases(
     recording: RecordingRequest | None = None,
     maxfail: int | None = None,
     parts: PartsOfCases | None = None,
+    domains: Mapping[str, evaluation.DomainOfValidity] | None = None,
     in_process: bool = False,
     real_time: bool = False,
     on_result: Callable[[CaseRun], None] = lambda case_run: None,
@@ -44,6 +45,7 @@ def run_cases(
         maxfail: number of missed cases after which no further case is reported, so that the results do not
             depend on `jobs`.
         parts: effective parts by case id, which are added to the results.
+        domains: whether each case, by id, lies in the domain of a validation; added likewise.
         in_process: whether controllers from outside run in this process, which they can then crash.
         real_time: whether their cycles are paced by the clock; all must be programs at a socket.
         on_result: called in this thread, once per case, in the order of the cases.
@@ -53,7 +55,7 @@ def run_cases(
     request = recording or RecordingRequest()
 
     def report(case_run: CaseRun) -> None:
-        case_run = with_parts(case_run, parts or {})
+        case_run = with_domain(with_parts(case_run, parts or {}), domains or {})
         batch.results.append(case_run.result)
         on_result(case_run)
 

@@ -65,7 +65,12 @@ def _simulate_and_judge(
         *(case, stop.measures, stop.wheelset_measures, perf_counter() - started),
         response_times=stop.response_times,
     )
-    result = replace(result, controller_version=stop.controller_version, case_sha256=stop.case_sha256)
+    result = replace(
+        result,
+        controller_version=stop.controller_version,
+        case_sha256=stop.case_sha256,
+        noise_key=stop.noise_key,
+    )
     if not request.wants(result):
         return CaseRun(result)
     if not at_once:

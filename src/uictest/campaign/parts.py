@@ -28,3 +28,9 @@ def with_parts(case_run: CaseRun, parts: PartsOfCases) -> CaseRun:
     """Return the run of a case with its parts in the result."""
     result = case_run.result
     return replace(case_run, result=replace(result, parts=parts.get(result.id, {})))
+
+
+def with_domain(case_run: CaseRun, domains: Mapping[str, evaluation.DomainOfValidity]) -> CaseRun:
+    """Return the run of a case with what is known of it and of the domain of a validation in the result."""
+    result = case_run.result
+    return replace(case_run, result=replace(result, domain_of_validity=domains.get(result.id)))

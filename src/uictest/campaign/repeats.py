@@ -64,7 +64,10 @@ def run_repeat(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None 
         failed = failed_run(case, error, perf_counter() - started)
         return StopRun(stop, failed, evaluation.SimulatedRepeat(stop.seed, failed.result))
     result = replace(
-        result, controller_version=simulated.controller_version, case_sha256=simulated.case_sha256
+        result,
+        controller_version=simulated.controller_version,
+        case_sha256=simulated.case_sha256,
+        noise_key=simulated.noise_key,
     )
     judged = records if result.outcome != "error" else ()
     repeat = evaluation.SimulatedRepeat(stop.seed, result, *judged)

@@ -23,7 +23,9 @@ from uictest.cli.commands.report import report
 from uictest.cli.commands.reproduce import reproduce
 from uictest.cli.commands.run import run
 from uictest.cli.commands.schema import schema
+from uictest.cli.commands.selftest import selftest
 from uictest.cli.commands.sweep import sweep
+from uictest.cli.commands.validate import validate
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data
 from uictest.cli.registration import command
@@ -58,6 +60,8 @@ for _name, _function in (
     ("compare", compare),
     ("schema", schema),
     ("init", init),
+    ("selftest", selftest),
+    ("validate", validate),
 ):
     command(app, _name)(_function)
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
+from uictest import runs, scenario
 from uictest.cli.app import app
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import CommandLine
@@ -31,8 +32,12 @@ def _outcome(invocation: CommandLine) -> ExitCode:
     except typer.TyperException as error:
         message(f"uictest: {error.format_message()}\nTry 'uictest --help', or 'uictest COMMAND --help'.")
         return ExitCode.USAGE
-    except InvalidInputError as error:
+    except (InvalidInputError, scenario.ScenarioErrors) as error:
         message(str(error))
+        return ExitCode.USAGE
+    except runs.InvalidInputError as error:
+        for text in error.messages:
+            message(f"uictest: {text}")
         return ExitCode.USAGE
     except KeyboardInterrupt:
         message("uictest: interrupted")

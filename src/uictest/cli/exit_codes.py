@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from enum import IntEnum
 
-from uictest import campaign, series
+from uictest import runs
 
 
 class ExitCode(IntEnum):
@@ -26,20 +25,15 @@ class InvalidInputError(Exception):
     """
 
 
-def of_batch(batch: campaign.BatchResult) -> ExitCode:
-    """Return the exit code of a batch: interruption before error, error before a case not as expected."""
-    if batch.interrupted:
+def of_run(run: runs.Published) -> ExitCode:
+    """Return the exit code of a run: interruption before error, error before what is not as expected."""
+    if run.interrupted:
         return ExitCode.INTERRUPTED
-    if any(result.outcome == "error" for result in batch.results):
+    results, series = run.content.results, run.content.series
+    if any(each.outcome == "error" for each in results) or any(each.outcome == "error" for each in series):
         return ExitCode.ERROR
-    return ExitCode.MET if all(result.met for result in batch.results) else ExitCode.MISSED
-
-
-def of_series(results: Sequence[series.SeriesResult]) -> ExitCode:
-    """Return the exit code of series: error before one that is not as expected."""
-    if any(result.outcome == "error" for result in results):
-        return ExitCode.ERROR
-    return ExitCode.MET if all(result.met for result in results) else ExitCode.MISSED
+    met = all(each.met for each in results) and all(each.met for each in series)
+    return ExitCode.MET if met else ExitCode.MISSED
 
 
 def worst(*codes: ExitCode) -> ExitCode:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -11,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import comparison, report
+from uictest import comparison, report, runs
 
 
 @dataclass(slots=True)
@@ -61,7 +60,7 @@ def _remember_verbosity(context: typer.Context, value: int) -> int:
 
 def _jobs(text: str) -> int:
     if text == "auto":
-        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return runs.available_processors()
     if text.isascii() and text.isdigit() and int(text) > 0:
         return int(text)
     raise typer.BadParameter(f"{text!r} is neither a number of threads from 1 nor 'auto'")

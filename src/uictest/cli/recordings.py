@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 import typer
 
-from uictest import field_data, scenario
-from uictest.cli.cases import load_cases, select_by_options
-from uictest.cli.exit_codes import InvalidInputError
-from uictest.recording import formats
-from uictest.scenario import yaml
+from uictest import field_data, runs, scenario
+from uictest.cli.cases import malformed
 
 Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
 MapName = Annotated[
@@ -45,9 +41,6 @@ LowPass = Annotated[
         help="Low-pass filter for every signal, such as '10 Hz'.",
     ),
 ]
-Result = TypeVar("Result")
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
-_LONGEST_NAME = 80
 
 
 def channel_map(
@@ -55,80 +48,19 @@ def channel_map(
 ) -> tuple[field_data.ChannelMap, dict[str, str]]:
     """Return a channel map, its preparation changed by options, and the files read for it.
 
-    Raises InvalidInputError where there is no such map, typer.BadParameter for an option that does not fit.
+    Raises as :func:`uictest.runs.named_map`, and typer.BadParameter for an option that does not fit.
     """
+    loaded, inputs = runs.named_map(reference, trusted)
     try:
-        loaded, inputs = field_data.load_map(reference, trusted or ())
-    except KeyError:
-        known = ", ".join(field_data.presets())
-        raise InvalidInputError(
-            f"uictest: no channel map {reference!r}: name a preset ({known}) or a .yaml file"
-        ) from None
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
-    changed = _with_options(loaded.preparation, preparation)
-    return loaded.model_copy(update={"preparation": changed}), inputs
-
-
-def _with_options(
-    preparation: field_data.Preparation, texts: dict[str, str | None]
-) -> field_data.Preparation:
-    """Return the preparation with the options that are set. Raises typer.BadParameter."""
-    from pydantic import ValidationError
-
-    options = {name: text for name, text in texts.items() if text is not None}
-    if (trigger := options.get("trigger")) is not None and any(map(str.isdigit, trigger)):
-        options["trigger_time"] = options.pop("trigger")
-    try:
-        return field_data.Preparation.model_validate({**dict(preparation), **options})
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        name = str(first["loc"][0]) if first["loc"] else ""
-        option = f"--{name.removesuffix('_time').replace('_', '-')}"
-        raise typer.BadParameter(str(first["msg"]), param_hint=option) from error
+        return runs.prepared_map(loaded, preparation), inputs
+    except runs.PreparationError as error:
+        option = f"--{error.name.replace('_', '-')}"
+        raise typer.BadParameter(error.reason, param_hint=option) from error
 
 
 def one_case(
     path: Path, expression: str | None, overrides: Sequence[str], trusted: Sequence[Path] | None
 ) -> scenario.Case:
     """Return the one case of a scenario file. Raises InvalidInputError where there are several or none."""
-    cases = select_by_options(load_cases([path], overrides, None, trusted), expression, None)
-    if len(cases) != 1:
-        ids = ", ".join(case.id for case in cases[:8]) or "none is selected"
-        raise InvalidInputError(
-            f"uictest: {path} has {len(cases)} cases where one is needed ({ids}); choose with -k"
-        )
-    return cases[0]
-
-
-def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
-    """Apply `use` to every file, and return its results.
-
-    Raises InvalidInputError with every file's error, ReadingInterruptedError where reading was cut off.
-    """
-    results: list[Result] = []
-    errors: list[str] = []
-    for path in paths:
-        try:
-            results.append(use(path))
-        except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
-            errors.append(f"uictest: {path}: {error}")
-        except formats.ReadingInterruptedError:
-            raise  # not an error of the file
-        except OSError as error:
-            errors.append(f"uictest: {path}: {error.strerror or error}")
-    if errors:
-        raise InvalidInputError("\n".join(errors))
-    return results
-
-
-def stop_names(paths: Sequence[Path]) -> list[str]:
-    """Return a name for each file, safe as a file name and all different."""
-    names: list[str] = []
-    for path in paths:
-        stem = _UNSAFE.sub("-", path.stem).strip("-.")[:_LONGEST_NAME].lower() or "recording"
-        name = next(
-            n for k in range(1, len(paths) + 1) if (n := stem if k == 1 else f"{stem}-{k}") not in names
-        )
-        names.append(name)
-    return names
+    with malformed("-k", expression):
+        return runs.only_case(path, expression, overrides, trusted)

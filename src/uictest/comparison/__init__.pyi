@@ -6,7 +6,17 @@ from .baseline import (
 )
 from .difference import Comparison as Comparison
 from .folders import compare_run_folders as compare_run_folders, with_overlays as with_overlays
-from .page import comparison_html as comparison_html
+from .page import comparison_html as comparison_html, variants_html as variants_html
+from .paired.difference import (
+    PairedDifference as PairedDifference,
+    PairedGroup as PairedGroup,
+    paired_group as paired_group,
+)
+from .paired.document import variants_json as variants_json
+from .paired.drawn_stops import Draw as Draw
+from .paired.pairing import NotPaired as NotPaired, PairedComparison as PairedComparison
+from .paired.variants import compare_variants as compare_variants
+from .paired.wording import variants_lines as variants_lines
 from .parameters import ParameterChange as ParameterChange, ParameterOfRun as ParameterOfRun
 from .recordings import compare_recordings as compare_recordings
 from .runs import compare_runs as compare_runs

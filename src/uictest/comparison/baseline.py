@@ -71,7 +71,11 @@ class Baseline:
             missing=missing,
             not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
             not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
-            notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
+            notes=[
+                *(["series are not compared with the baseline"] if run.series or self.run.series else []),
+                *self._parameters_changed(run),
+                *run_notes(self._inputs_limited(run), run),
+            ],
         )
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from uictest.comparison.overlay import Overlay
+from uictest.comparison.paired.document import paired_form
+from uictest.comparison.paired.pairing import PairedComparison
 from uictest.comparison.parameters import ParameterChange
 from uictest.report import Difference, differences_form
 
@@ -23,6 +25,7 @@ class Comparison:
         overlays: plots of both sides.
         undrawn: which stops are not drawn, and why.
         parameters: those that differ between two runs.
+        paired: differences of stops under the same noise, between two runs; None for recordings.
 
     """
 
@@ -34,6 +37,7 @@ class Comparison:
     overlays: Sequence[Overlay] = field(default=(), repr=False)
     undrawn: Sequence[str] = ()
     parameters: Sequence[ParameterChange] = ()
+    paired: PairedComparison | None = None
 
     @property
     def beyond(self) -> list[Difference]:
@@ -56,6 +60,7 @@ class Comparison:
             "notes": list(self.notes),
             "parameters": [_change_form(change) for change in self.parameters],
             "differences": differences_form(self.differences),
+            **({} if self.paired is None else {"paired": paired_form(self.paired)}),
         }
 
 

@@ -1,4 +1,4 @@
-"""Two runs: case by case outcome, verdicts and measures."""
+"""Two runs: case by case outcome, verdicts and measures, then series, then stops under the same noise."""
 
 from __future__ import annotations
 
@@ -7,33 +7,45 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from uictest import evaluation, report
 from uictest.comparison.difference import Comparison
+from uictest.comparison.paired.pairing import compare_paired_runs
 from uictest.comparison.parameters import parameter_changes
+from uictest.comparison.series import series_differences
 from uictest.comparison.tolerance import Tolerances, compare_numbers
 from uictest.measures import column_unit
 from uictest.report import Difference, wheelset_quantity
+
+Pair = tuple[evaluation.CaseResult, evaluation.CaseResult]
+"""A case on both sides."""
 
 _DIGEST_LENGTH = 64
 """Hexadecimal digits of a SHA-256; readers see the first twelve."""
 
 
 def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
-    """Compare two runs. Cases are paired by id; a case on one side only is a difference."""
+    """Compare two runs. Cases and series are paired by id; one on one side only is a difference."""
     ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
-    differences: list[Difference] = []
-    compared = 0
+    quantities: list[Difference | None] = []
     for case_id in dict.fromkeys([*ours, *theirs]):
-        quantities = list(_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances))
-        compared += len(quantities)
-        differences += [difference for difference in quantities if difference is not None]
+        quantities += _case(case_id, ours.get(case_id), theirs.get(case_id), tolerances)
+    quantities += series_differences(first.series, second.series, tolerances)
     both = [(ours[case_id], theirs[case_id]) for case_id in ours if case_id in theirs]
     return Comparison(
         first.name,
         second.name,
-        compared,
-        differences,
+        len(quantities),
+        [difference for difference in quantities if difference is not None],
         [*run_notes(first, second), *unknown_parameters(both, ("first run", "second run"))],
-        parameters=parameter_changes(both),
+        parameters=parameter_changes([*both, *_stops_of_series(first, second)]),
+        paired=compare_paired_runs(first, second),
     )
+
+
+def _stops_of_series(first: report.RunContent, second: report.RunContent) -> Iterator[Pair]:
+    """Yield the cases of series that are on both sides."""
+    theirs = {each.case.id: each.case for result in second.series for each in result.cases}
+    for case in (each.case for result in first.series for each in result.cases):
+        if case.id in theirs:
+            yield case, theirs[case.id]
 
 
 def _case(
@@ -107,9 +119,7 @@ def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[s
             yield from _changes(description.settings, second.subjects[case_id].settings, f"{case_id}: ")
 
 
-def unknown_parameters(
-    both: Sequence[tuple[evaluation.CaseResult, evaluation.CaseResult]], names: tuple[str, str]
-) -> Iterator[str]:
+def unknown_parameters(both: Sequence[Pair], names: tuple[str, str]) -> Iterator[str]:
     """Yield the run that has no parameters to compare while the other run has."""
     for place, name in enumerate(names):
         if both and all(pair[1 - place].parts and not pair[place].parts for pair in both):

@@ -8,6 +8,7 @@ from itertools import groupby
 
 from uictest import report
 from uictest.comparison.difference import Comparison
+from uictest.comparison.paired.wording import paired_lines
 from uictest.comparison.parameters import parameter_lines
 from uictest.report import (
     TableColumn,
@@ -30,7 +31,7 @@ _MOST_PARAMETERS = 20
 def comparison_lines(
     comparison: Comparison, *, every: bool = False, width: int | None = None
 ) -> Iterator[str]:
-    """Yield a table of the differences out of tolerance, then parameters and notes.
+    """Yield a table of the differences out of tolerance, then paired differences, parameters and notes.
 
     The table has only the worst wheelset for each measure of wheelsets; with `every`, it has all differences.
     It is at most `width` characters wide, None for any width.
@@ -38,6 +39,8 @@ def comparison_lines(
     shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
     if shown:
         yield from _table(shown, width)
+    if comparison.paired is not None:
+        yield from paired_lines(comparison.paired, width)
     yield from _parameter_lines(comparison, every=every)
     for note in comparison.notes:
         yield f"note: {printable(note)}"

@@ -23,8 +23,9 @@ from .document import (
     results_of as results_of,
     to_json as to_json,
 )
+from .domain_of_validity import Deviation as Deviation, DomainOfValidity as DomainOfValidity
 from .effective_parts import EffectiveParts as EffectiveParts
-from .json_form import (
+from .json_values import (
     Number as Number,
     OptionalNumber as OptionalNumber,
     absent_if_empty as absent_if_empty,
@@ -48,8 +49,8 @@ from .repeats import (
     RepeatedStop as RepeatedStop,
     Repeats as Repeats,
     Spread as Spread,
+    column_medians as column_medians,
     is_expected as is_expected,
-    median_of as median_of,
     spread_of as spread_of,
 )
 from .result import (

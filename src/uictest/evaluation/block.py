@@ -84,19 +84,27 @@ class StopBlock:
 
 def evaluate_block(stops: StopBlock) -> ResultColumns:
     """Return the results of simulated stops; a stop that cannot be judged has the outcome `error`."""
-    columns = result_columns(stops.measures.size)
     regular = _is_regular(stops)
+    if regular.all():
+        return _evaluate_regular(stops)
+    columns = result_columns(stops.measures.size)
     for place in np.flatnonzero(~regular).tolist():
         columns.put(place, _evaluate_alone(stops, place))
-    places = np.flatnonzero(regular)
-    if places.size == 0:
-        return columns
-    try:
-        columns.put_block(places, _evaluate_together(stops.take(places)))
-    except Exception:  # a case that cannot be judged becomes a row and does not end the sweep
-        for place in places.tolist():
-            columns.put(place, _evaluate_alone(stops, place))
+    if regular.any():
+        places = np.flatnonzero(regular)
+        columns.put_block(places, _evaluate_regular(stops.take(places)))
     return columns
+
+
+def _evaluate_regular(stops: StopBlock) -> ResultColumns:
+    """Return the results of stops that came to a standstill with all numbers finite."""
+    try:
+        return _evaluate_together(stops)
+    except Exception:  # a case that cannot be judged becomes a row and does not end the sweep
+        columns = result_columns(stops.measures.size)
+        for place in range(stops.measures.size):
+            columns.put(place, _evaluate_alone(stops, place))
+        return columns
 
 
 def _is_regular(stops: StopBlock) -> NDArray[np.bool_]:
@@ -127,10 +135,12 @@ def _evaluate_together(stops: StopBlock) -> ResultColumns:
     ]
     for places, outcome, deciding in _outcomes(verdicts, stops.measures.size):
         columns.put_outcome(places, outcome, resolved.expect)
-        columns.reasons[places] = [
-            reason_of(outcome, ((each.id, each.reason(place)) for each in deciding))
-            for place in places.tolist()
-        ]
+        columns.reasons[places] = reason_of(outcome, ())
+        if deciding:
+            columns.reasons[places] = [
+                reason_of(outcome, ((each.id, each.reason(place)) for each in deciding))
+                for place in places.tolist()
+            ]
     _put_narrowest_margins(columns, verdicts)
     columns.measures.update(_stop_columns(stops, column_definition(resolved)))
     columns.wheelsets.update(_wheelset_columns(stops))

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import PlainSerializer, PlainValidator
 
-from uictest.evaluation.json_form import json_form
+from uictest.evaluation.json_values import json_form
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
-from uictest.evaluation.json_form import from_json_form, json_form, required, to_json_form
+from uictest.evaluation.json_values import from_json_form, json_form, required, to_json_form
 from uictest.evaluation.parameters import EffectivePart, parts_document, parts_of
 from uictest.evaluation.result import CaseResult
 
@@ -18,7 +18,7 @@ SCHEMA = "uictest/result/1"
 
 _OF_SOME: Final = (
     *("response_times", "controller_version", "case_sha256"),
-    *("requirements", "test_case", "repeats"),
+    *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity"),
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
-from uictest.evaluation.json_form import from_json_form, to_json_form
+from uictest.evaluation.json_values import from_json_form, to_json_form
 
 _DIGITS = 12
 """Hexadecimal digits of a digest: of ten thousand parts two share one with a probability below 1e-6."""

@@ -18,7 +18,7 @@ from uictest.evaluation.outcome_rule import (
     over_stops,
     rule_of,
 )
-from uictest.evaluation.repeats import RepeatedStop, Repeats, median_of
+from uictest.evaluation.repeats import RepeatedStop, Repeats, column_medians
 from uictest.evaluation.result import CaseResult, outcome_of
 from uictest.evaluation.verdict import Verdict
 from uictest.measures import StopMeasures, Wheelsets
@@ -54,10 +54,11 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
         outcome=outcome,
         reason=reason,
         criteria=verdicts,
-        measures=median_of([stop.measures for stop in simulated if stop.measures]) or None,
+        measures=column_medians([stop.measures for stop in simulated if stop.measures]) or None,
         wheelsets=tuple(
-            median_of(of_each) for of_each in zip(*(stop.wheelsets for stop in simulated), strict=True)
+            column_medians(of_each) for of_each in zip(*(stop.wheelsets for stop in simulated), strict=True)
         ),
+        noise_key=next((key for each in repeats if (key := each.result.noise_key)), ""),
         controller_version=next((v for each in repeats if (v := each.result.controller_version)), ""),
         # As of a single stop: whatever the other stops say, none of them is verified.
         requirements=scenario.named_requirements(case.scenario) if outcome == "error" else first.requirements,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median, quantiles
@@ -11,7 +12,7 @@ from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Wrap
 
 from uictest import statistics as proportions
 from uictest.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
-from uictest.evaluation.json_form import OptionalNumber, required
+from uictest.evaluation.json_values import OptionalNumber, json_form, required
 from uictest.evaluation.verdict import Verdict, WrittenVerdict
 
 Rule = Literal["all", "median", "at_least"]
@@ -71,13 +72,20 @@ class Repeats:
         return sum(stop.outcome == "pass" for stop in self.stops)
 
     @property
+    def none_judged(self) -> bool:
+        """Whether every stop was skipped: then there is no share of stops that pass."""
+        return all(stop.outcome == "skipped" for stop in self.stops)
+
+    @property
     def share(self) -> float:
-        """The share of stops that came out as `pass`."""
-        return self.passed / len(self.stops)
+        """The share of stops that came out as `pass`; NaN where none was judged."""
+        return math.nan if self.none_judged else self.passed / len(self.stops)
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The interval of that share with a confidence of 95 %."""
+        """The interval of that share with a confidence of 95 %; NaN where none was judged."""
+        if self.none_judged:
+            return math.nan, math.nan
         return proportions.proportion_interval(self.passed, len(self.stops))
 
     @property
@@ -122,7 +130,7 @@ def spread_of(values: Iterable[float]) -> Spread | None:
     return Spread(len(numbers), numbers[0], quartiles[0], median(numbers), quartiles[2], numbers[-1])
 
 
-def median_of(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+def column_medians(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
     """Return the median of each column over rows: over those that have a number there, NaN where none has."""
     columns = {name: spread_of(row[name] for row in rows) for name in (rows[0] if rows else {})}
     return {name: float("nan") if spread is None else spread.median for name, spread in columns.items()}
@@ -135,8 +143,8 @@ def _with_derived(repeats: Repeats, write: SerializerFunctionWrapHandler) -> dic
     form: dict[str, Any] = write(repeats)
     stops = form.pop("stops")
     share = {} if repeats.required_share is None else {"required_share": form["required_share"]}
-    derived = {"passed": repeats.passed, "share": repeats.share, "interval": list(repeats.interval)}
-    return {"rule": repeats.rule, **share, **derived, "stops": stops}
+    derived = {"passed": repeats.passed, "share": repeats.share, "interval": repeats.interval}
+    return {"rule": repeats.rule, **share, **json_form(derived), "stops": stops}
 
 
 def _without_derived(content: object) -> object:

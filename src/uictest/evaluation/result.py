@@ -10,6 +10,7 @@ from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
 from uictest.controllers import ResponseTimes
 from uictest.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
+from uictest.evaluation.domain_of_validity import DomainOfValidity
 from uictest.evaluation.parameters import EffectivePart
 from uictest.evaluation.repeats import WrittenRepeats, is_expected
 from uictest.evaluation.verdict import (
@@ -52,9 +53,11 @@ class CaseResult:
     by the clock. `controller_version` is what a controller from outside said of itself in this stop, and
     `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
     `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
-    `test_case` is its id in a test management tool. The document has these five, and `repeats`, only where
-    there is something in them. `duration` (seconds of wall clock) is for progress and JUnit only, never part
-    of the document: a result must not depend on the machine.
+    `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
+    simulated stop met, together with its seed, see :mod:`uictest.rig.noise_key`. `domain_of_validity` says
+    whether the case lies where the model was validated; None where nobody asked. The document has these
+    seven, and `repeats`, only where there is something in them. `duration` (seconds of wall clock) is for
+    progress and JUnit only, never part of the document: a result must not depend on the machine.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
     them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
@@ -75,7 +78,9 @@ class CaseResult:
     case_sha256: str = ""
     requirements: tuple[str, ...] = ()
     test_case: str = ""
+    noise_key: str = ""
     repeats: WrittenRepeats | None = None
+    domain_of_validity: DomainOfValidity | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.evaluation.json_form import Number, OptionalNumber, absent_if_empty
+from uictest.evaluation.json_values import Number, OptionalNumber, absent_if_empty
 
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.

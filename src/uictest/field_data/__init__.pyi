@@ -4,6 +4,7 @@ from .channel_map import (
     load_map as load_map,
     presets as presets,
 )
+from .channel_map_schema import channel_map_schema as channel_map_schema
 from .channels import WHEELSETS as WHEELSETS, of_wheelsets as of_wheelsets
 from .conditions import REQUIRED_STATEMENTS as REQUIRED_STATEMENTS, stated_case as stated_case
 from .defect import Defect as Defect

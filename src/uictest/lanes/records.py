@@ -73,8 +73,7 @@ def copy_from_lane(typing: Any, record: Any, place: Any) -> Any:
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         to, source = sig.args
         for field, kind, member in _members(context, builder, to, args[0], source):
-            number = builder.load(_field(builder, source, args[1], field), align=_BYTES)
-            context.pack_value(builder, kind, number, member)
+            context.pack_value(builder, kind, _read(builder, source, args[1], field), member)
         return context.get_dummy_value()
 
     return types.void(record, place), lower
@@ -113,7 +112,7 @@ class _NumberAttributes(AttributeTemplate):
 
 @code_of_reading(LaneType)
 def _load(context: Any, builder: Any, place: LaneType, value: Any, field: str) -> Any:
-    return builder.load(_field(builder, place, value, field), align=_BYTES)
+    return _read(builder, place, value, field)
 
 
 @code_of_writing(LaneType)
@@ -121,8 +120,27 @@ def _store(context: Any, builder: Any, sig: Any, args: Any, field: str) -> None:
     _write(builder, sig.args[0], args[0], field, args[1])
 
 
+def _read(builder: Any, place: LaneType, address: Any, field: str) -> Any:
+    value = builder.load(_field(builder, place, address, field), align=_BYTES)
+    _mark(builder, value, place, field)
+    return value
+
+
 def _write(builder: Any, place: LaneType, address: Any, field: str, value: Any) -> None:
-    builder.store(value, _field(builder, place, address, field), align=_BYTES)
+    write = builder.store(value, _field(builder, place, address, field), align=_BYTES)
+    _mark(builder, write, place, field)
+
+
+def _mark(builder: Any, access: Any, place: LaneType, field: str) -> None:
+    """Tell the compiler that an access to a field of a record touches no other field (LLVM's `tbaa`).
+
+    Without that each write makes it read again what it holds in registers.
+    """
+    module, first = builder.module, ir.Constant(ir.IntType(64), 0)
+    root = module.add_metadata([__name__])
+    record = module.add_metadata([place.record.name, root, first])
+    of_field = module.add_metadata([field, record, first])
+    access.set_metadata("tbaa", module.add_metadata([of_field, of_field, first]))
 
 
 def _has_fields_of(record: Any, place: Any) -> bool:

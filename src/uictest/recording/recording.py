@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from uictest.recording.frame import frame_of
+from uictest.recording.plot import figure_of
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import plotly.graph_objects as go
 
 TIME = "time"
 """Name of the first channel, in seconds."""
@@ -54,6 +62,21 @@ class Recording:
             raise KeyError(
                 f"no channel {channel!r} in this recording of {', '.join(self.channels)}"
             ) from None
+
+    def frame(self) -> pd.DataFrame:
+        """Return one column per channel, index `time` in s; `attrs["units"]` maps channels to units."""
+        return frame_of(self.channels, self.units, self.metadata)
+
+    def plot(self, channels: Sequence[str] | None = None) -> go.Figure:
+        """Return a plotly figure, one panel for each unit, over the time in s.
+
+        Args:
+            channels: names, in which `*` stands for any characters [default: speeds, slides, cylinder
+                pressures and clamping forces].
+
+        Raises KeyError for a name that is no channel.
+        """
+        return figure_of(self.channels, self.units, channels)
 
 
 def _check_shape(channels: dict[str, NDArray[Any]]) -> None:

@@ -5,7 +5,7 @@ from .baseline import (
     not_compared_sentences as not_compared_sentences,
 )
 from .content import CaseDescription as CaseDescription, RunContent as RunContent
-from .csv_text import csv_text as csv_text
+from .csv_text import Cell as Cell, Table as Table, csv_text as csv_text
 from .difference import (
     Difference as Difference,
     side_text as side_text,
@@ -13,6 +13,12 @@ from .difference import (
     worst_of_wheelsets as worst_of_wheelsets,
 )
 from .document import differences_form as differences_form, subjects_form as subjects_form
+from .domain_wording import (
+    deviation_text as deviation_text,
+    domain_lines as domain_lines,
+    domain_notices as domain_notices,
+    interval_text as interval_text,
+)
 from .escaping import (
     csv_cell as csv_cell,
     no_command as no_command,
@@ -25,6 +31,7 @@ from .format_registry import (
     write_formats as write_formats,
 )
 from .formats import format_names as format_names
+from .formats.csv import run_tables as run_tables
 from .formats.junit import junit_xml as junit_xml
 from .formats.md import append_step_summary as append_step_summary
 from .github import (
@@ -32,13 +39,17 @@ from .github import (
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
 )
+from .junit_properties import test_properties as test_properties
 from .manifest import (
+    CASES_IN_PYTHON as CASES_IN_PYTHON,
     RunManifest as RunManifest,
     named_parts as named_parts,
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
+from .markdown_table import prose as prose
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
+from .requirements import requirements_of as requirements_of
 from .run_contents import read_run as read_run, run_content as run_content
 from .run_folder import RunFolder as RunFolder, latest_run as latest_run, point_latest as point_latest
 from .run_report import (
@@ -51,7 +62,14 @@ from .run_report import (
 from .series.github import series_annotations as series_annotations
 from .series.lines import series_line as series_line, series_lines as series_lines
 from .series.table import series_table as series_table
-from .series.wording import series_tally as series_tally, series_word as series_word
+from .series.wording import (
+    count_sentences as count_sentences,
+    not_counted_sentences as not_counted_sentences,
+    series_explanation as series_explanation,
+    series_tally as series_tally,
+    series_verdict_sentence as series_verdict_sentence,
+    series_word as series_word,
+)
 from .sweep.content import SweepContent as SweepContent
 from .sweep.format_registry import write_sweep_formats as write_sweep_formats
 from .sweep.formats import sweep_format_names as sweep_format_names
@@ -131,9 +149,11 @@ from .wording import (
     DIFFERS as DIFFERS,
     counted as counted,
     counted_in as counted_in,
+    explanation as explanation,
     line_word as line_word,
     listed as listed,
     number as number,
+    result_word as result_word,
     tally as tally,
     tone as tone,
 )

@@ -5,10 +5,23 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple, Self
 
 from uictest.report.escaping import csv_cell
 
 Cell = str | float | int | bool | None
+
+
+class Table(NamedTuple):
+    """The columns of a table and its rows; a row may lack columns."""
+
+    columns: Sequence[str]
+    rows: Sequence[dict[str, Cell]]
+
+    @classmethod
+    def of(cls, rows: Sequence[dict[str, Cell]]) -> Self:
+        """Return the table of rows with every column of any of them, in the order of their first use."""
+        return cls(list(dict.fromkeys(column for row in rows for column in row)), rows)
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[dict[str, Cell]]) -> str:

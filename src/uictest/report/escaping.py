@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import re
 
+from uictest.units import UNIT_SYMBOLS
+
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", *"\uff1d\uff0b\uff0d\uff20")
-_PLAIN_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_UNITS = "|".join(map(re.escape, sorted(UNIT_SYMBOLS)))
+_QUANTITY = re.compile(rf"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?( ?({_UNITS}))?")
 _COMMAND = re.compile(r"^(\s*):(?=:)")
 _NOT_XML = re.compile("[^\t\n\r\u0020-\u007e\u0085\u00a0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -21,9 +24,12 @@ def _spelled_out(character: str) -> str:
 
 
 def csv_cell(text: str) -> str:
-    """Return the text as a cell no spreadsheet takes for a formula: an apostrophe goes in front of one."""
+    """Return the text as a cell no spreadsheet takes for a formula: an apostrophe goes in front of one.
+
+    A number is none, nor is one with a unit, such as `-0.05 bar`.
+    """
     shown = printable(text)
-    harmless = not text.lstrip(" ").startswith(_FORMULA_STARTS) or _PLAIN_NUMBER.fullmatch(text)
+    harmless = not text.lstrip(" ").startswith(_FORMULA_STARTS) or _QUANTITY.fullmatch(text)
     return shown if harmless else f"'{shown}"
 
 

@@ -35,12 +35,18 @@ def add_suite_properties(
 def add_test_properties(
     testcase: ElementTree.Element, test_case: str, requirements: Iterable[str] = ()
 ) -> None:
-    """Add the properties by which test management tools know a testcase.
+    """Add the properties by which test management tools know a testcase."""
+    _add_properties(testcase, test_properties(test_case, requirements))
+
+
+def test_properties(test_case: str, requirements: Iterable[str] = ()) -> dict[str, str]:
+    """Return the properties by which test management tools know a testcase, those without a value left out.
 
     Polarion reads `polarion-testcase-id`, Xray `test_key` and `requirements`.
     """
-    ids = {"polarion-testcase-id": test_case, "test_key": test_case}
-    _add_properties(testcase, ids | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)})
+    joined = _REQUIREMENT_SEPARATOR.join(requirements)
+    named = {"polarion-testcase-id": test_case, "test_key": test_case, "requirements": joined}
+    return {name: value for name, value in named.items() if value}
 
 
 def _program_facts(program: evaluation.Program, told: Iterable[str]) -> dict[str, str]:

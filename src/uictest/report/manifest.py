@@ -17,6 +17,8 @@ from uictest import evaluation
 from uictest.report.part_wording import part_sentence
 
 SCHEMA = "uictest/manifest/1"
+CASES_IN_PYTHON: Final = "(cases loaded in Python)"
+"""In a command, behind `run`: a program gave the cases, and no files of their own name them."""
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
 
 

@@ -29,6 +29,8 @@ def stops_text(result: evaluation.CaseResult) -> str:
     repeats = result.repeats
     if repeats is None:
         return ""
+    if repeats.none_judged:
+        return f"skipped {len(repeats.stops)}"
     return f"{result.expect} {repeats.as_expected(result.expect)}/{len(repeats.stops)}"
 
 
@@ -40,6 +42,9 @@ def repeat_sentences(result: evaluation.CaseResult) -> Iterator[str]:
     stops, expected = len(repeats.stops), repeats.as_expected(result.expect)
     first, last = repeats.stops[0].seed, repeats.stops[-1].seed
     outcomes = ", ".join(_counted_outcome(repeats, outcome) for outcome in _ORDER if repeats.seeds(outcome))
+    if repeats.none_judged:
+        yield f"{stops} stops, seeds {first}..{last}: all skipped; none was judged"
+        return
     interval = statistics.proportion_interval(expected, stops)
     low, high = (f"{100 * end:.3g}" for end in interval)
     share = f"{result.expect} {100 * expected / stops:.3g} % ({low} .. {high} % with 95 % confidence)"

@@ -35,11 +35,12 @@ class RunFolder:
 
     def __init__(self, parent: Path, name: str) -> None:
         self._parent = parent
-        self._name = name
+        self._wanted = name
         self._published = False
         self._made_parents = _make_missing(parent)
         _remove_abandoned(parent)
-        self.path = parent / f".{name}.{os.urandom(4).hex()}.partial"
+        self._name = _free_name(parent, name)
+        self.path = parent / f".{self._name}.{os.urandom(4).hex()}.partial"
         try:
             self.path.mkdir()
             self._lock = FolderLock(self.path)
@@ -61,27 +62,31 @@ class RunFolder:
 
     @property
     def name(self) -> str:
-        """The name that the folder is to get."""
+        """The name that the folder gets, which its reports state."""
         return self._name
 
     def publish(self) -> Path:
         """Give the folder its name, and return where it stands now. Raises OSError."""
         self._lock.hide()
-        for number in itertools.count(1):
-            target = self._parent / (self._name if number == 1 else f"{self._name}-{number}")
-            if target.exists():
-                continue
-            self.path.rename(target)
-            break
-        self.path = target
+        if (self._parent / self._name).exists():  # somebody made it meanwhile
+            self._name = _free_name(self._parent, self._wanted)
+        self.path = self.path.rename(self._parent / self._name)
         self._published = True
-        return target
+        return self.path
 
     def _remove_made_parents(self) -> None:
         # Innermost first. A folder that contains other files by now is kept, and so are its parents.
         with contextlib.suppress(OSError):
             for folder in reversed(self._made_parents):
                 folder.rmdir()
+
+
+def _free_name(parent: Path, name: str) -> str:
+    """Return the first of `name`, `name-2`, ... that no folder has, nor one that is being filled."""
+    names = (name if number == 1 else f"{name}-{number}" for number in itertools.count(1))
+    return next(
+        each for each in names if not (parent / each).exists() and not any(parent.glob(f".{each}.*.partial"))
+    )
 
 
 def _remove_abandoned(parent: Path) -> None:

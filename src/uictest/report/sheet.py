@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
+from uictest.report.sheet_columns import NUMBER_FORMATS, SheetColumn, sheet_column
 from uictest.report.wording import CASE_WORDS, tone
 
 if TYPE_CHECKING:
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 LONGEST_TEXT = 32_767
 """Characters a cell can hold."""
 
-MOST_ROWS = 1_048_575
-"""Rows a sheet can hold below its header."""
+MOST_ROWS = 1_048_574
+"""Rows a sheet can hold below its headings and units."""
 
 MOST_COLUMNS = 16_384
 """Columns a sheet can hold."""
@@ -33,7 +34,9 @@ VERDICT_COLUMNS: Final = frozenset({"met", "verdict"})
 
 _AS_WRITTEN = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
 _EPOCH = datetime(1980, 1, 1, tzinfo=UTC)
-_WIDEST, _NARROWEST = 60, 9  # characters
+_WIDEST, _NARROWEST = 48, 9  # characters
+_A4 = 9  # number of the paper
+_HEADING: Final = {"bold": True, "text_wrap": True, "valign": "top"}
 _MEASURED = 200  # rows that decide how wide a column is
 
 Row = dict[str, Cell]
@@ -74,9 +77,14 @@ def _close_rows(workbook: Workbook) -> None:
 def styles_of(workbook: Workbook) -> Styles:
     """Return the formats that the sheets of a workbook share."""
     return {
-        "header": workbook.add_format({"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"}),
+        "title": workbook.add_format({"bold": True, "font_size": 16}),
+        "header": workbook.add_format({**_HEADING, "bottom": 1}),
+        "heading": workbook.add_format(_HEADING),
+        "unit": workbook.add_format({"italic": True, "font_color": "#5a6472", "bottom": 1}),
+        "wrapped": workbook.add_format({"text_wrap": True, "valign": "top"}),
         "good": workbook.add_format({"font_color": "#1c6b3a", "bg_color": "#e5f2e9"}),
         "bad": workbook.add_format({"font_color": "#b3261e", "bg_color": "#fbe7e5"}),
+        **{text: workbook.add_format({"num_format": text}) for text in sorted(NUMBER_FORMATS)},
     }
 
 
@@ -84,8 +92,12 @@ def write_sheet(
     sheet: Worksheet, rows: Sequence[Row], styles: Styles, verdicts: Collection[str] = VERDICT_COLUMNS
 ) -> None:
     """Write rows below a header that names every column of any of them; colour the columns of verdicts."""
-    columns = list(dict.fromkeys(column for row in rows for column in row))
-    write_table(sheet, columns, rows, styles, verdicts=verdicts)
+    write_table(sheet, columns_of(rows), rows, styles, verdicts=verdicts)
+
+
+def columns_of(rows: Iterable[Row]) -> list[str]:
+    """Return every column of any of the rows, in the order of their first use."""
+    return list(dict.fromkeys(column for row in rows for column in row))
 
 
 def write_table(
@@ -96,32 +108,61 @@ def write_table(
     most: int = MOST_ROWS,
     verdicts: Collection[str] = VERDICT_COLUMNS,
 ) -> int:
-    """Write up to `most` rows below a header of the columns; return how many there were to write.
+    """Write up to `most` rows below the headings of the columns; return how many there were to write.
 
-    Words in the columns of `verdicts` are coloured by their tone.
+    A row of units stands below the headings where a column has one. Words in the columns of `verdicts` are
+    coloured by their tone.
     """
     waiting = iter(rows)
     first = list(itertools.islice(waiting, _MEASURED))
-    for column, name in enumerate(columns):
-        write_cell(sheet, 0, column, name, styles["header"])
-        sheet.set_column(column, column, width(name, (row.get(name) for row in first)))
+    shown = [sheet_column(name) for name in columns]
+    top = heading_rows(columns)
+    _write_headings(sheet, shown, top, styles)
+    for place, (name, column) in enumerate(zip(columns, shown, strict=True)):
+        broad = _width(column, (row.get(name) for row in first))
+        style = styles.get(column.number_format or ("wrapped" if broad == _WIDEST else ""))
+        sheet.set_column(place, place, broad, style)
     count = 0
     for count, row in enumerate(itertools.islice(itertools.chain(first, waiting), most), start=1):
-        for column, name in enumerate(columns):
-            write_cell(sheet, count, column, row.get(name))
-    _keep_headings(sheet)
+        for place, name in enumerate(columns):
+            write_cell(sheet, top + count - 1, place, row.get(name))
+    _keep_headings(sheet, top)
     if count:
-        sheet.autofilter(0, 0, count, len(columns) - 1)
-    _colour_verdicts(sheet, [columns.index(name) for name in columns if name in verdicts], count, styles)
+        sheet.autofilter(top - 1, 0, top + count - 1, len(columns) - 1)
+    coloured = [columns.index(name) for name in columns if name in verdicts]
+    _colour_verdicts(sheet, coloured, (top, top + max(count, 1) - 1), styles)
     return count
 
 
-def _keep_headings(sheet: Worksheet) -> None:
-    """Let the header and the first column stay in sight, and stand on every page in print."""
-    sheet.freeze_panes(1, 1)
-    sheet.repeat_rows(0)
+def heading_rows(columns: Iterable[str]) -> int:
+    """Return the number of rows above those of a table: the headings, and the units if there are any."""
+    return 2 if any(sheet_column(name).unit for name in columns) else 1
+
+
+def _write_headings(sheet: Worksheet, columns: Sequence[SheetColumn], rows: int, styles: Styles) -> None:
+    """Write the headings, and in the second of two rows the units."""
+    for place, column in enumerate(columns):
+        write_cell(sheet, 0, place, column.heading, styles["header" if rows == 1 else "heading"])
+    # A sheet that is streamed takes its rows in their order.
+    for place, column in enumerate(columns if rows > 1 else ()):
+        write_cell(sheet, 1, place, column.unit, styles["unit"])
+
+
+def _keep_headings(sheet: Worksheet, rows: int) -> None:
+    """Let the headings and the first column stay in sight, and stand on every page in print."""
+    sheet.freeze_panes(rows, 1)
+    sheet.repeat_rows(0, rows - 1)
     sheet.repeat_columns(0)
+    print_on_a4(sheet)
+
+
+def print_on_a4(sheet: Worksheet) -> None:
+    """Let a sheet print on A4 across, with the name of the sheet and the number of the page."""
     sheet.set_landscape()
+    sheet.set_paper(_A4)
+    sheet.set_margins(left=0.4, right=0.4, top=0.6, bottom=0.6)
+    sheet.set_header("&L&9&A&R&9&F")
+    sheet.set_footer("&R&9&P / &N")
 
 
 def write_cell(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None = None) -> None:
@@ -132,6 +173,12 @@ def write_cell(sheet: Worksheet, row: int, column: int, value: Cell, style: Form
         sheet.write_boolean(row, column, value, style)
     elif value is not None and abs(value) < float("inf"):
         sheet.write_number(row, column, value, style)
+
+
+def _width(column: SheetColumn, values: Iterable[Cell]) -> int:
+    """Return the width of a column. A heading in words may wrap; a name may not."""
+    words = column.heading.split() if column.unit or column.number_format else [column.heading]
+    return width(max(words, key=len, default=""), values)
 
 
 def width(name: str, values: Iterable[Cell]) -> int:
@@ -148,11 +195,11 @@ _COLOURS: Final = (
 )
 
 
-def _colour_verdicts(sheet: Worksheet, columns: Iterable[int], rows: int, styles: Styles) -> None:
+def _colour_verdicts(sheet: Worksheet, columns: Iterable[int], rows: tuple[int, int], styles: Styles) -> None:
     for first, last in _runs(columns):
         for word, colour in _COLOURS.items():
             rule: dict[str, Any] = {"type": "cell", "criteria": "==", "value": f'"{word}"'}
-            sheet.conditional_format(1, first, max(rows, 1), last, rule | {"format": styles[colour]})
+            sheet.conditional_format(rows[0], first, rows[1], last, rule | {"format": styles[colour]})
 
 
 def _runs(columns: Iterable[int]) -> Iterator[tuple[int, int]]:

@@ -52,7 +52,7 @@ from .external.opened import empty_exchange as empty_exchange
 from .external.workers import Workers as Workers
 from .highest_creep import highest_creep_forces as highest_creep_forces
 from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS
-from .noise_key import noise_keys as noise_keys
+from .noise_key import noise_key_text as noise_key_text, noise_keys as noise_keys
 from .recorded_rail import RecordedRail as RecordedRail
 from .simulation import (
     SimulatedStop as SimulatedStop,

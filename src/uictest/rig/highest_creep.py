@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
-from uictest.rig.model.running_gear import HIGHEST_LOAD, LOWEST_LOAD
+from uictest.rig.model.running_gear import LOWEST_LOAD
+from uictest.rig.model.slip_search import HIGHEST_LOAD
 from uictest.scenario import RailCondition
 
 _SLIPS: Final = np.geomspace(1e-5, 60.0, 800)

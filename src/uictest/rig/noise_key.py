@@ -50,3 +50,8 @@ def noise_keys(
 def _crc32_of_rows(rows: NDArray[np.float64]) -> list[int]:
     content, length = rows.tobytes(), rows.shape[1] * rows.itemsize
     return [zlib.crc32(content[first : first + length]) for first in range(0, len(content), length)]
+
+
+def noise_key_text(parameters: np.void) -> str:
+    """Return the key in a parameter record as results state it: eight hexadecimal digits."""
+    return f"{int(parameters['noise_key']):08x}"

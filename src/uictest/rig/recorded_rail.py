@@ -6,7 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.rig.assembly import ASSIGNMENTS, assigned
-from uictest.rig.backends.compiled import OPTIONS, callback, compiled_operations, compiler, translate
+from uictest.rig.backends.compiled import (
+    callback,
+    compile_inner,
+    compiled_operations,
+    compiler,
+    translate,
+)
 from uictest.rig.backends.machine_code import address, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
@@ -33,7 +39,7 @@ class RecordedRail:
     """
 
     def __init__(self, scenario: Scenario, time: Array, speed: Array, place: Array, load: Array) -> None:
-        self._parameters = np.zeros(1, PARAMETERS)[0]
+        self._parameters = np.zeros(1, PARAMETERS)
         for name, value in assigned(ASSIGNMENTS, scenario).items():
             self._parameters[name] = value
         self._behind = place[0, 0] - place[:, 0]
@@ -54,20 +60,20 @@ class RecordedRail:
             energy: Wc, J/m.
             recovered_friction: mur.
         """
-        self._parameters.cleaning_response = 1.0 / energy
-        self._parameters.recovered_friction = recovered_friction
+        self._parameters["cleaning_response"] = 1.0 / energy
+        self._parameters["recovered_friction"] = recovered_friction
         self._motion["found"] = found.T
         self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
         met = np.zeros(self._motion.shape, MET_RAIL)
         wheelsets = np.zeros(_WHEELSETS, WHEELSET)
         wheelsets["behind"] = self._behind
         wheelsets["friction"] = found[:, 0]
-        car, memory, rows = np.zeros(1, CAR)[0], np.zeros(1, RAIL_MEMORY)[0], len(met)
+        car, memory, rows = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY), len(met)
         native_function(_NAME, _compile, len(_ARGUMENTS))(
-            address(car, CAR),
+            address(car, CAR, (1,)),
             address(wheelsets, WHEELSET, (_WHEELSETS,)),
-            address(self._parameters, PARAMETERS),
-            address(memory, RAIL_MEMORY),
+            address(self._parameters, PARAMETERS, (1,)),
+            address(memory, RAIL_MEMORY, (1,)),
             address(self._motion, RECORDED_MOTION, (rows, _WHEELSETS)),
             address(met, MET_RAIL, (rows, _WHEELSETS)),
             rows,
@@ -77,9 +83,8 @@ class RecordedRail:
 
 def _compile() -> Any:
     """Return the walk over the rail compiled by numba, as a function of addresses and their length."""
-    numba = compiler()
-    carray = numba.carray
-    entry = translate(follow_record, numba.njit(**OPTIONS), compiled_operations())
+    carray = compiler().carray
+    entry = translate(follow_record, compile_inner, compiled_operations())
 
     def on_addresses(car: Any, wheelsets: Any, p: Any, memory: Any, motion: Any, met: Any, rows: int) -> int:
         entry(

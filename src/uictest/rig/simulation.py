@@ -19,6 +19,7 @@ from uictest.rig.model.trace import (
     FAULT_CHANNELS,
     WHEELSET_CHANNELS,
 )
+from uictest.rig.noise_key import noise_key_text
 from uictest.scenario import Case
 
 
@@ -33,6 +34,7 @@ class SimulatedStop:
         controller_version: what a controller from outside says of itself.
         response_times: how it answered, where cycles were paced by the clock.
         case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
+        noise_key: of the sensors' noise, see :mod:`uictest.rig.noise_key`, as eight hexadecimal digits.
     """
 
     measures: Any
@@ -41,6 +43,7 @@ class SimulatedStop:
     controller_version: str = ""
     response_times: ResponseTimes | None = None
     case_sha256: str = ""
+    noise_key: str = ""
 
 
 def simulate(case: Case, record_every: float | None = None, run: RunInputs | None = None) -> SimulatedStop:
@@ -68,6 +71,7 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
         *(finished.measures, finished.wheelset_measures, recording),
         *(finished.controller_version, finished.response_times),
         case_sha256="" if inputs.config is None else inputs.config.case_sha256,
+        noise_key=noise_key_text(inputs.parameters),
     )
 
 

@@ -1,8 +1,11 @@
+from .choice import chosen_case as chosen_case
 from .controller_loading import load_controller as load_controller
 from .discovery import (
+    OTHER_SCHEMAS as OTHER_SCHEMAS,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
     link_outside as link_outside,
+    may_be_scenario as may_be_scenario,
 )
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
@@ -39,6 +42,7 @@ from .part_keys import (
     PART_KINDS as PART_KINDS,
     with_default_parts as with_default_parts,
 )
+from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, Compensation as Compensation

@@ -19,8 +19,9 @@ from uictest.scenario.yaml import (
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
 SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
-_OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map")
-_OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
+_OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map", "validation")
+OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
+"""Schemas of files that may lie among scenarios and are none: parts, benches, channel maps, validations."""
 
 
 def scenario_trees(
@@ -29,8 +30,8 @@ def scenario_trees(
     """Yield the tree of every scenario file at or below ``paths``, once and in order; append errors.
 
     A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), series
-    (``*.series.yaml``), parts, bench recipes, channel maps, hidden files, and files that begin with an
-    underscore (parents only). A file that is named explicitly is always read.
+    (``*.series.yaml``), parts, bench recipes, channel maps, validations, hidden files, and files that
+    begin with an underscore (parents only). A file that is named explicitly is always read.
     """
     seen: set[str] = set()
     for path, named in _candidates(paths, diagnostics):
@@ -73,11 +74,12 @@ def _below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
     inside: list[Path] = []
     for parent, folders, names in os.walk(folder, onerror=report):
         folders[:] = [name for name in folders if not name.startswith(".")]
-        inside.extend(Path(parent, name) for name in names if _may_be_scenario(name))
+        inside.extend(Path(parent, name) for name in names if may_be_scenario(name))
     return sorted(inside, key=Path.as_posix)
 
 
-def _may_be_scenario(name: str) -> bool:
+def may_be_scenario(name: str) -> bool:
+    """Whether a file of this name in a folder is taken for a scenario, unless its schema is another."""
     return (
         name.endswith((".yaml", ".yml"))
         and not name.startswith((".", "_"))
@@ -87,4 +89,4 @@ def _may_be_scenario(name: str) -> bool:
 
 def _is_of_other_kind(tree: Map) -> bool:
     schema = tree.get("schema")
-    return isinstance(schema, Scalar) and schema.value in _OTHER_SCHEMAS
+    return isinstance(schema, Scalar) and schema.value in OTHER_SCHEMAS

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import Any, Final
 
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.scenario.model import Scenario
@@ -24,7 +24,7 @@ class SchemaGenerator(GenerateJsonSchema):
 
 def json_schema() -> dict[str, Any]:
     """The schema of ``uictest/scenario/1``, every field described."""
-    schema = _schema_2020_of(Scenario, "uictest scenario")
+    schema = _schema_2020_of(TypeAdapter(Scenario), "uictest scenario")
     _loosen(schema)
     draft: dict[str, Any] = as_draft_07(schema)
     return draft
@@ -32,13 +32,18 @@ def json_schema() -> dict[str, Any]:
 
 def schema_of(model: type[BaseModel], title: str) -> dict[str, Any]:
     """The schema of another kind of file that holds quantities and parts."""
-    draft: dict[str, Any] = as_draft_07(_schema_2020_of(model, title))
+    return schema_of_type(TypeAdapter(model), title)
+
+
+def schema_of_type(adapter: TypeAdapter[Any], title: str) -> dict[str, Any]:
+    """The schema of a kind of file that is one of several models."""
+    draft: dict[str, Any] = as_draft_07(_schema_2020_of(adapter, title))
     return draft
 
 
-def _schema_2020_of(model: type[BaseModel], title: str) -> dict[str, Any]:
-    schema = model.model_json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=SchemaGenerator)
-    definitions = {**schema.pop("$defs"), **quantity_definitions(KINDS)}
+def _schema_2020_of(adapter: TypeAdapter[Any], title: str) -> dict[str, Any]:
+    schema = adapter.json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=SchemaGenerator)
+    definitions = {**schema.pop("$defs", {}), **quantity_definitions(KINDS)}
     return {"$schema": SCHEMA_DRAFT, **schema, "title": title, "definitions": definitions}
 
 

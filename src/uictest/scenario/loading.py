@@ -192,6 +192,7 @@ def _twice(node: Node, twin: Node) -> str:
 _COMMANDS = {
     "uictest/sweep/1": "a sweep is run with `uictest sweep`",
     "uictest/bench/1": "a bench test is run with `uictest bench`",
+    "uictest/validation/1": "a validation is run with `uictest validate`",
     "uictest/series/1": "a series is in a file that ends in .series.yaml",
 }
 """Schema of another kind of file -> how to run it."""

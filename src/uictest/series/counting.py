@@ -35,7 +35,7 @@ class SeriesStop:
         return next((each for each in self.criteria if each.id == criterion), None)
 
 
-def stops_of(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> list[SeriesStop]:
+def observed_stops(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> list[SeriesStop]:
     """Return all stops of cases, repeats one by one.
 
     A stop whose initial speed is farther from the nominal one than the tolerance (km/h) is invalid: distances

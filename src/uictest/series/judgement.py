@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from uictest import evaluation
 from uictest.evaluation import Outcome
-from uictest.series.counting import SeriesStop, counts_of, not_counted, stops_of
+from uictest.series.counting import SeriesStop, counts_of, not_counted, observed_stops
 from uictest.series.plan.series import Series
 from uictest.series.relations import with_relations
 from uictest.series.result import Role, SeriesCase, SeriesResult, SeriesVerdict, SpeedResult
@@ -26,7 +26,7 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
     """
     _require_known(series, cases)
     tolerance = round(in_unit(series.file.speed_tolerance, "km/h"), 9)
-    stops = with_relations(series, stops_of(cases, tolerance))
+    stops = with_relations(series, observed_stops(cases, tolerance))
     observed = _ObservedSeries(series, stops)
     verdicts = tuple(
         verdict_of(series, criterion, profile, observed.speeds, stops, observed.too_few)

@@ -11,6 +11,8 @@ from uictest.measures import MEASURES
 from uictest.scenario import Criterion
 from uictest.series.counting import SeriesStop
 from uictest.series.plan.series import Series
+from uictest.series_measures import SpeedStops, of_stop, percent_of_dry
+from uictest.units import KILOMETRE_PER_HOUR
 
 
 def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesStop]:
@@ -53,13 +55,14 @@ def _applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
 def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]) -> float:
     column = MEASURES[criterion.measure].column
     assert column is not None
-    dry = [
-        each.figures.measures[column.name]
+    dry = tuple(
+        each.figures
         for each in stops
         if each.role == "dry" and each.counts and each.speed_kmh == stop.speed_kmh
-    ]
-    reference = math.fsum(dry) / len(dry) if dry else math.nan
-    return 100.0 * stop.figures.measures[column.name] / reference if reference else math.nan
+    )
+    at_speed = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, (stop.figures,))
+    (percent,) = percent_of_dry(of_stop(column.name), at_speed)
+    return percent
 
 
 def _verdict(criterion: Criterion, percent: float) -> evaluation.Verdict:

@@ -1,4 +1,4 @@
-from .mean import mean_interval as mean_interval
+from .mean import mean_interval as mean_interval, next_interval as next_interval
 from .order_statistics import (
     BoundRanks as BoundRanks,
     Side as Side,

@@ -1,4 +1,4 @@
-"""How well a sample knows a mean."""
+"""How well a sample knows a mean, and the next draw."""
 
 from __future__ import annotations
 
@@ -13,10 +13,27 @@ def mean_interval(values: Sequence[float], confidence: float = 0.95) -> tuple[fl
 
     Student's t: exact for normal draws, and near the stated confidence for the mean of many others.
     """
+    mean, variance, factor = _of_sample(values, confidence)
+    half = factor * math.sqrt(variance / len(values))
+    return mean - half, mean + half
+
+
+def next_interval(values: Sequence[float], confidence: float = 0.95) -> tuple[float, float]:
+    """Return the interval of one further draw; NaN at both ends for one value.
+
+    Student's t, m +- t s sqrt(1 + 1 / n): exact for normal draws, however few. With many it comes to the mean
+    plus or minus 1.96 standard deviations; with few it is wider.
+    """
+    mean, variance, factor = _of_sample(values, confidence)
+    half = factor * math.sqrt(variance * (1.0 + 1.0 / len(values)))
+    return mean - half, mean + half
+
+
+def _of_sample(values: Sequence[float], confidence: float) -> tuple[float, float, float]:
+    """Return mean, variance and the quantile of Student's t; NaN for what one value lacks."""
     count = len(values)
     if count < 2:
-        return math.nan, math.nan
+        return math.nan, math.nan, math.nan
     mean = math.fsum(values) / count
     variance = math.fsum((value - mean) ** 2 for value in values) / (count - 1)
-    half = float(stdtrit(count - 1, 0.5 + confidence / 2.0)) * math.sqrt(variance / count)
-    return mean - half, mean + half
+    return mean, variance, float(stdtrit(count - 1, 0.5 + confidence / 2.0))

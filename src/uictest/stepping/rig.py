@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from uictest import evaluation, scenario
 from uictest.controllers import ControllerError, Inputs, Outputs, read_inputs, write_outputs
 from uictest.recording import Recording
-from uictest.rig import SteppedStop, assemble, recording_of_stop
-from uictest.scenario.yaml import suggestion
+from uictest.rig import SteppedStop, assemble, noise_key_text, recording_of_stop
 from uictest.stepping.state import RigState, state_of
 
 Magnets = Sequence[bool | int]
@@ -55,9 +55,10 @@ class Rig:
         if record is not None and not 0.0 < record < math.inf:
             raise ValueError(f"record is {record!r}, expected samples per second or None")
         cases = scenario.load([Path(path)], trusted=[Path(folder) for folder in trust])
-        self.case = _chosen(cases, case)
+        self.case = scenario.chosen_case(cases, case)
         self._record = record
         self._stop: SteppedStop | None = None
+        self._noise_key = ""
 
     @property
     def cycle_time(self) -> float:
@@ -74,6 +75,7 @@ class Rig:
         Raises ValueError for another seed. The first call on a machine compiles the rig (about 30 s).
         """
         inputs = assemble(self.case)
+        self._noise_key = noise_key_text(inputs.parameters)
         if seed is not None:
             inputs.parameters["seed"] = _checked_seed(seed)
         step = float(inputs.parameters["step"])
@@ -127,7 +129,8 @@ class Rig:
     def result(self) -> evaluation.CaseResult:
         """Return the judged result of the stop, as `uictest run` judges it; RuntimeError before its end."""
         finished = self._ended().finished()
-        return evaluation.evaluate_simulated(self.case, finished.measures, finished.wheelset_measures)
+        result = evaluation.evaluate_simulated(self.case, finished.measures, finished.wheelset_measures)
+        return replace(result, noise_key=self._noise_key)
 
     def recording(self) -> Recording:
         """Return the recording of the stop; RuntimeError before its end or without `record`."""
@@ -151,18 +154,6 @@ class Rig:
         if not stop.has_ended:
             raise RuntimeError(f"the stop has not ended after {stop.inputs['time']:g} s: call step()")
         return stop
-
-
-def _chosen(cases: Sequence[scenario.Case], case_id: str | None) -> scenario.Case:
-    """Return the case of an id, or the only one. Raises ValueError."""
-    ids = [case.id for case in cases]
-    if case_id is None:
-        if len(cases) != 1:
-            raise ValueError(f"the scenario has {len(cases)} cases: pass case= one of {', '.join(ids)}")
-        return cases[0]
-    if case_id not in ids:
-        raise ValueError(f"no case {case_id!r}; {suggestion(case_id, ids)}")
-    return cases[ids.index(case_id)]
 
 
 def _checked_seed(seed: int) -> int:

@@ -99,6 +99,60 @@ def test_what_cannot_be_compared_exits_4(call: Call, arguments: list[str]) -> No
     assert "Traceback" not in answer.err
 
 
+WET = "rail: {condition: wet, friction: 0.08}\ncriteria: uictest-stop\n"
+
+
+def test_two_controllers_are_compared_stop_by_stop(call: Call, scenario: Write) -> None:
+    path = scenario("stop", WET)
+    for name in ("threshold", "slip-band"):
+        call("run", path, "--repeat", "3", "--set", f"controller={name}", "-o", name)
+    answer = call("compare", "threshold/latest", "slip-band/latest", "--format", "json")
+    (group,) = json.loads(answer.out)["paired"]["groups"]
+    assert (group["name"], group["pairs"], group["seeds"]) == ("stop", 3, [0, 1, 2])
+    stops = [
+        json.loads(Path(name, "latest/results.json").read_text())["cases"][0]["repeats"]["stops"]
+        for name in ("threshold", "slip-band")
+    ]
+    distances = [[stop["measures"]["braking_distance_m"] for stop in side] for side in stops]
+    differences = [second - first for first, second in zip(*distances, strict=True)]
+    shown = next(each for each in group["differences"] if each["quantity"] == "braking_distance_m")
+    assert shown["mean"]["value"] == pytest.approx(sum(differences) / 3)
+    assert shown["median"]["value"] == pytest.approx(sorted(differences)[1])
+    call("run", path, "--repeat", "3", "--seed", "40", "-o", "later")
+    other = call("compare", "threshold/latest", "later/latest")
+    assert "not paired: stop: no seed is on both sides: seeds 0..2; seeds 40..42" in other.out.splitlines()
+
+
+def test_the_variants_of_one_run_are_compared(call: Call, scenario: Write) -> None:
+    path = scenario("stop", WET)
+    call("run", path, "--repeat", "2", "--set", "controller=threshold,slip-band")
+    answer = call("compare", "reports/latest", "--over", "controller", "--html", "page.html")
+    assert answer.code == 0
+    assert answer.out.startswith("first controller=threshold, second controller=slip-band\npaired: second")
+    assert "paired: stop: 2 pairs, seeds 0, 1" in answer.out.splitlines()
+    assert answer.err == "uictest: 1 group of stops of 2 variants paired\n"
+    assert "controller=slip-band" in Path("page.html").read_text()
+    document = json.loads(call("compare", "reports/latest", "--over", "controller", "--format", "json").out)
+    assert document["variants"][0]["second"] == "controller=slip-band"
+
+
+def test_variants_without_pairs_exit_5_and_wrong_usage_exits_4(call: Call, scenario: Write) -> None:
+    path = scenario("stop", WET)
+    call("run", path, "--set", "controller=threshold,slip-band")
+    single = call("compare", "reports/latest", "--over", "controller")
+    assert (single.code, "no case or series has several stops" in single.out) == (5, True)
+    for arguments in (
+        ["reports/latest"],
+        ["reports/latest", "reports/latest", "--over", "controller"],
+        ["reports/latest", "--over", "controller", "--tolerance", "1"],
+        ["reports/latest", "--over", "friction"],
+        ["scenarios", "--over", "controller"],
+    ):
+        answer = call("compare", *arguments)
+        assert (answer.code, answer.out) == (4, ""), arguments
+        assert "Traceback" not in answer.err
+
+
 def test_what_is_no_run_is_named_for_what_it_is(call: Call, scenario: Write, made_up: list[str]) -> None:
     scenario("a")
     call("run", "-o", "one")

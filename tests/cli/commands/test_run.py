@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest import campaign, report, rig
-from uictest.cli.commands import run as run_module
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -293,7 +292,7 @@ def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(
         raise RuntimeError("a \x1b[31mbug")
 
     scenario("a")
-    monkeypatch.setattr(run_module, "_inputs", broken)
+    monkeypatch.setattr(report, "run_manifest", broken)
     answer = call("run")
     assert answer.code == 3
     assert answer.err.splitlines() == [

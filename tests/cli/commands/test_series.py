@@ -103,7 +103,7 @@ def test_the_document_is_all_that_json_prints(call: Call, campaign: Callable[...
     document = json.loads(call("run", campaign(), "--format", "json").out)
     (read,) = series.series_results_of(document["series"])
     assert (read.id, read.outcome) == ("small", "pass")
-    assert [stop.seed for stop in series.stops_of(read.cases, 3.0)] == [None, 0, 1]
+    assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [None, 0, 1]
 
 
 def test_github_gets_an_annotation(call: Call, campaign: Callable[..., Path]) -> None:
@@ -146,7 +146,7 @@ def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Callable[...,
     path = campaign()
     assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
     (read,) = series.series_results_of(results()["series"])
-    assert [stop.seed for stop in series.stops_of(read.cases, 3.0)] == [40, 41, 42, 40, 41, 42]
+    assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [40, 41, 42, 40, 41, 42]
     values = {
         p.value
         for each in read.cases

@@ -16,8 +16,8 @@ from typing import Any
 
 import pytest
 
-from uictest import report, rig, sweep as room
-from uictest.sweep.running.chunk import ChunkRunner
+from uictest import report, rig, sweeps as room
+from uictest.sweeps.running.chunk import ChunkRunner
 
 from ..conftest import HANGING, Start
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-TWIN = Path(__file__).parents[2] / "sweep" / "controllers" / "slip_band.py"
+TWIN = Path(__file__).parents[2] / "sweeps" / "controllers" / "slip_band.py"
 """The built-in slip-band as a controller from outside."""
 CASES = "rail: {condition: wet}\nmatrix: {rail.friction: [0.08, 0.10], seed: [1, 2]}\n"
 OUTSIDE = "controller={python: slip_band.py, class: SlipBand, parameters: {lower_slide: %s}}"

@@ -49,6 +49,18 @@ def test_a_format_there_is_not_is_rejected_before_anything_runs(call: Call, pads
     assert (answer.code, answer.out, FOLDER.exists()) == (4, "", False)
 
 
+def test_nothing_of_an_earlier_result_stays_beside_another(call: Call, pads: Path) -> None:
+    call("sweep", pads, "--report", "html", "--measure", "braking_time_s")
+    (FOLDER / "notes.csv").write_text("mine")
+    call("sweep", pads, "--report", "csv")
+    names = {path.name for path in FOLDER.iterdir()}
+    assert {"map-braking_distance_m.csv", "notes.csv", "sweep.json"} <= names
+    assert names.isdisjoint({"map-braking_time_s.csv", "index.html"})
+    call("sweep", pads, "--report", "html")
+    call("sweep", pads, "--report", "csv")
+    assert (FOLDER / "index.html").exists()
+
+
 def test_a_finished_sweep_gives_further_formats(call: Call, pads: Path) -> None:
     call("sweep", pads, "--report", "csv")
     answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere")
@@ -184,6 +196,22 @@ def test_shards_and_an_interrupted_sweep_give_the_same_k_dry(call: Call, k_dry: 
     next(iter(sorted(Path("whole/pads/chunks").iterdir()))).unlink()
     assert "16 of 32 cases are already finished" in call("sweep", k_dry, "-o", "whole").err
     assert Path("whole/pads/k_dry.yaml").read_text() == whole
+
+
+def test_k_dry_of_finished_cases_may_be_asked_for_anew(call: Call, k_dry: Path) -> None:
+    call("sweep", k_dry)
+    chunks = sorted(path.name for path in (FOLDER / "chunks").iterdir())
+    (before,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
+    text, _, request = k_dry.read_text().rpartition("k_dry:")
+    k_dry.write_text(f"{text}k_dry:{request.rstrip().rstrip('}')}, confidence: 80 %}}\n")
+    assert "32 of 32 cases are already finished" in call("sweep", k_dry).err
+    (after,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
+    assert (before["confidence"], after["confidence"]) == ("95 %", "80 %")
+    assert after["levels"][0]["draws_needed"] < before["levels"][0]["draws_needed"]
+    assert sorted(path.name for path in (FOLDER / "chunks").iterdir()) == chunks
+    k_dry.write_text(k_dry.read_text().replace("0.36", "0.365"))
+    answer = call("sweep", k_dry)
+    assert (answer.code, "the cases that the sweep file asks for" in answer.err) == (4, True)
 
 
 def test_a_nominal_case_without_a_deceleration_is_named(call: Call, k_dry: Path) -> None:

@@ -23,18 +23,20 @@ def _read(content: RunContent) -> Any:
 
 
 def _table(sheet: Any) -> list[dict[str, Any]]:
+    """Return the rows below the headings, and below the units, which freeze with them."""
     header, *rows = ([cell.value for cell in row] for row in sheet.iter_rows())
+    rows = rows[1:] if sheet.freeze_panes == "B3" else rows
     return [dict(zip(header, row, strict=True)) for row in rows]
 
 
 def test_the_sheets_hold_what_the_run_found(make_content: MakeContent, make_result: MakeResult) -> None:
     subject = CaseDescription("A dry stop", ("dry", "stop"))
     workbook = _read(make_content(make_result(), subjects={"dry-120[command=90]": subject}))
-    assert workbook.sheetnames == ["Cases", "Wheelsets", "Criteria", "Provenance"]
+    assert workbook.sheetnames == ["Cover", "Cases", "Wheelsets", "Criteria", "Provenance"]
     (case,) = _table(workbook["Cases"])
     assert (case["case"], case["title"], case["tags"]) == ("dry-120[command=90]", "A dry stop", "dry stop")
-    assert (case["verdict"], case["braking_distance_m"], case["brake.command"]) == ("pass", 465.25, "90 %")
-    assert case["initial_adhesion_g"] is None
+    assert (case["verdict"], case["braking distance"], case["brake.command"]) == ("pass", 465.25, "90 %")
+    assert case["initial adhesion"] is None
     assert [row["wheelset"] for row in _table(workbook["Wheelsets"])] == [1, 2, 3, 4]
     (criterion,) = _table(workbook["Criteria"])
     assert (criterion["lower"], criterion["upper"], criterion["verdict"]) == (440.0, 490.0, "pass")
@@ -78,7 +80,7 @@ def test_no_number_is_an_empty_cell_and_a_failed_case_a_row(
     failed = make_result(id="crashed", outcome="error", measures=None, wheelsets=(), criteria=())
     workbook = _read(make_content(make_result(criteria=(infinite,)), failed))
     assert _table(workbook["Criteria"])[0]["value"] is None
-    assert _table(workbook["Cases"])[1]["braking_distance_m"] is None
+    assert _table(workbook["Cases"])[1]["braking distance"] is None
 
 
 def _cells(workbook: Any) -> Sequence[Any]:
@@ -104,3 +106,60 @@ def test_requirements_are_a_matrix_over_the_cases(
     ]
     coloured = {str(each.sqref) for each in workbook["Requirements"].conditional_formatting}
     assert coloured == {"B2:B3", "E2:F3"}
+
+
+def test_measures_have_units_and_the_digits_that_are_compared(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    sheet = _read(make_content(make_result()))["Cases"]
+    heading, unit, values = sheet.iter_rows(max_row=3)
+    shown = {
+        name.value: (below.value, cell.number_format)
+        for name, below, cell in zip(heading, unit, values, strict=True)
+    }
+    assert shown["braking distance"] == ("m", "0.0")
+    assert shown["mean deceleration"] == ("m/s2", "0.000")
+    assert shown["air residual"] == ("", "0.0E+00")
+    assert shown["adhesion utilisation"][0] == "%"
+    assert shown["case"] == ("", "General")
+    assert (sheet.freeze_panes, sheet.auto_filter.ref.partition(":")[0]) == ("B3", "A2")
+    assert sheet.print_title_rows == "$1:$2"
+
+
+def test_the_cover_names_what_is_not_as_expected_and_draws_every_case(
+    make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    failed = make_verdict(status="fail", reason="too long", margin=-98.0)
+    results = [make_result(id="a"), make_result(id="b", outcome="fail", criteria=(failed,))]
+    workbook = _read(make_content(*results))
+    cover = [[cell.value for cell in row] for row in workbook["Cover"].iter_rows()]
+    (missed,) = [row for row in cover if row[0] == "b"]
+    assert missed[1] == "fail"
+    assert "too long" in missed[2]
+    assert ["pass", 1, None] in cover
+    named = [row[0] for row in cover]
+    assert set(workbook.sheetnames[1:]) <= set(named)
+    references = [each.series[0].val.numRef.f for each in workbook["Cover"]._charts]
+    cases = workbook["Cases"]
+    columns = {cell.value: cell.column_letter for cell in cases[1]}
+    assert references == [
+        f"Cases!${columns[name]}$3:${columns[name]}$4" for name in ("braking distance", "narrowest margin")
+    ]
+
+
+def test_a_cover_names_so_many_cases_and_counts_the_rest(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    failed = [make_result(id=f"case-{k}", outcome="fail", criteria=()) for k in range(25)]
+    cover = [row[0].value for row in _read(make_content(*failed))["Cover"].iter_rows()]
+    assert "case-19" in cover
+    assert "case-20" not in cover
+    assert "and 5 cases more on the sheet Cases" in cover
+
+
+def test_every_sheet_prints_across_a4_with_its_page_numbers(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    for sheet in _read(make_content(make_result())):
+        assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("landscape", 9)
+        assert sheet.oddFooter.right.text == "&P / &N"

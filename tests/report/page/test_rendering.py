@@ -40,3 +40,9 @@ def test_damaged_code_is_compiled_anew(cache: Path) -> None:
     (kept,) = cache.iterdir()
     kept.write_bytes(kept.read_bytes().replace(b"the ", b"THE "))
     assert _rendered("the {{ name }}") == "the WSP"
+
+
+def test_the_running_head_holds_nothing_that_ends_it() -> None:
+    style = rendering._running_head('a"; } </style><b>\\\n\u202e')
+    assert not set(style.partition('content: "')[2].rpartition('"')[0]) & set('"<>;{}\n\u202e')
+    assert style.count('"') == 2

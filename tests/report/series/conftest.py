@@ -44,8 +44,8 @@ def make_series() -> MakeSeries:
         dry = _case("acceptance.dry", (_stop(0, 460.0),), "dry")
         valid = [_stop(seed, distance) for seed, distance in enumerate((500.0, 510.0, 520.0, 530.0, 540.0))]
         wet = _case("acceptance.wet", (*valid, _stop(5, 2000.0, "invalid")), "wet")
-        figures = [stop.figures for stop in series.stops_of([wet], 3.0)][:5]
-        speed = SpeedStops(120.0 / 3.6, (series.stops_of([dry], 3.0)[0].figures,), tuple(figures))
+        figures = [stop.figures for stop in series.observed_stops([wet], 3.0)][:5]
+        speed = SpeedStops(120.0 / 3.6, (series.observed_stops([dry], 3.0)[0].figures,), tuple(figures))
         measures = {name: each.of_series([speed], 0.95) for name, each in SERIES_MEASURES.items()}
         k_wet = measures["k_wet"].estimate
         assert k_wet is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import io
 from collections.abc import Callable
 from typing import Any
@@ -17,7 +18,9 @@ from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.formats.md import sweep_markdown
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 from uictest.report.sweep.k_dry_file import k_dry_yaml
-from uictest.report.sweep.tail_wording import MOST_TABLES, k_dry_text
+from uictest.report.sweep.tail_rows import k_dry_rows
+from uictest.report.sweep.tail_tables import MOST_TABLES
+from uictest.report.sweep.tail_wording import k_dry_text
 
 from ..test_page import Page
 
@@ -54,10 +57,10 @@ def test_the_terminal_shows_bounds_and_refusals(make_sweep: MakeSweep) -> None:
     lines = list(tail_lines(make_sweep(**tails({"speed": "80 km/h"})).result))
     assert lines == [
         "quantiles of speed_mps2, m/s2 at speed = 80 km/h: 95 % confidence, 200 draws",
-        "  level  estimate  bound",
-        f"  1 %    -         {REFUSAL}",
-        "  50 %   1.1       1.05 .. 1.15",
-        "  90 %   1.3       at most 1.35",
+        "  level  draws needed  estimate  bound",
+        f"  1 %    299           -         {REFUSAL}",
+        "  50 %   6             1.1       1.05 .. 1.15",
+        "  90 %   29            1.3       at most 1.35",
         "",
         f"K_dry of speed_mps2 at speed = 80 km/h: {BASIS}",
         "  EBCL  probability  draws needed  m/s2  K_dry",
@@ -104,9 +107,24 @@ def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep: MakeSw
     content = make_sweep(**many)
     lines = list(tail_lines(content.result))
     assert sum(line.startswith("quantiles of") for line in lines) == MOST_TABLES
-    assert "2 more tables in quantiles.csv" in lines
-    assert "4 more tables are in quantiles.csv and k_dry.csv" in Page(sweep_page_html(content)).text
-    assert "2 more tables are in `k_dry.csv`" in sweep_markdown(content)
+    for sentence in ("2 more tables are in quantiles.csv", "2 more tables are in k_dry.csv"):
+        assert sentence in lines
+        assert sentence in Page(sweep_page_html(content)).text
+        assert sentence in html.unescape(sweep_markdown(content))
+
+
+def test_draws_in_which_a_wheelset_slides_are_no_k_dry_in_any_report(make_sweep: MakeSweep) -> None:
+    of_sweep = tails({})
+    (k_dry,) = of_sweep["k_dry"]
+    content = make_sweep(**{**of_sweep, "k_dry": [{**k_dry, "sliding": 12}]})
+    words = "a wheelset slides in 12 of 200 draws, so that this is no K_dry"
+    assert words in "\n".join(tail_lines(content.result))
+    assert words in Page(sweep_page_html(content)).text
+    assert "in 12 of 200 draws" in sweep_markdown(content)
+    assert "draws_sliding: 12" in k_dry_yaml(content.result)
+    first, second = k_dry_rows(content.result)
+    assert (first["sliding"], first["note"][: len(words)]) == (12, words)  # type: ignore[index]
+    assert str(second["note"]).startswith(f"{REFUSAL}; {words}")
 
 
 def test_hostile_texts_make_no_element(make_sweep: MakeSweep, hostile: str) -> None:

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 from numpy.typing import NDArray
 
+from uictest.controllers import DEFAULT
 from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
@@ -139,8 +140,20 @@ def test_the_cases_differ_in_what_they_do(batch: Batch) -> None:
     assert len(set(batch.parameters["steps_per_cycle"])) == 2
 
 
+def test_a_lane_gives_the_bits_of_a_stop_alone(batch: Batch) -> None:
+    assert batch.is_as_alone(ALL, batch.in_lanes(ALL))
+
+
+@pytest.mark.parametrize("width", [2, 4, 8])
+def test_registers_of_any_processor_give_the_same_bits(batch: Batch, width: int) -> None:
+    """With one controller: it decides for one lane at a time, whatever their number."""
+    numbers = [number for number in ALL if batch.controllers[number].name == DEFAULT]
+    assert batch.is_as_alone(numbers, batch.in_lanes(numbers, width))
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [2, 4, 8, 16])
-def test_a_lane_gives_the_bits_of_a_stop_alone(batch: Batch, width: int) -> None:
+def test_any_number_of_lanes_gives_the_same_bits_with_every_controller(batch: Batch, width: int) -> None:
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL, width))
 
 

@@ -15,7 +15,7 @@ from uictest.rig.backends.compiled import translate
 from uictest.rig.model.balance import stored_energy
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.pneumatics import step_air
-from uictest.rig.model.running_gear import HIGHEST_LOAD, bracket_slip
+from uictest.rig.model.slip_search import HIGHEST_LOAD, bracket_slip
 from uictest.rig.model.step import step
 
 Array = NDArray[np.float64]
@@ -293,7 +293,7 @@ def test_contact_grows_with_the_load_as_hertz_says_up_to_a_highest_load(rig: Any
     wheelset.friction = 0.3
     for load in (0.5, 1.0, HIGHEST_LOAD, 2.0 * HIGHEST_LOAD):
         wheelset.wheel_load = load * p.reference_load
-        bracket_slip(wheelset, p)
+        bracket_slip(wheelset, 0.0, p)
         grown = min(load, HIGHEST_LOAD) ** (2.0 / 3.0)
         assert wheelset.contact_stiffness == pytest.approx(p.creep_stiffness * grown, rel=1e-11)
 

@@ -9,13 +9,11 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, scenario, series, sweep
+from uictest import report, runs, scenario, series, sweeps
 from uictest.cli import sweep as sweeping
-from uictest.cli.cases import scenario_paths
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.cli.series import is_series, series_files
 from uictest.scenario import yaml
 
 _FIELDS = ("file", "line", "column", "key", "message", "hint")
@@ -29,12 +27,12 @@ def check(
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
-    places = scenario_paths(paths)
+    places = runs.scenario_paths(paths)
     errors, counts = _scenarios([path for path in places if not _is_of_other_kind(path)], trusted or ())
-    sweeps = list(sweeping.sweep_files(places))
-    for path in sweeps:
+    sweep_paths = list(sweeping.sweep_files(places))
+    for path in sweep_paths:
         errors.extend(_errors_of_sweep(path, places, trusted or ()))
-    series_paths = list(series_files(places))
+    series_paths = list(runs.series_files(places))
     for path in series_paths:
         errors.extend(_errors_of_series(path, places, trusted or ()))
     if errors:
@@ -44,7 +42,7 @@ def check(
     if shown is Format.JSON:
         data("[]")
     if not quiet:
-        and_sweeps = f" and {report.counted(len(sweeps), 'sweep')}" if sweeps else ""
+        and_sweeps = f" and {report.counted(len(sweep_paths), 'sweep')}" if sweep_paths else ""
         and_series = f" and {len(series_paths)} series" if series_paths else ""
         message(f"uictest: {counts}{and_sweeps}{and_series}, no error")
     return ExitCode.MET
@@ -61,7 +59,7 @@ def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yam
 
 
 def _is_of_other_kind(path: Path) -> bool:
-    return sweeping.is_sweep(path) or is_series(path)
+    return sweeping.is_sweep(path) or runs.is_series(path)
 
 
 def _errors_of_series(
@@ -80,16 +78,16 @@ def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path])
     if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
         return (scenario.link_outside(path),)
     try:
-        plan = sweep.load_sweep(path, trusted=trusted)
+        plan = sweeps.load_sweep(path, trusted=trusted)
     except yaml.ScenarioErrors as errors:
         return errors.diagnostics
-    for each in sweep.drawn_ranges(plan):
+    for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
             message(f"{plan.file}: warning: {each}; {_consequence(plan)}")
     return ()
 
 
-def _consequence(plan: sweep.Plan) -> str:
+def _consequence(plan: sweeps.Plan) -> str:
     if plan.k_dry is not None:
         return "K_dry is a share of a stop that is never drawn"
     return "sensitivities hold for the range only"

@@ -9,17 +9,19 @@ from typing import Annotated
 
 import typer
 
-from uictest import comparison, recording
+from uictest import comparison, recording, runs
+from uictest.cli.compared_variants import compare_variants
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
 from uictest.cli.output import data, message, terminal_width
-from uictest.cli.run_folders import run_folder, why_no_run
 from uictest.recording import formats
 
 
 def compare(
     first: Annotated[Path, typer.Argument(metavar="A", help="Folder of a run, or a recording.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another run or recording.")],
+    second: Annotated[
+        Path | None, typer.Argument(metavar="B", help="Another run or recording.", show_default=False)
+    ] = None,
     tolerance: ToleranceTexts = None,
     channels: Annotated[
         list[str] | None,
@@ -29,14 +31,30 @@ def compare(
             help="Draw this channel on the page; NAME may contain *. May be repeated.",
         ),
     ] = None,
+    over: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--over",
+            metavar="KEY",
+            help="Compare the variants of run A that differ in KEY, such as controller. May be repeated.",
+        ),
+    ] = None,
     page: Annotated[
         Path | None,
-        typer.Option("--html", metavar="FILE", help="Also write a page with overlay plots."),
+        typer.Option("--html", metavar="FILE", help="Also write a page, with overlay plots of A and B."),
     ] = None,
     shown: ListFormat = PlainFormat.TEXT,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Compare two runs or two recordings. Exit 1 if anything is out of tolerance."""
+    """Compare two runs or two recordings. Exit 1 if anything is out of tolerance.
+
+    With --over, compare the variants of one run, stop by stop under the same noise.
+    """
+    if over:
+        _require_one_run(second, tolerance, channels)
+        return compare_variants(first, over, shown, page)
+    if second is None:
+        raise typer.BadParameter("give a second run or recording, or --over KEY", param_hint="B")
     if channels and page is None:
         raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
     compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])
@@ -55,11 +73,18 @@ def compare(
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
+def _require_one_run(second: Path | None, *others: Sequence[str] | None) -> None:
+    if second is not None:
+        raise typer.BadParameter("compares the variants of one run; leave B out", param_hint="--over")
+    if any(others):
+        raise typer.BadParameter("goes with neither --tolerance nor --channel", param_hint="--over")
+
+
 def _compared(
     first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
 ) -> comparison.Comparison:
     """Compare two runs or two recordings; `channels` are patterns to draw, None where there is no page."""
-    places = [run_folder(place) for place in (first, second)]
+    places = [runs.run_folder(place) for place in (first, second)]
     if any(place.is_dir() for place in places):
         return _runs(places[0], places[1], tolerances, channels)
     recordings = _recording(places[0]), _recording(places[1])
@@ -73,7 +98,7 @@ def _runs(
     first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
 ) -> comparison.Comparison:
     """Compare two runs, and draw the stops that both have recorded and that differ."""
-    if reason := why_no_run(first) or why_no_run(second):
+    if reason := runs.why_no_run(first) or runs.why_no_run(second):
         raise InvalidInputError(
             f"uictest: {reason}; compare takes the folders of two runs, or two recordings"
         )
@@ -85,8 +110,6 @@ def _runs(
 
 
 def _recording(path: Path) -> recording.Recording:
-    from uictest.cli.recordings import each_file
-
     try:
         if path.suffix == ".parquet":
             return recording.read_parquet(path)
@@ -94,7 +117,7 @@ def _recording(path: Path) -> recording.Recording:
         raise InvalidInputError(f"uictest: {error}") from error
     except OSError as error:
         raise InvalidInputError(f"uictest: {path}: {error.strerror or error}") from error
-    return each_file(
+    return runs.each_file(
         [path], lambda file: recording.recording_of(formats.read_contents(file), {"source": file.name})
     )[0]
 

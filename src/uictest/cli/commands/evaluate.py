@@ -8,14 +8,11 @@ from typing import Annotated
 
 import typer
 
-from uictest import campaign, field_data, recording, report, scenario as scenarios
+from uictest import campaign, field_data, recording, report, runs
 from uictest.cli import options, recordings, running
-from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_batch, of_series, worst
+from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_run
 from uictest.cli.output import data, message
-from uictest.cli.recorded_series import read_recorded_series
-from uictest.cli.series import is_series
 from uictest.recording import formats
-from uictest.scenario import yaml
 
 _OPTIONS = {
     "rail.condition": "--rail",
@@ -74,39 +71,34 @@ def evaluate(
     """
     request = campaign.RecordingRequest(recorded.value)
     display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
-    if any(map(is_series, files)):
-        stated = (listing, scenario, expression, *_statements(criteria, rail, position, wsp))
+    statements = [*runs.statements_of(criteria, rail, position, wsp), *(overrides or ())]
+    if any(map(runs.is_series, files)):
+        stated = (listing, scenario, expression, criteria, rail, position, wsp)
         preparation = (trigger, trigger_lead, raster, low_pass)
         _reject_options_of_recordings(files, [*stated, *preparation])
-        planned, stops = read_recorded_series(files, overrides, trusted)
+        planned, stops = runs.read_recorded_series(files, overrides, trusted)
         cases = [case for each in planned for case in each.cases]
-        batch = running.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit, planned)
-        return _judged(batch, display, quiet=quiet)
-    mapped, inputs = recordings.channel_map(
-        map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
-    )
-    if listing:
-        return _list(files, mapped)
-    statements = [*_statements(criteria, rail, position, wsp), *(overrides or ())]
-    case_of = _case_of_stop(scenario, expression, statements, trusted)
-    stops = running.read_files(files, mapped)
-    cases = [_case(stop, case_of, inputs) for stop in stops]
-    batch = running.RecordedBatch(stops, cases, context.obj.arguments, request, output, junit)
-    return _judged(batch, display, quiet=quiet)
-
-
-def _judged(batch: running.RecordedBatch, display: running.Display, *, quiet: bool) -> ExitCode:
-    """Judge recorded stops, publish the reports, and return the exit code."""
-    content, place = running.run_recorded(batch, display)
+        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, planned)
+    else:
+        mapped, inputs = recordings.channel_map(
+            map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
+        )
+        if listing:
+            return _list(files, mapped)
+        case_of = _case_of_stop(scenario, expression, statements, trusted)
+        stops = runs.read_files(files, mapped)
+        cases = [stop.case(case_of, inputs) for stop in stops]
+        batch = runs.RecordedBatch(stops, cases, context.obj.arguments)
+    published = running.judge_and_show(batch, request, output, junit, display)
     if not quiet:
         running.write_preparation(batch.files)
-        message(f"uictest: {content.tally}; reports in {place}")
-    return worst(of_batch(campaign.BatchResult(list(content.results))), of_series(content.series))
+        message(f"uictest: {published.content.tally}; reports in {published.place}")
+    return of_run(published)
 
 
 def _reject_options_of_recordings(files: Sequence[Path], options_of_recordings: Sequence[object]) -> None:
     """Raise where series and recordings are mixed, or options say what a series file says of its own."""
-    if not all(map(is_series, files)):
+    if not all(map(runs.is_series, files)):
         raise InvalidInputError("uictest: name series files or recordings, not both")
     if any(options_of_recordings):
         raise InvalidInputError(
@@ -115,51 +107,30 @@ def _reject_options_of_recordings(files: Sequence[Path], options_of_recordings: 
         )
 
 
-def _statements(
-    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
-) -> Iterator[str]:
-    """Yield the statements of the options in the form of `--set`."""
-    listed = f"[{', '.join(criteria)}]" if criteria else None
-    for key, text in zip(_OPTIONS, (rail, position, wsp, listed), strict=True):
-        if text is not None:
-            yield f"{key}={text}"
-
-
 def _case_of_stop(
     scenario: Path | None,
     expression: str | None,
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
-) -> running.CaseOfStop:
+) -> runs.CaseOfStop:
     """Return the function that makes the case of a recording.
 
     Raises InvalidInputError if statements are missing.
     """
-    if scenario is not None:
-        case = recordings.one_case(scenario, expression, statements, trusted)
-        if case.scenario.repeat > 1:
-            message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
-        return lambda name, speed: case
-
-    keys = {statement.partition("=")[0].strip() for statement in statements}
-    missing = [_OPTIONS[key] for key in field_data.REQUIRED_STATEMENTS if key not in keys]
-    if missing:
+    case = None if scenario is None else recordings.one_case(scenario, expression, statements, trusted)
+    if case is not None and case.scenario.repeat > 1:
+        message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
+    try:
+        return runs.case_of_stop(case, statements, trusted)
+    except runs.MissingStatementsError as error:
         raise InvalidInputError(
             "uictest: a recording does not say what was tested: state it with --scenario FILE, or with"
-            f" {', '.join(missing)}"
-        )
-    return lambda name, speed: field_data.stated_case(name, speed, statements, trusted or ())
-
-
-def _case(stop: running.RecordedFile, case_of: running.CaseOfStop, inputs: dict[str, str]) -> scenarios.Case:
-    try:
-        return stop.case(case_of, inputs)
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+            f" {', '.join(_OPTIONS[key] for key in error.keys)}"
+        ) from None
 
 
 def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
-    read = recordings.each_file(files, lambda path: formats.read_contents(path, mapped.dialect))
+    read = runs.each_file(files, lambda path: formats.read_contents(path, mapped.dialect))
     for path, contents in zip(files, read, strict=True):
         data(report.printable(str(path)))
         for row in field_data.channel_rows(contents):

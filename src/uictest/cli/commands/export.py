@@ -9,11 +9,11 @@ from typing import Annotated
 
 import typer
 
-from uictest import __version__, recording
+from uictest import __version__, recording, runs
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
-from uictest.cli.recordings import Files, each_file
+from uictest.cli.recordings import Files
 from uictest.recording import formats as file_formats
 
 
@@ -39,11 +39,11 @@ def export(
         for name in names
     }
     _reject_overwriting(list(targets.values()), force=force)
-    recordings = dict(zip(files, each_file(files, _recording), strict=True))
+    recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
     output.mkdir(parents=True, exist_ok=True)
     for (path, name), target in targets.items():
         write = partial(file_formats.writer_of(name), recordings[path], target)
-        each_file([path], lambda _, write=write: write())  # type: ignore[misc]
+        runs.each_file([path], lambda _, write=write: write())  # type: ignore[misc]
         data(str(target))
     return ExitCode.MET
 

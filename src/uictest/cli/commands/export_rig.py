@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
-from uictest import recording, rig_fmu, scenario
-from uictest.cli.cases import case_lines, load_cases, nothing_selected, select_by_options
+from uictest import recording, rig_fmu, runs, scenario
+from uictest.cli.cases import case_lines, select_by_options
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
 from uictest.cli.output import data, message
@@ -47,12 +47,12 @@ def export_rig(
 ) -> ExitCode:
     """Write the rig of one case as an FMU for co-simulation. Prints the name of the file."""
     _reject_target(output, force=force)
-    cases = load_cases([path], overrides, seed, trusted)
+    cases = runs.load_cases([path], overrides, seed, trusted)
     selected = select_by_options(cases, expression, None)
     if case_id is not None:
         selected = [case for case in selected if case.id == case_id]
     if not selected:
-        message(nothing_selected(cases))
+        message(f"uictest: {runs.nothing_selected(cases)}")
         message(case_lines(cases))
         return ExitCode.NOTHING_SELECTED
     case = _only(selected)

@@ -11,9 +11,8 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import controllers, field_data, fitting, recording, report, rig, scenario as scenarios
+from uictest import controllers, field_data, fitting, recording, report, rig, runs, scenario as scenarios
 from uictest.cli import options, recordings
-from uictest.cli.cases import load_cases
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.output import data, message
 from uictest.cli.progress import announce_compilation
@@ -110,10 +109,10 @@ def fit(
         map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
     )
     case = recordings.one_case(scenario, expression, overrides or (), trusted)
-    stops = recordings.each_file(files, lambda path: _stop(path, mapped))
+    stops = runs.each_file(files, lambda path: _stop(path, mapped))
     places = _places(breaks or ())
     result = _fit(files, stops, case, places, with_pads=with_pads, with_cleaning=with_cleaning)
-    named = dict(zip(recordings.stop_names(files), stops, strict=True))
+    named = dict(zip(runs.stop_names(files), stops, strict=True))
     fitted = _FittedStops(named, case, scenario, overrides or (), trusted or (), result)
     data("\n".join(_lines(fitted)))
     announce_compilation(warm=rig.is_compiled([case]))
@@ -240,7 +239,7 @@ def _write_scenario(fitted: _FittedStops, name: str, fit: fitting.Fit, folder: P
 
 
 def _simulated(scenario: Path, trusted: Sequence[Path]) -> rig.SimulatedStop:
-    [case] = load_cases([scenario], None, None, trusted)
+    [case] = runs.load_cases([scenario], None, None, trusted)
     try:
         return rig.simulate(case, record_every=_RECORD_EVERY)
     except controllers.ControllerError as error:

@@ -9,15 +9,12 @@ from typing import Annotated
 
 import typer
 
-from uictest import scenario, series
+from uictest import runs, scenario, series, sweeps
 from uictest.cli import sweep as sweeping
 from uictest.cli.cases import (
     case_lines,
     case_table,
     cases_json,
-    load_cases,
-    nothing_selected,
-    scenario_paths,
     select_by_options,
 )
 from uictest.cli.exit_codes import ExitCode
@@ -26,9 +23,7 @@ from uictest.cli.output import data, message, terminal_width
 from uictest.cli.requirement_listing import RequirementRequest, list_requirements
 from uictest.cli.series import (
     joined_json,
-    load_series,
-    select_series,
-    series_files,
+    select_series_by_options,
     series_json,
     series_lines,
 )
@@ -66,15 +61,15 @@ def list_cases(
     request = RequirementRequest(requirement_list, fail_uncovered)
     if paths and all(map(sweeping.is_sweep, paths)):
         if requirements:
-            plans = (sweeping.load_plan(path, overrides, None, trusted) for path in paths)
+            plans = (_plan(path, overrides, trusted) for path in paths)
             return list_requirements([plan.base for plan in plans], request, shown)
         return _list_sweeps(paths, expression, overrides, trusted)
-    cases = load_cases(paths, overrides, None, trusted)
-    planned = load_series(list(series_files(scenario_paths(paths))), overrides, None, trusted)
+    cases = runs.load_cases(paths, overrides, None, trusted)
+    planned = runs.load_series(list(runs.series_files(runs.scenario_paths(paths))), overrides, None, trusted)
     selected = select_by_options(cases, expression, tag)
-    of_series = select_series(planned, expression, tag)
+    of_series = select_series_by_options(planned, expression, tag)
     if not (selected or of_series):
-        message(nothing_selected(cases, planned))
+        message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED
     if requirements:
         return list_requirements(selected, request, shown, of_series)
@@ -107,10 +102,7 @@ def _list_sweeps(
     overrides: Sequence[str] | None,
     trusted: Sequence[Path] | None,
 ) -> ExitCode:
-    selections = [
-        sweeping.selected_cases(sweeping.load_plan(path, overrides, None, trusted), expression)
-        for path in paths
-    ]
+    selections = [sweeping.selected_cases(_plan(path, overrides, trusted), expression) for path in paths]
     for selection in selections:
         if not sweeping.show_ids(selection):
             break
@@ -118,3 +110,7 @@ def _list_sweeps(
         return ExitCode.MET
     message("uictest: nothing selected")
     return ExitCode.NOTHING_SELECTED
+
+
+def _plan(path: Path, overrides: Sequence[str] | None, trusted: Sequence[Path] | None) -> sweeps.Plan:
+    return sweeps.load_sweep(path, tuple(overrides or ()), trusted=trusted or ())

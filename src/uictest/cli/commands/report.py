@@ -9,11 +9,10 @@ from typing import Annotated
 
 import typer
 
-from uictest import report as reports
+from uictest import report as reports, runs
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.options import Verbosity, report_formats
 from uictest.cli.output import data
-from uictest.cli.run_folders import holds_sweep, run_folder, why_no_run
 
 
 def report(
@@ -38,7 +37,7 @@ def report(
 
     The page draws the stops whose recordings are in the folder; 'run --record all' keeps all of them.
     """
-    folder = run_folder(run)
+    folder = runs.run_folder(run)
     is_sweep = (folder / reports.SWEEP_RESULTS).is_file()
     accepted = reports.sweep_format_names() if is_sweep else reports.format_names()
     names = report_formats(formats, "--format", accepted)
@@ -49,12 +48,12 @@ def report(
 
 
 def _write_run(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
-    if holds_sweep(folder):
+    if runs.holds_sweep(folder):
         raise InvalidInputError(
             f"uictest: {folder} holds a sweep that is not finished: run its command again, "
             "or merge its shards with --merge"
         )
-    if reason := why_no_run(folder):
+    if reason := runs.why_no_run(folder):
         raise InvalidInputError(f"uictest: {reason}; report takes the folder of a finished run or sweep")
     with _read_as("run", folder, OSError, ValueError):
         content = reports.read_run(folder, traces=reports.draws_stops(names))

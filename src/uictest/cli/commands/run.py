@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from uictest import campaign, evaluation, report, scenario, series
+from uictest import campaign, evaluation, report, runs, scenario, series
 from uictest.cli import options, running
 from uictest.cli.cases import (
     case_lines,
     cases_json,
-    load_cases,
-    nothing_selected,
-    scenario_paths,
     select_by_options,
 )
-from uictest.cli.exit_codes import ExitCode, of_batch, of_series as of_judged, worst
+from uictest.cli.exit_codes import ExitCode, of_run, worst
 from uictest.cli.output import data, message
+from uictest.cli.recorded_validation import read_reference
 from uictest.cli.series import (
     joined_json,
-    load_series,
-    select_series,
-    series_files,
+    select_series_by_options,
     series_json,
     series_lines,
 )
@@ -51,6 +48,14 @@ Repeat = Annotated[
         min=1,
         max=1000,
         help="Run the stop of every case N times, under its seed and those that follow it.",
+    ),
+]
+Validated = Annotated[
+    Path | None,
+    typer.Option(
+        "--validated",
+        metavar="FILE",
+        help="Flag the cases outside of what was validated: validation.json of 'uictest validate'.",
     ),
 ]
 Durations = Annotated[
@@ -81,6 +86,7 @@ def run(
     baseline: BaselineFolder = None,
     accept: Accept = False,
     tolerance: options.ToleranceTexts = None,
+    validated: Validated = None,
     durations: Durations = None,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
@@ -92,12 +98,12 @@ def run(
     names = options.report_formats(formats, "--report", report.format_names())
     choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
-    files = list(series_files(scenario_paths(paths)))
-    cases = load_cases(paths, changes, seed, trusted)
-    planned = load_series(files, changes, seed, trusted)
+    files = list(runs.series_files(runs.scenario_paths(paths)))
+    cases = runs.load_cases(paths, changes, seed, trusted)
+    planned = runs.load_series(files, changes, seed, trusted)
     selected, of_series = _selected(cases, planned, expression, tag, output if last_failed else None)
     if not (selected or of_series):
-        message(nothing_selected(cases, planned))
+        message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED
     if real_time:
         _reject_series(of_series)
@@ -105,36 +111,31 @@ def run(
     if dry_run:
         _show_selection(selected, of_series, shown)
         return ExitCode.MET
-    searched = () if expression or tag or last_failed else scenario_paths(paths)
+    searched = () if expression or tag or last_failed else runs.scenario_paths(paths)
     accepted = running.open_baseline(choice, running.scope_of(selected, searched))
-    everything = [*selected, *(case for each in of_series for case in each.cases)]
-    parts = campaign.parts_of_cases(everything)
-    batch = running.Batch(
-        cases=selected,
-        parts=parts,
-        manifest=_manifest(context.obj.arguments, seed, everything, of_series, parts),
+    reference = None if validated is None else read_reference(validated)
+    batch = runs.batch_of(selected, of_series, context.obj.arguments, seed)
+    batch = replace(
+        batch if reference is None else runs.validated_by(batch, reference),
         recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
-        jobs=min(jobs, sum(case.scenario.repeat for case in everything)),
+        jobs=min(jobs, batch.stops),
         maxfail=1 if exit_first else maxfail,
-        output=output,
-        junit=options.junit_file(junit, output),
-        formats=names,
-        quiet=quiet,
-        verbose=verbosity > 0,
         in_process=in_process,
         real_time=real_time,
         baseline=None if accept else accepted,
-        series=of_series,
     )
-    done, published = running.run_batch(
-        batch, running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    published = running.publish_and_show(
+        *(batch, output, names, options.junit_file(junit, output), display),
+        quiet=quiet,
+        verbose=verbosity > 0,
     )
-    judged = published.content.series if published else ()
-    _show_slowest(published.content.all_results if published else [], durations)
+    if published is None:
+        return ExitCode.INTERRUPTED
+    _show_slowest(published.content.all_results, durations)
     return worst(
-        of_batch(done),
-        of_judged(judged),
-        running.accept_or_compare(choice, accepted, done, published, quiet=quiet),
+        of_run(published),
+        running.accept_or_compare(choice, accepted, published, quiet=quiet),
     )
 
 
@@ -146,7 +147,7 @@ def _selected(
     last_run: Path | None,
 ) -> tuple[list[scenario.Case], list[series.Series]]:
     """Return what expression and tag select, and the last run below `last_run`, if given."""
-    selected = select_by_options(cases, expression, tag), select_series(planned, expression, tag)
+    selected = select_by_options(cases, expression, tag), select_series_by_options(planned, expression, tag)
     return selected if last_run is None else running.failed_last(*selected, last_run)
 
 
@@ -180,21 +181,6 @@ def _require_single_stops_at_sockets(cases: Sequence[scenario.Case]) -> None:
             expected = "expected one with `connect`, a program at a socket"
             message = f"{case.id} has the controller {case.scenario.controller.name!r}; {expected}"
             raise typer.BadParameter(message, param_hint="--real-time")
-
-
-def _manifest(
-    arguments: Sequence[str],
-    seed: int | None,
-    cases: Sequence[scenario.Case],
-    planned: Sequence[series.Series],
-    parts: campaign.PartsOfCases,
-) -> report.RunManifest:
-    return report.run_manifest(arguments, seed, _inputs(cases, planned), len(cases), parts.values())
-
-
-def _inputs(cases: Sequence[scenario.Case], planned: Sequence[series.Series]) -> dict[str, str]:
-    read = [*(case.inputs for case in cases), *(each.inputs for each in planned)]
-    return {name: digest for each in read for name, digest in each.items()}
 
 
 def _show_slowest(results: Sequence[evaluation.CaseResult], count: int | None) -> None:

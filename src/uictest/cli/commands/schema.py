@@ -1,18 +1,20 @@
-"""`uictest schema`: the JSON Schema of scenario, sweep and series files."""
+"""`uictest schema`: the JSON Schema of a kind of file."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from uictest import recording
+from uictest import field_data, recording, scenario, series, sweeps, validation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
+from uictest.rig import bench as rig_bench
 
 
 class SchemaKind(StrEnum):
@@ -21,19 +23,32 @@ class SchemaKind(StrEnum):
     SCENARIO = "scenario"
     SWEEP = "sweep"
     SERIES = "series"
+    VALIDATION = "validation"
+    BENCH = "bench"
+    CHANNEL_MAP = "channel-map"
+    BRAKE = "brake"
+    CALIPER = "caliper"
+    COMPENSATION = "compensation"
+    CONTROLLER = "controller"
+    CRITERIA = "criteria"
+    MEASURES = "measures"
+    PAD = "pad"
+    RAIL = "rail"
+    SENSORS = "sensors"
+    VEHICLE = "vehicle"
 
 
 def schema(
-    subject: Annotated[
-        SchemaKind, typer.Argument(metavar="[scenario|sweep|series]", help="Kind of file.")
+    kind: Annotated[
+        SchemaKind, typer.Argument(metavar="[KIND]", help="Kind of file: what `schema: uictest/KIND/1` says.")
     ] = (SchemaKind.SCENARIO),
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to FILE instead of stdout.")
     ] = None,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
-    """Print the JSON Schema (draft-07) of scenario, sweep or series files."""
-    text = schema_text(subject)
+    """Print the JSON Schema (draft-07) of a kind of file, with which an editor completes and checks it."""
+    text = schema_text(kind)
     if output is None:
         data(text.rstrip("\n"))
         return ExitCode.MET
@@ -42,13 +57,19 @@ def schema(
     return ExitCode.MET
 
 
-def schema_text(subject: SchemaKind = SchemaKind.SCENARIO) -> str:
+def schema_text(kind: SchemaKind = SchemaKind.SCENARIO) -> str:
     """Return the schema of a kind of file as the JSON text that is kept in the repository."""
-    if subject is SchemaKind.SWEEP:
-        from uictest.sweep import sweep_schema as described
-    elif subject is SchemaKind.SERIES:
-        from uictest.series import series_schema as described
-    else:
-        from uictest.scenario import json_schema as described
+    return f"{json.dumps(_schema(kind), indent=2, ensure_ascii=False)}\n"
 
-    return f"{json.dumps(described(), indent=2, ensure_ascii=False)}\n"
+
+def _schema(kind: SchemaKind) -> dict[str, Any]:
+    of_files: dict[str, Callable[[], dict[str, Any]]] = {
+        SchemaKind.SCENARIO: lambda: scenario.json_schema(),
+        SchemaKind.SWEEP: lambda: sweeps.sweep_schema(),
+        SchemaKind.SERIES: lambda: series.series_schema(),
+        SchemaKind.VALIDATION: lambda: scenario.schema_of(validation.ValidationFile, "uictest validation"),
+        SchemaKind.BENCH: lambda: scenario.schema_of(rig_bench.BenchRecipe, "uictest bench"),
+        SchemaKind.CHANNEL_MAP: lambda: field_data.channel_map_schema(),
+    }
+    described = of_files.get(kind)
+    return scenario.part_schema(kind.value) if described is None else described()

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, sweep as sweeps
+from uictest import report, runs, sweeps
 from uictest.cli import sweep as sweeping
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import (
@@ -136,7 +136,7 @@ def sweep(
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""
     format_names = report_formats(formats, "--report", report.sweep_format_names())
-    plan = sweeping.load_plan(file, overrides, seed, trusted)
+    plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
     sweeping.reject_programs_on_gpu(plan, device.value)
     selection = sweeping.selected_cases(plan, expression, device.value)
     if selection.size == 0:
@@ -145,7 +145,7 @@ def sweep(
     if dry_run:
         sweeping.show_ids(selection)
         return ExitCode.MET
-    run = sweeping.SweepRun(
+    run = runs.SweepRun(
         selection=selection,
         manifest=sweeps.sweep_manifest(
             selection, expression=expression, overrides=overrides or (), seed=seed
@@ -160,9 +160,7 @@ def sweep(
         pair=sweeping.map_pair(plan, pair),
         measures=sweeping.measure_names(measures),
         search=sweeping.frontier_search(plan, frontier, tolerance),
-        junit=junit_file(junit, output / plan.name),
         formats=format_names,
-        quiet=quiet,
         in_process=in_process,
     )
-    return sweeping.execute_sweep(run, shown)
+    return sweeping.execute_sweep(run, shown, junit_file(junit, run.folder), quiet=quiet)

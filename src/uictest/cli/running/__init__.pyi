@@ -4,14 +4,10 @@ from .baseline import (
     open_baseline as open_baseline,
     scope_of as scope_of,
 )
-from .batch import Batch as Batch, run_batch as run_batch
+from .batch import publish_and_show as publish_and_show
 from .display import Display as Display, chosen_display as chosen_display
 from .last_failed import failed_last as failed_last
 from .recorded_batch import (
-    CaseOfStop as CaseOfStop,
-    RecordedBatch as RecordedBatch,
-    RecordedFile as RecordedFile,
-    read_files as read_files,
-    run_recorded as run_recorded,
+    judge_and_show as judge_and_show,
     write_preparation as write_preparation,
 )

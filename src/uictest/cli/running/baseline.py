@@ -9,10 +9,9 @@ from pathlib import Path
 
 import typer
 
-from uictest import campaign, comparison, evaluation, recording, report, scenario
+from uictest import comparison, evaluation, recording, report, runs, scenario
 from uictest.cli.exit_codes import ExitCode, InvalidInputError
 from uictest.cli.output import message
-from uictest.cli.running.batch import Published
 from uictest.scenario import yaml
 
 
@@ -64,20 +63,19 @@ def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison
 def accept_or_compare(
     choice: BaselineChoice,
     accepted: comparison.Baseline | None,
-    done: campaign.BatchResult,
-    published: Published | None,
+    published: runs.Published,
     *,
     quiet: bool,
 ) -> ExitCode:
-    """Accept a run as the baseline, or show the comparison; do nothing without a baseline or reports.
+    """Accept a run as the baseline, or show the comparison; do nothing without a baseline.
 
     Returns MISSED where the run differs, else MET. Raises OSError.
     """
-    if choice.folder is None or published is None:
+    if choice.folder is None:
         return ExitCode.MET
     if not choice.accepting:
         return _show_comparison(published.content.baseline, quiet=quiet)
-    if done.interrupted:
+    if published.interrupted:
         message(f"uictest: interrupted: {choice.folder} is unchanged")
     else:
         _accept(published, choice.folder, accepted)
@@ -99,7 +97,7 @@ def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool)
     return ExitCode.MET if baseline.agrees else ExitCode.MISSED
 
 
-def _accept(run: Published, folder: Path, baseline: comparison.Baseline | None) -> None:
+def _accept(run: runs.Published, folder: Path, baseline: comparison.Baseline | None) -> None:
     """Make the results of a run the baseline, and keep cases that it did not select. Raises OSError."""
     document = comparison.accepted_document(json.loads(run.document), baseline)
     folder.mkdir(parents=True, exist_ok=True)

@@ -43,6 +43,8 @@ class Lines:
         if self._verbose:
             for line in report.criterion_lines(result):
                 data(line)
+        for line in report.domain_lines(result):
+            data(line)
 
     def series(self, result: series.SeriesResult) -> None:
         """Show a series, and unless quiet its criteria and the stops that count."""
@@ -132,6 +134,8 @@ class VerdictTable:
         for result in shown:
             if self._verbose or not content.passes(result):
                 console.print(report.explanation_text(content, result, every_criterion=self._verbose))
+            for line in report.domain_lines(result):
+                console.print(line, markup=False)
         judged = [each for each in content.series if not (self._quiet and each.met)]
         for line in report.series_table(judged, console.width) if judged else ():
             console.print(line, markup=False)

@@ -1,7 +1,6 @@
 from .arguments import (
     cluster_address as cluster_address,
     frontier_search as frontier_search,
-    load_plan as load_plan,
     map_pair as map_pair,
     measure_names as measure_names,
     reject_programs_on_gpu as reject_programs_on_gpu,
@@ -11,4 +10,3 @@ from .arguments import (
 from .display import show_ids as show_ids
 from .execution import execute_sweep as execute_sweep
 from .files import is_sweep as is_sweep, sweep_files as sweep_files
-from .run import SweepRun as SweepRun

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 
-from uictest import report, sweep
+from uictest import report, runs, sweeps
 from uictest.cli.options import Format
 from uictest.cli.output import data, terminal_width
 from uictest.report import printable
@@ -14,7 +14,7 @@ _MOST_ROWS = 30
 _IDS_AT_ONCE = 4096
 
 
-def show_ids(selection: sweep.CaseSelection) -> bool:
+def show_ids(selection: sweeps.CaseSelection) -> bool:
     """Write the ids of the selected cases to stdout, one per line; return whether all were accepted."""
     for first in range(0, selection.size, _IDS_AT_ONCE):
         indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
@@ -69,14 +69,9 @@ def result_lines(result: report.SweepResult, width: int | None = None) -> Iterat
 def missed_lines(result: report.SweepResult) -> Iterator[str]:
     """Yield the first missed cases, and the number of the others."""
     for case in result.missed:
-        yield f"{case.outcome}  {case.id}  {reason_missed(case.reason)}"
+        yield f"{case.outcome}  {case.id}  {runs.reason_missed(case.reason)}"
     if more := result.cases - result.met - len(result.missed):
         yield f"and {more} more, see summary.csv"
-
-
-def reason_missed(reason: str) -> str:
-    """Return why a case is not met; one that passes unexpectedly has no reason of its own."""
-    return reason or "another outcome was expected"
 
 
 def _rates(result: report.SweepResult) -> Iterator[str]:

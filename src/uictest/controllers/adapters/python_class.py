@@ -5,6 +5,7 @@ import importlib.util
 import sys
 from functools import cache
 from pathlib import Path
+from threading import Lock
 from types import ModuleType
 from typing import Any
 
@@ -12,6 +13,9 @@ from uictest.controllers.adapters.imports import check_imports
 from uictest.controllers.adapters.instance import CalledInstance, ControllerError, reason_of
 from uictest.controllers.interface import Config, Inputs, Outputs
 from uictest.controllers.program import ControllerProgram
+
+_loading = Lock()
+"""Two threads that need a file load it once."""
 
 
 class PythonInstance(CalledInstance):
@@ -37,7 +41,8 @@ class PythonInstance(CalledInstance):
 
 def open_controller(program: ControllerProgram, config: Config) -> PythonInstance:
     """Load the file, once per process, and create an object of the class. Raises ControllerError."""
-    module = _loaded(program.location, program.sha256)
+    with _loading:
+        module = _loaded(program.location, program.sha256)
     return created(module, program.options["class"], config)
 
 

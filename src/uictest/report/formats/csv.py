@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.content import RunContent
-from uictest.report.csv_text import Cell, csv_text
+from uictest.report.csv_text import Cell, Table, csv_text
 from uictest.report.format_registry import ReportFormat
 from uictest.report.part_wording import changes_of
 from uictest.report.repeat_wording import (
@@ -36,7 +36,7 @@ _CRITERION_FIELDS = {
 """Column -> field of a verdict."""
 
 
-def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
+def summary_table(results: Sequence[evaluation.CaseResult]) -> Table:
     """Return one row per case: swept parameters (as written), outcome, changed parameters, measures.
 
     Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too.
@@ -57,36 +57,56 @@ def summary_csv(results: Sequence[evaluation.CaseResult]) -> str:
         *STOP_COLUMNS,
         *_of_repeated(results, range_columns(STOP_COLUMNS)),
     ]
-    return csv_text(columns, map(_summary_row, results))
+    return Table(columns, [_summary_row(result) for result in results])
 
 
-def wheelsets_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_csv`."""
+def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Table:
+    """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_table`."""
     ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
-    return csv_text(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], _wheelset_rows(results))
+    return Table(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
 
 
-def criteria_csv(results: Sequence[evaluation.CaseResult]) -> str:
+def criteria_table(results: Sequence[evaluation.CaseResult]) -> Table:
     """Return one row per case and criterion, with the definitions that its verdict depends on.
 
     Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
     """
     own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
-    return csv_text(["id", "criterion", *_CRITERION_FIELDS, *own, "definition"], _criterion_rows(results))
+    columns = ["id", "criterion", *_CRITERION_FIELDS, *own, "definition"]
+    return Table(columns, list(_criterion_rows(results)))
 
 
-def repeats_csv(results: Sequence[evaluation.CaseResult]) -> str:
-    """Return one row per stop of every repeated case: seed, outcome, measures; empty without any."""
-    if not any_repeated(results):
-        return ""
+def repeats_table(results: Sequence[evaluation.CaseResult]) -> Table:
+    """Return one row per stop of every repeated case: seed, outcome, measures."""
     wheelsets = (f"{name}_{position}" for position in WHEELSETS for name in WHEELSET_COLUMNS)
-    return csv_text(["id", "seed", "outcome", "reason", *STOP_COLUMNS, *wheelsets], stop_rows(results))
+    columns = ["id", "seed", "outcome", "reason", *STOP_COLUMNS, *wheelsets]
+    return Table(columns, list(stop_rows(results)))
 
 
-def requirements_csv(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> str:
-    """Return one row per requirement and case or series that names it; empty where none does."""
-    rows = list(requirement_rows(verified_requirements(results, series)))
-    return csv_text(list(rows[0]), rows) if rows else ""
+def requirements_table(
+    results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()
+) -> Table:
+    """Return one row per requirement and case or series that names it."""
+    return Table.of(list(requirement_rows(verified_requirements(results, series))))
+
+
+def run_tables(content: RunContent) -> Mapping[str, Table]:
+    """Return the tables of a run by the names of their files, without `.csv`.
+
+    Without repeated cases, requirements or series, the tables of these are missing.
+    """
+    results = content.results
+    optional = {
+        "repeats": repeats_table(results),
+        "requirements": requirements_table(results, content.series),
+    }
+    return {
+        "summary": summary_table(results),
+        "wheelsets": wheelsets_table(results),
+        "criteria": criteria_table(results),
+        **{name: table for name, table in optional.items() if table.rows},
+        **(series_tables(content.series) if content.series else {}),
+    }
 
 
 def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str]) -> Iterable[str]:
@@ -129,16 +149,7 @@ def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
 
 
 def _files(content: RunContent) -> dict[str, bytes]:
-    results = content.results
-    texts = {
-        "summary.csv": summary_csv(results),
-        "wheelsets.csv": wheelsets_csv(results),
-        "criteria.csv": criteria_csv(results),
-        "repeats.csv": repeats_csv(results),
-        "requirements.csv": requirements_csv(results, content.series),
-    }
-    texts |= series_tables(content.series)
-    return {name: text.encode() for name, text in texts.items() if text}
+    return {f"{name}.csv": csv_text(*table).encode() for name, table in run_tables(content).items()}
 
 
 FORMAT = ReportFormat(_files)

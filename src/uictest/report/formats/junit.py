@@ -10,6 +10,7 @@ from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import Difference
+from uictest.report.domain_wording import domain_sentences
 from uictest.report.escaping import xml_text
 from uictest.report.format_registry import ReportFormat
 from uictest.report.junit_properties import (
@@ -94,7 +95,7 @@ def _add_test_properties(
 def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
     element = _empty_testcase(result.id, result.scenario, result.duration)
     tag = _child_tag(result, differs=bool(differences))
-    remarks = [*real_time_sentences(result), *changes_line(result)]
+    remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
     if tag is not None:
         kind = "baseline" if case_word(result, differences) == DIFFERS else ""
         _add_child(element, tag, [*case_explanation(result, differences), *remarks], kind)

@@ -8,6 +8,7 @@ from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import Difference, side_text, worst_of_wheelsets
+from uictest.report.domain_wording import domain_notices
 from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
@@ -46,6 +47,7 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     text = f"## uictest: {content.tally}\n\n"
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
+    text += "".join(f"{prose(line)}.\n\n" for line in domain_notices(content.all_results))
     text += series_markdown(content.series, limit // 2)
     text += _baseline(content.baseline, limit // 2) if content.baseline else ""
     text += _requirements(content, limit // 4)

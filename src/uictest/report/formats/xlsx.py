@@ -10,7 +10,9 @@ from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
+from uictest.report.cover_sheet import COVER, insert_charts, write_cover
 from uictest.report.difference import Difference
+from uictest.report.domain_wording import domain_sentences
 from uictest.report.format_registry import ReportFormat
 from uictest.report.formats.csv import CHANGED, REQUIREMENTS, criterion_cells
 from uictest.report.manifest import manifest_form
@@ -26,11 +28,15 @@ from uictest.report.wording import definition_sentence, result_word
 def workbook_bytes(content: RunContent) -> bytes:
     """Return the workbook of a run. Missing numbers are empty cells."""
     buffer = io.BytesIO()
+    sheets = _sheets(content)
     with open_workbook(buffer) as workbook:
         styles = styles_of(workbook)
-        for name, rows in _sheets(content).items():
+        cover = workbook.add_worksheet(COVER)
+        write_cover(cover, content, list(sheets), styles)
+        for name, rows in sheets.items():
             verdicts = verdict_columns(rows) if name == REQUIREMENTS_SHEET else VERDICT_COLUMNS
             write_sheet(workbook.add_worksheet(name), rows, styles, verdicts)
+        insert_charts(workbook, cover, sheets["Cases"])
     return buffer.getvalue()
 
 
@@ -64,10 +70,13 @@ def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row
 def result_row(result: evaluation.CaseResult) -> Row:
     """Return the word of a case, its outcome, measures, parameters and reason."""
     row: Row = {"verdict": result_word(result)}
+    margin, criterion = evaluation.narrowest_margin(result)
     row |= {"outcome": result.outcome, "expect": result.expect, **share_cells(result)}
+    row |= {"narrowest_margin": margin, "narrowest_criterion": criterion}
     row |= {**(result.measures or {}), **range_cells(result, STOP_COLUMNS)}
     row |= dict(result.parameters)
     named: Row = {"test_case": result.test_case, REQUIREMENTS: "; ".join(result.requirements)}
+    named |= {"outside": "; ".join(domain_sentences(result))}
     row |= {column: text for column, text in named.items() if text}
     return row | {CHANGED: "; ".join(changes_of(result)), "reason": result.reason}
 

@@ -13,14 +13,18 @@ from uictest import evaluation
 from uictest.report.baseline import case_explanation, case_word
 from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference
+from uictest.report.escaping import printable
+from uictest.report.page.anchors import case_anchor, fragment
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
 from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
+from uictest.report.page.stop.margins import Margins, margins_of
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import marks_of
 from uictest.report.page.stop.overlay_view import panel_form
-from uictest.report.page.stop.packing import packed, script_json
+from uictest.report.page.stop.packing import STEPS, packed, script_json
 from uictest.report.page.stop.sketch import Sketch, sketch_of
+from uictest.report.traces.compared import COMPARED
 from uictest.report.traces.quantities import (
     LOOPS,
     PANELS,
@@ -32,7 +36,7 @@ from uictest.report.traces.quantities import (
     panel_lines,
 )
 from uictest.report.traces.trace import BINS, Curve, PlotTrace
-from uictest.report.wording import failing_first, real_time_sentences
+from uictest.report.wording import real_time_sentences
 
 HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
@@ -49,13 +53,13 @@ class Gauge:
 
 @dataclass(frozen=True, slots=True)
 class CaseView:
-    """A drawn case. `key` names its part of the page; `data` is the JSON its plots are drawn from.
+    """A drawn case. `anchor` is that of its part of the page; `data` is the JSON its plots are drawn from.
 
-    `explanation` is empty where the case passes; `marked` names the plots that each criterion is drawn in,
-    failing ones first; `note` says what lines show.
+    `explanation` is empty where the case passes; `note` says what lines show; `command` runs the case alone
+    and is empty where there is no such command.
     """
 
-    key: str
+    anchor: str
     result: evaluation.CaseResult
     subject: CaseDescription
     word: str
@@ -63,58 +67,62 @@ class CaseView:
     headline: Sequence[HeadlineMeasure]
     sketch: Sketch
     data: str
-    marked: Sequence[tuple[evaluation.Verdict, Sequence[str]]]
+    margins: Margins
     note: str
     repeats: RepeatsView | None = None
+    command: str = ""
+
+    @property
+    def fragment(self) -> str:
+        """What stands behind the `#` of a link to it."""
+        return fragment(self.anchor)
 
 
 def case_view(
-    key: str,
     result: evaluation.CaseResult,
     subject: CaseDescription,
     trace: PlotTrace,
     differences: Sequence[Difference] = (),
+    command: str = "",
 ) -> CaseView:
-    """Return the view of a case with its plots drawn; `differences` are those from the baseline."""
+    """Return the view of a case with its plots drawn.
+
+    Args:
+        result: of the case.
+        subject: its description.
+        trace: of the stop that is drawn.
+        differences: those from the baseline.
+        command: what runs the case alone; empty where there is no such command.
+
+    """
     drawn = result.drawn_stop
     marks = [*fault_marks(trace), *marks_of(drawn.criteria, trace)]
     return CaseView(
-        key,
+        case_anchor(result.id),
         result,
         subject,
         case_word(result, differences),
         case_explanation(result, differences) if differences or not result.met else (),
         list(_headline(result)),
         sketch_of(trace, marks),
-        script_json(_data(trace, marks)),
-        list(_marked(drawn, marks)),
+        script_json(_data(result, subject, trace, marks)),
+        margins_of(result.criteria, drawn.criteria, trace),
         " ".join(_notes(drawn, subject, trace)),
         repeats_view(result),
+        command,
     )
-
-
-def _marked(
-    result: evaluation.CaseResult, marks: Sequence[Mark]
-) -> Iterator[tuple[evaluation.Verdict, list[str]]]:
-    titles = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
-    for verdict in failing_first(result.criteria):
-        plots = dict.fromkeys(mark.plot for mark in marks if mark.criterion == verdict.id)
-        if plots:
-            yield verdict, [titles[plot] for plot in plots]
 
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
     yield from map(fault_sentence, trace.faults)
-    every, part = (f"{1e3 * time:.3g} ms" for time in (trace.interval, (trace.end - trace.start) / BINS))
-    yield f"Sampled every {every}."
-    if trace.interval * BINS < trace.end - trace.start:
-        yield f"A line shows the smallest and the largest sample of every {part}."
+    yield from _sampling(trace)
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
     if not trace.states:
         return
+    every = _milliseconds(trace.interval)
     recorded = f", but none between two samples, {every} apart" if subject.recorded else ""
     yield f"Valves show every change that was recorded{recorded}."
     drawn = sum(len(vents(trace, n)) for n in WHEELSETS)
@@ -124,6 +132,19 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
             f"The recording holds {drawn} of {counted:.0f} vents: those shorter than {every} can lie between"
             " two samples."
         )
+
+
+def _sampling(trace: PlotTrace) -> Iterator[str]:
+    """Yield how the points of a line were taken from the stop."""
+    yield f"Sampled every {_milliseconds(trace.interval)}."
+    if trace.interval * BINS < trace.end - trace.start:
+        part = _milliseconds((trace.end - trace.start) / BINS)
+        yield f"A line shows the smallest and the largest sample of every {part}."
+    yield f"Values are rounded to 1/{STEPS} of the range of their line."
+
+
+def _milliseconds(seconds: float) -> str:
+    return f"{1e3 * seconds:.3g} ms"
 
 
 def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
@@ -174,12 +195,26 @@ def plots_json() -> str:
     ]
     quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
     strips = [dataclasses.asdict(strip) | {"heading": strip.heading, "rows": strip.rows} for strip in STRIPS]
-    return script_json({"panels": panels, "loops": loops, "quantities": quantities, "strips": strips})
+    compared = [panel_form(panel, panel_lines(panel)) for panel in COMPARED]
+    return script_json(
+        {
+            "panels": panels,
+            "loops": loops,
+            "quantities": quantities,
+            "strips": strips,
+            "compared": compared,
+        }
+    )
 
 
-def _data(trace: PlotTrace, marks: Sequence[Mark]) -> dict[str, Any]:
+def _data(
+    result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace, marks: Sequence[Mark]
+) -> dict[str, Any]:
     states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
     return {
+        "id": printable(result.id),
+        "recorded": bool(subject.recorded),
+        "sampling": " ".join(_sampling(trace)),
         "start": trace.start,
         "end": trace.end,
         "over_time": packed({**trace.curves, **states}, trace.interval),

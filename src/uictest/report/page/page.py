@@ -14,6 +14,7 @@ from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
+from uictest.report.page.rerun_command import rerun_commands
 from uictest.report.page.series_view import SERIES_WORDS, series_view
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
@@ -26,7 +27,7 @@ DRAWN = 18
 def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
-    keys = {view.result.id: view.key for view in drawn}
+    keys = {view.result.id: view.fragment for view in drawn}
     series = [series_view(f"series-{n}", each) for n, each in enumerate(content.series, start=1)]
     return render(
         "run.html.j2",
@@ -52,6 +53,7 @@ def page_html(content: RunContent) -> str:
         words=_words(content),
         plots=plots_json(),
         with_plots=bool(drawn),
+        running_head=content.name,
         baseline_lines=_baseline_lines(content.baseline),
         failing_first=failing_first,
         gauge_of=gauge_of,
@@ -68,15 +70,16 @@ def page_html(content: RunContent) -> str:
 def _drawn(content: RunContent) -> list[CaseView]:
     traced = [result for result in content.all_results if result.id in content.traces]
     shown = {result.id for result in worst_first(traced)[:DRAWN]}
+    commands = rerun_commands(content)
     return [
         case_view(
-            f"case-{place}",
             result,
             content.subject(result.id),
             content.traces[result.id],
             content.differences(result.id),
+            commands[result.id],
         )
-        for place, result in enumerate(traced, start=1)
+        for result in traced
         if result.id in shown
     ]
 
@@ -95,10 +98,10 @@ def _repeats_not_drawn(
 
 
 def _opened(content: RunContent, drawn: Sequence[CaseView]) -> str:
-    """Return the key of the case that is open at first: the first that does not pass, or the only one."""
+    """Return the anchor of the case that is open at first: the first that does not pass, or the only one."""
     if len(drawn) == 1:
-        return drawn[0].key
-    return next((view.key for view in drawn if not content.passes(view.result)), "")
+        return drawn[0].anchor
+    return next((view.anchor for view in drawn if not content.passes(view.result)), "")
 
 
 def _words(content: RunContent) -> dict[str, int]:

@@ -11,18 +11,51 @@ from jinja2.bccache import Bucket, BytecodeCache, bc_magic
 from markupsafe import Markup
 
 from uictest import user_cache
+from uictest.report.domain_wording import domain_notices, domain_sentences
 from uictest.report.escaping import printable
 from uictest.report.page.plotting_script import plotting_script, script_digest
 
+_SCRIPTS = (
+    "elements",
+    "verdict_table",
+    "plotting",
+    "packed_lines",
+    "appearance",
+    "values",
+    "marks",
+    "bars",
+    "panels",
+    "loops",
+    "csv",
+    "cursor",
+    "moments",
+    "stops",
+    "comparison",
+    "copying",
+    "anchors",
+)
+"""Parts of the script of a page, in the order in which they run; they share one scope."""
 
-def render(template: str, *, with_plots: bool, **context: Any) -> str:
-    """Return a template of this package filled in; `with_plots` puts the plotting script into the page."""
-    page, plotly = _own_text("page.js"), plotting_script() if with_plots else None
+_STYLES = ("base", "tables", "sweep", "stops", "drawings", "narrow", "print")
+"""Parts of the style sheet; those for narrow windows and for paper change what stands before them."""
+
+
+def render(template: str, *, with_plots: bool, running_head: str = "", **context: Any) -> str:
+    """Return a template of this package filled in.
+
+    Args:
+        template: its name.
+        with_plots: put the plotting script into the page.
+        running_head: what stands at the head of every printed page, behind the name of the program.
+        context: what the template is filled in with.
+
+    """
+    page, plotly = _page_script(), plotting_script() if with_plots else None
     return (
         _environment()
         .get_template(template)
         .render(
-            style=Markup(_own_text("page.css")),
+            style=Markup(_page_style() + _running_head(running_head)),
             script=Markup(page),
             plotly=Markup(plotly.packed) if plotly else "",
             policy=_policy(script_digest(page), *([plotly.digest] if plotly else [])),
@@ -54,6 +87,7 @@ def _environment() -> Environment:
         bytecode_cache=TemplateCache(),
     )
     environment.filters["figure"] = _figure
+    environment.globals |= {"domain_sentences": domain_sentences, "domain_notices": domain_notices}
     return environment
 
 
@@ -66,8 +100,26 @@ def _figure(value: float | None, form: str = ".4g") -> str:
     return "–" if value is None or value != value else format(value, form)  # noqa: RUF001 - a dash on paper
 
 
-def _own_text(name: str) -> str:
-    return (resources.files(__package__) / "templates" / name).read_text("utf-8")
+@cache
+def _page_script() -> str:
+    parts = "\n".join(_own_text("scripts", f"{name}.js") for name in _SCRIPTS)
+    return f'"use strict";\n(() => {{\n{parts}}})();\n'
+
+
+@cache
+def _page_style() -> str:
+    return "\n".join(_own_text("styles", f"{name}.css") for name in _STYLES)
+
+
+def _running_head(text: str) -> str:
+    """Return the style of the head of printed pages; every character that could end the text is escaped."""
+    shown = " · ".join(filter(None, ("uictest", printable(text))))
+    escaped = "".join(each if each.isalnum() else f"\\{ord(each):x} " for each in shown)
+    return f'@page {{ @top-left {{ content: "{escaped}"; }} }}\n'
+
+
+def _own_text(folder: str, name: str) -> str:
+    return (resources.files(__package__) / folder / name).read_text("utf-8")
 
 
 class TemplateCache(BytecodeCache):

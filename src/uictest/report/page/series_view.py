@@ -19,7 +19,7 @@ from uictest.report.series.wording import (
     series_word,
 )
 from uictest.report.wording import limits, quantity
-from uictest.series import SeriesResult, SeriesStop, stops_of
+from uictest.series import SeriesResult, SeriesStop, observed_stops
 from uictest.series_measures import SERIES_MEASURES
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
@@ -89,7 +89,7 @@ class SeriesView:
 
 def series_view(key: str, result: SeriesResult) -> SeriesView:
     """Return the view of a series; `key` is its anchor."""
-    stops = stops_of(result.cases, result.speed_tolerance_kmh)
+    stops = observed_stops(result.cases, result.speed_tolerance_kmh)
     plots = [_plot(result, speed.speed_kmh, stops) for speed in result.speeds]
     units = {name: SERIES_MEASURES[name].unit for name in result.measures if name in SERIES_MEASURES}
     return SeriesView(key, result, series_word(result), [plot for plot in plots if plot], units)

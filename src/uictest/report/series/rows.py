@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from uictest.report.csv_text import Cell
 from uictest.report.series.wording import series_word
 from uictest.report.wording import definition_sentence
-from uictest.series import SeriesResult, SeriesVerdict, stops_of
+from uictest.series import SeriesResult, SeriesVerdict, observed_stops
 from uictest.series_measures import SERIES_MEASURES, Estimate, SeriesValue
 
 Row = dict[str, Cell]
@@ -87,7 +87,7 @@ def _criterion_cells(each: SeriesVerdict) -> Row:
 def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
     """Yield one row per stop of a series, repeats one by one, with all of its columns."""
     for result in results:
-        for stop in stops_of(result.cases, result.speed_tolerance_kmh):
+        for stop in observed_stops(result.cases, result.speed_tolerance_kmh):
             wheelsets = {
                 f"{name}_{position}": value
                 for position, wheelset in enumerate(stop.figures.wheelsets, start=1)

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from uictest.report.csv_text import csv_text
+from uictest.report.csv_text import Table
 from uictest.report.series.rows import Row, criterion_rows, measure_rows, series_rows, stop_rows
 from uictest.series import SeriesResult
 
 
-def series_tables(results: Sequence[SeriesResult]) -> dict[str, str]:
-    """Return the CSV files of series by name: measures, criteria, stops; none without any series."""
-    if not results:
-        return {}
-    tables = {
-        "series.csv": list(measure_rows(results)),
-        "series-criteria.csv": list(criterion_rows(results)),
-        "series-stops.csv": list(stop_rows(results)),
+def series_tables(results: Sequence[SeriesResult]) -> dict[str, Table]:
+    """Return the tables of series by the names of their files: measures, criteria, stops."""
+    return {
+        "series": Table.of(list(measure_rows(results))),
+        "series-criteria": Table.of(list(criterion_rows(results))),
+        "series-stops": Table.of(list(stop_rows(results))),
     }
-    return {name: csv_text(_columns(rows), rows) for name, rows in tables.items()}
 
 
 def series_sheets(results: Sequence[SeriesResult]) -> dict[str, list[Row]]:
@@ -31,8 +28,3 @@ def series_sheets(results: Sequence[SeriesResult]) -> dict[str, list[Row]]:
         "Series measures": list(measure_rows(results)),
         "Series stops": list(stop_rows(results)),
     }
-
-
-def _columns(rows: Sequence[Row]) -> list[str]:
-    """Return every column of any of the rows, in the order of their first use."""
-    return list(dict.fromkeys(column for row in rows for column in row))

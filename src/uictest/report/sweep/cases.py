@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from uictest.report.sheet import Row, Styles, write_table
+from uictest.report.sheet import Row, Styles, heading_rows, write_table
 from uictest.report.wording import outcome_word
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> No
         cases = summary.metadata.num_rows
         written = write_table(sheet, columns, _rows(summary, by_verdict=cases > most), styles, most)
     if written < cases:
-        sheet.write_string(written + 1, 0, left_out(cases, written))
+        sheet.write_string(heading_rows(columns) + written, 0, left_out(cases, written))
 
 
 def left_out(cases: int, written: int) -> str:

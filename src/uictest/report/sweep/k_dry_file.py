@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.tail_wording import probability_text, refusal_text, share_text
+from uictest.report.sweep.tail_wording import probability_text, refusal_text, share_text, sliding_words
 from uictest.report.sweep.tails import KDry, KDryLevel
 
 K_DRY_FILE: Final = "k_dry.yaml"
@@ -30,6 +30,8 @@ def _table(table: KDry) -> dict[str, Any]:
         "confidence": share_text(table.confidence),
         "draws": table.sample.draws,
         "draws_without_value": table.sample.without_value,
+        "draws_sliding": table.sliding,
+        **({"note": sliding_words(table)} if table.sliding else {}),
         "levels": [_level(table, each) for each in table.levels],
     }
 

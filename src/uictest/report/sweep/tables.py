@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from typing import Final
 
 from uictest.report.csv_text import Cell, csv_text
-from uictest.report.sweep.result import Flip, Frontier, SobolSensitivity, SweepMap, SweepResult, Trend
-from uictest.report.sweep.tail_tables import tail_csv_tables
+from uictest.report.sweep.result import (
+    Flip,
+    Frontier,
+    MeasureHistogram,
+    SobolSensitivity,
+    SweepMap,
+    SweepResult,
+    Trend,
+)
+from uictest.report.sweep.tail_rows import tail_csv_tables
 
 TREND_COLUMNS: Final = ("parameter", "value", "measure", "unit", "cases", "minimum", "mean", "maximum")
 _FRONTIER_COLUMNS: Final = ("from", "to", "met_at_from", "flips", "note")
@@ -43,6 +52,14 @@ def trend_rows(trend: Trend) -> Iterator[dict[str, Cell]]:
     for value, cases, minimum, mean, maximum in zip(*columns, strict=True):
         numbers: dict[str, Cell] = {"cases": cases, "minimum": minimum, "mean": mean, "maximum": maximum}
         yield {**own, "value": value.label, **numbers}
+
+
+def distribution_rows(histogram: MeasureHistogram) -> Iterator[dict[str, Cell]]:
+    """Yield a row for each bin: its ends, and its cases by outcome."""
+    own: dict[str, Cell] = {"measure": histogram.measure, "unit": histogram.unit}
+    for place, (low, high) in enumerate(itertools.pairwise(histogram.edges)):
+        counts: dict[str, Cell] = {outcome: counts[place] for outcome, counts in histogram.counts.items()}
+        yield {**own, "from": low, "to": high, **counts}
 
 
 def sensitivity_rows(result: SweepResult, prefix: str = "") -> Iterator[dict[str, Cell]]:

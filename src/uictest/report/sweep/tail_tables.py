@@ -1,50 +1,87 @@
-"""Quantiles and K_dry as rows for CSV files and workbooks."""
+"""Tables of quantiles and of K_dry as texts, the same on the terminal, in Markdown and on the page."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
 
-from uictest.report.csv_text import Cell, csv_text
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.tail_wording import probability_text, refusal_text, share_text
-from uictest.report.sweep.tails import DrawCount
+from uictest.report.sweep.tail_wording import (
+    bound_text,
+    k_dry_text,
+    k_dry_title,
+    nominal_words,
+    probability_text,
+    quantiles_title,
+    refusal_text,
+    sample_words,
+    share_text,
+    sliding_words,
+)
+from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile
+from uictest.report.wording import counted, number
 
-Row = dict[str, Cell]
+MOST_TABLES: Final = 10
+"""Combinations of listed values that a reader is shown; the CSV files have each."""
 
-
-def tail_csv_tables(result: SweepResult) -> dict[str, str]:
-    """Return the CSV files of quantiles and of K_dry, by file name; none of what the sweep does not have."""
-    tables = {"quantiles.csv": list(quantile_rows(result)), "k_dry.csv": list(k_dry_rows(result))}
-    return {name: csv_text(list(rows[0]), rows) for name, rows in tables.items() if rows}
-
-
-def quantile_rows(result: SweepResult, prefix: str = "") -> Iterator[Row]:
-    """Yield a row for each quantile; circumstances are columns with a prefix."""
-    for table in result.quantiles:
-        head: Row = {"measure": table.measure, "unit": table.unit}
-        head |= {f"{prefix}{key}": value.text for key, value in table.circumstances.items()}
-        for each in table.quantiles:
-            own: Row = {"level": share_text(each.level), "estimate": each.estimate}
-            own |= {"lower": each.lower, "upper": each.upper, "confidence": share_text(table.confidence)}
-            yield {**head, **own, **_draws(table.sample, each.draws_needed, supported=each.is_supported)}
-
-
-def k_dry_rows(result: SweepResult, prefix: str = "") -> Iterator[Row]:
-    """Yield a row for each emergency brake confidence level; circumstances are columns with a prefix."""
-    for table in result.k_dry:
-        head: Row = {f"{prefix}{key}": value.text for key, value in table.circumstances.items()}
-        for each in table.levels:
-            own: Row = {"ebcl": each.ebcl, "probability": probability_text(each), "k_dry": each.k_dry}
-            own |= {"deceleration_mps2": each.deceleration, "nominal_mps2": table.nominal}
-            own |= {"measure": table.measure, "confidence": share_text(table.confidence)}
-            is_supported = each.deceleration is not None
-            yield {**head, **own, **_draws(table.sample, each.draws_needed, supported=is_supported)}
+_QUANTILES: Final = ("level", "draws needed", "estimate", "bound")
+_K_DRY: Final = ("EBCL", "probability", "draws needed", "m/s2", "K_dry")
 
 
-def _draws(sample: DrawCount, needed: int, *, supported: bool) -> Row:
-    return {
-        "draws": sample.draws,
-        "without_value": sample.without_value,
-        "draws_needed": needed,
-        "note": "" if supported else refusal_text(needed, sample),
-    }
+@dataclass(frozen=True, slots=True)
+class TailTable:
+    """A table of texts: title, what it is based on, headings, and rows whose first text names the level.
+
+    `file` is the CSV file that holds all tables of its kind.
+    """
+
+    title: str
+    basis: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    file: str
+
+
+def tail_tables(result: SweepResult) -> Iterator[TailTable]:
+    """Yield the first tables of quantiles, then those of K_dry."""
+    yield from map(_quantiles, result.quantiles[:MOST_TABLES])
+    yield from map(_k_dry, result.k_dry[:MOST_TABLES])
+
+
+def tables_left_out(result: SweepResult) -> list[str]:
+    """Return how many tables only the CSV files have, e.g. `2 more tables are in k_dry.csv`."""
+    files = {"quantiles.csv": len(result.quantiles), "k_dry.csv": len(result.k_dry)}
+    return [
+        f"{counted(tables - MOST_TABLES, 'more table is', 'more tables are')} in {file}"
+        for file, tables in files.items()
+        if tables > MOST_TABLES
+    ]
+
+
+def _quantiles(table: MeasureQuantiles) -> TailTable:
+    rows = [_quantile(each, table.sample) for each in table.quantiles]
+    basis = _basis(table.confidence, table.sample)
+    return TailTable(quantiles_title(table), basis, _QUANTILES, rows, "quantiles.csv")
+
+
+def _quantile(each: Quantile, sample: DrawCount) -> Sequence[str]:
+    bound = bound_text(each) if each.is_supported else refusal_text(each.draws_needed, sample)
+    return share_text(each.level), str(each.draws_needed), number(each.estimate), bound
+
+
+def _k_dry(table: KDry) -> TailTable:
+    rows = [_level(each, table.sample) for each in table.levels]
+    words = _basis(table.confidence, table.sample), nominal_words(table), sliding_words(table)
+    return TailTable(k_dry_title(table), "; ".join(filter(None, words)), _K_DRY, rows, "k_dry.csv")
+
+
+def _level(each: KDryLevel, sample: DrawCount) -> Sequence[str]:
+    factor = "-" if each.k_dry is None else k_dry_text(each.k_dry)
+    if each.deceleration is None:
+        factor = refusal_text(each.draws_needed, sample)
+    return str(each.ebcl), probability_text(each), str(each.draws_needed), number(each.deceleration), factor
+
+
+def _basis(confidence: float, sample: DrawCount) -> str:
+    return f"{share_text(confidence)} confidence, {sample_words(sample)}"

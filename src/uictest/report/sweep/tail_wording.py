@@ -8,8 +8,6 @@ from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuanti
 from uictest.report.sweep.wording import circumstances_words
 from uictest.report.wording import counted, number, quantity
 
-MOST_TABLES = 10
-"""Combinations of listed values that a reader is shown; the CSV files have each."""
 _K_DRY_DECIMALS = 3
 
 
@@ -75,3 +73,11 @@ def nominal_words(table: KDry) -> str:
         return "the nominal case has no deceleration"
     origin = "stated in the sweep file" if table.nominal_is_stated else "of the scenario with its own values"
     return f"nominal {quantity(table.nominal, 'm/s2')}, {origin}"
+
+
+def sliding_words(table: KDry) -> str:
+    """Return in how many draws a wheelset slides, for which K_dry is not defined; empty without any."""
+    if not table.sliding:
+        return ""
+    draws = f"a wheelset slides in {table.sliding} of {counted(table.sample.draws, 'draw')}"
+    return f"{draws}, so that this is no K_dry: on dry rail none slides"

@@ -93,6 +93,7 @@ class KDry:
         confidence: of each bound.
         sample: the draws.
         levels: from 0 on.
+        sliding: draws in which a wheelset slides, as none does on dry rail.
 
     """
 
@@ -103,6 +104,7 @@ class KDry:
     confidence: float
     sample: DrawCount
     levels: tuple[KDryLevel, ...]
+    sliding: int = 0
 
     def over(self, nominal: float | None) -> KDry:
         """Return the table for a nominal deceleration, m/s2; NaN and None stand for none."""

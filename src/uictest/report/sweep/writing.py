@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Final
 
 from uictest import evaluation, recording
 from uictest.report.junit_properties import WITH_TEST_PROPERTIES
@@ -12,10 +13,17 @@ from uictest.report.sweep.reading import SWEEP_RESULTS
 from uictest.report.sweep.result import SweepResult, sweep_document
 from uictest.report.sweep.tables import csv_tables
 
+_OF_ONE_RESULT: Final = (
+    *("map-*.csv", "sensitivity.csv", "frontier.csv", "quantiles.csv", "k_dry.csv", K_DRY_FILE),
+    *(WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md"),
+)
+"""Files that not every result has, or that not every run writes."""
+
 
 def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     """Write everything but the summary of cases, and return the text of `sweep.json`.
 
+    What an earlier, other result of the sweep left in the folder is removed: beside the new one it would lie.
     `file` is the sweep file as shown to users. Raises OSError.
     """
     document = evaluation.to_json(sweep_document(result))
@@ -24,6 +32,9 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
         texts[WITH_TEST_PROPERTIES] = sweep_junit_xml(result, file, test_properties=True)
     if result.k_dry:
         texts[K_DRY_FILE] = k_dry_yaml(result)
+    if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:
+        for path in (path for pattern in _OF_ONE_RESULT for path in folder.glob(pattern)):
+            path.unlink()
     for name, text in texts.items():
         recording.write_text_atomic(folder / name, text)
     return document

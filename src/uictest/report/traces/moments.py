@@ -119,10 +119,25 @@ def _lowest_reservoir_pressure(verdict: evaluation.Verdict, channels: Channels) 
     return Moments(extremes={TRAIN: _extreme(channels, "reservoir_pressure", pressure, lowest)})
 
 
+def _largest_reference_excess(verdict: evaluation.Verdict, channels: Channels) -> Moments:
+    """Return when the reference speed was furthest above the train's since a fault first was active."""
+    if not {"reference_speed", "active_faults"} <= channels.keys():
+        return Moments()
+    speed, reference = channels["speed"], channels["reference_speed"]
+    counts = (np.cumsum(channels["active_faults"] > 0.0) > 0) & np.isfinite(reference)
+    counts &= speed >= (verdict.defined("moving_speed") or 0.0)
+    if not counts.any():
+        return Moments()
+    row = int(np.argmax(np.where(counts, reference - speed, -np.inf)))
+    return Moments(extremes={TRAIN: _extreme(channels, "reference_speed", reference, row)})
+
+
 _FINDERS: Final[Mapping[str, Callable[[evaluation.Verdict, Channels], Moments]]] = MappingProxyType(
     {
         "locked_time": _locks,
         "longest_lock": _locks,
+        "longest_lock_of_sound_wheelsets": _locks,
+        "reference_excess": _largest_reference_excess,
         "sliding_duration": _slides,
         "maximum_slide_above_cutoff": _largest_slides,
         "maximum_clamping_force": _largest_forces,

@@ -150,7 +150,8 @@ def in_order(panels: Sequence[Panel]) -> list[Panel | Strip]:
 class PlotLoop:
     """One quantity over another, whose axis holds the values in `include`.
 
-    `dots`: the samples as dots, where lines between them would mislead.
+    `dots`: the samples as dots, where lines between them would mislead. `directed`: the line shows where the
+    lower quantity rises and where it falls.
     """
 
     key: str
@@ -161,12 +162,19 @@ class PlotLoop:
     up_title: str
     dots: bool = False
     include: tuple[float, ...] = (0.0,)
+    directed: bool = False
 
 
 LOOPS = (
     PlotLoop("over-distance", "Speed over distance", "distance", "speed", "distance, m", "speed, km/h"),
     PlotLoop(
-        "force-loop", "Clamping force over tank pressure", "tank_pressure", "clamping_force", "bar", "kN"
+        "force-loop",
+        "Clamping force over tank pressure",
+        "tank_pressure",
+        "clamping_force",
+        "tank pressure, bar",
+        "clamping force, kN",
+        directed=True,
     ),
     PlotLoop(
         "adhesion-loop",

@@ -53,7 +53,7 @@ def step_by_address() -> Any:
     def call_at(step: int, handle: int, exchange: int) -> Any:
         return call(step, handle, exchange, exchange + OUTPUTS_AT)
 
-    return compiler().njit(**OPTIONS)(call_at)
+    return compile_inner(call_at)
 
 
 def with_controller(
@@ -66,6 +66,14 @@ def with_controller(
     done = dict(operations)
     functions = translate(controller.begin, wrap, done), translate(controller.decide, wrap, done)
     return {**done, begin: functions[0], decide: functions[1]}
+
+
+def compile_inner(function: Function) -> Any:
+    """Compile a function that only compiled code calls.
+
+    Left out are its entries from Python and from C, which take as long to compile as the function itself.
+    """
+    return compiler().njit(**OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def compiler() -> Any:

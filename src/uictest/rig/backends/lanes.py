@@ -14,9 +14,9 @@ from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics import floor, maximum, minimum, select, sqrt
 from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
 from uictest.rig.backends.compiled import (
-    OPTIONS,
     Function,
     callback,
+    compile_inner,
     compiled_operations,
     compiler,
     translate,
@@ -127,9 +127,8 @@ def _name(controller: Controller, width: int) -> str:
 
 def _compile(controller: Controller, width: int) -> Any:
     """Return the loop over a queue of cases compiled, as a function of addresses and of what lies there."""
-    numba = compiler()
-    carray = numba.carray
-    lanes, rig, all_cases, run_queue = _translated(controller, numba.njit(**OPTIONS))
+    carray = compiler().carray
+    lanes, rig, all_cases, run_queue = _translated(controller)
 
     def on_addresses(
         parameters: Any,
@@ -180,7 +179,7 @@ def _compile(controller: Controller, width: int) -> Any:
     return callback(on_addresses, *inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
 
 
-def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
+def _translated(controller: Controller) -> tuple[Any, Any, Any, Any]:
     """Return the types of lanes, of a rig and of cases, and the loop over a queue of cases.
 
     Functions without branches are translated for all lanes at once, the others for one lane.
@@ -205,6 +204,6 @@ def _translated(controller: Controller, njit: Any) -> tuple[Any, Any, Any, Any]:
         warm_discs,
         observe_cycle,
     )
-    wide = {function: translate(function, njit, in_lanes) for function in without_branches}
-    scalar = with_controller(controller, njit, compiled_operations())
-    return Lanes, RigRecords, Cases, translate(run_queue, njit, {**scalar, **wide})
+    wide = {function: translate(function, compile_inner, in_lanes) for function in without_branches}
+    scalar = with_controller(controller, compile_inner, compiled_operations())
+    return Lanes, RigRecords, Cases, translate(run_queue, compile_inner, {**scalar, **wide})

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from uictest.controllers import Controller
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import (
-    OPTIONS,
     callback,
+    compile_inner,
     compiled_operations,
     compiler,
     translate,
@@ -92,9 +92,9 @@ class NativeStop:
 
 def _compile(controller: Controller) -> Any:
     """Return the stop compiled by numba, as a function of addresses and the lengths behind them."""
-    numba = compiler()
-    carray, njit = numba.carray, numba.njit(**OPTIONS)
-    entry = translate(run_stop, njit, with_controller(controller, njit, compiled_operations()))
+    carray = compiler().carray
+    model = with_controller(controller, compile_inner, compiled_operations())
+    entry = translate(run_stop, compile_inner, model)
 
     def on_addresses(
         car: Any,

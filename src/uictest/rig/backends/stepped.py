@@ -12,8 +12,8 @@ from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.compiled import (
-    OPTIONS,
     callback,
+    compile_inner,
     compiled_operations,
     compiler,
     translate,
@@ -158,9 +158,9 @@ def _of_trace(trace: Trace) -> tuple[int, int, int]:
 
 def _compile() -> Any:
     """Return the stepped stop compiled by numba, as a function of addresses and the lengths behind them."""
-    numba = compiler()
-    carray, njit = numba.carray, numba.njit(**OPTIONS)
-    entry = translate(step_stop, njit, with_controller(EXTERNAL, njit, compiled_operations()))
+    carray = compiler().carray
+    model = with_controller(EXTERNAL, compile_inner, compiled_operations())
+    entry = translate(step_stop, compile_inner, model)
 
     def on_addresses(
         car: Any,

@@ -1,23 +1,12 @@
 """The air of the caliper's module identified from a record, by the code that follows it in the rig."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
-from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import identification
-from uictest.rig.assembly import assemble
-from uictest.rig.backends.compiled import OPTIONS, compiled_operations, compiler, translate
-from uictest.rig.model.cycle import command_valve
-from uictest.rig.model.module_air import follow_tank
-from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.pneumatics import move_valve
-from uictest.rig.model.start import start_module
-from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
-from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
+from uictest.rig.bench.modelled_pressure import ModelledPressure
 from uictest.scenario import Case
 from uictest.units import BAR
 
@@ -77,7 +66,7 @@ def identify_air(
     pressures = {name: channels[name] for name in ("tank", "cylinder", "line")}
     step = identification.required_sampling_time(channels["time"], pressures, _SHORTEST, _LONGEST_STEP)
     _require_rest(pressures)
-    model = _ModelledPressure(channels, case, step)
+    model = ModelledPressure(channels, case, step)
     held_out = identification.held_out(len(channels["time"]), held_out_share)
     fitted = np.flatnonzero(~held_out)[:: max(round(_SPACING / step), 1)]
     cylinder, scale = channels["cylinder"], float(channels["cylinder"].max())
@@ -144,83 +133,3 @@ def _least_squares(error: Callable[[Samples], Samples]) -> Samples:
                 " long enough, and does the piston move back?"
             )
     return np.asarray(best)
-
-
-class _ModelledPressure:
-    """The cylinder pressure along a record as a function of the five unknowns, in the order of `_NAMES`."""
-
-    def __init__(self, channels: Mapping[str, Samples], case: Case, step: float) -> None:
-        self._channels = channels
-        simulation = case.scenario.simulation.model_copy(update={"time_step": step})
-        self._case = _with(case, simulation=simulation)
-
-    def __call__(self, unknowns: Samples) -> Samples:
-        channels = self._channels
-        car: Any = np.zeros(1, CAR)[0]
-        wheelset: Any = np.zeros(1, WHEELSET)[0]
-        computed = np.empty(len(channels["time"]))
-        inputs = assemble(_with_unknowns(self._case, unknowns))
-        _compiled()(
-            car,
-            wheelset,
-            inputs.parameters,
-            inputs.wheelset_parameters[0],
-            channels["tank"],
-            channels["line"],
-            channels["command"].astype(np.int64),
-            computed,
-        )
-        return computed
-
-
-def _with_unknowns(case: Case, unknowns: Samples) -> Case:
-    tank, caliper, swept, opening, gap = map(float, unknowns)
-    rig = case.scenario.rig
-    values = {
-        "tank_heat_conductance": tank,
-        "caliper_heat_conductance": caliper,
-        "swept_volume": swept * case.scenario.brake.system.tank.volume,
-        "opening_pressure": opening,
-        "closing_pressure": opening + gap,
-    }
-    air = rig.compensation_model.air.model_copy(update=values)
-    model = rig.compensation_model.model_copy(update={"air": air})
-    return _with(case, rig=rig.model_copy(update={"compensation_model": model}))
-
-
-def _with(case: Case, **sections: object) -> Case:
-    return replace(case, scenario=case.scenario.model_copy(update=sections))
-
-
-@cache
-def _compiled() -> Callable[..., None]:
-    numba = compiler()
-    function: Callable[..., None] = translate(_follow, numba.njit(**OPTIONS), compiled_operations())
-    return function
-
-
-def _follow(
-    car: Car,
-    wheelset: Wheelset,
-    p: Parameters,
-    own: WheelsetParameters,
-    tank: Any,
-    line: Any,
-    commands: Any,
-    computed: Any,
-) -> None:
-    """Follow a record sample by sample and fill ``computed`` with gauge pressures, Pa."""
-    copy_wheelset_parameters(wheelset, own)
-    start_module(wheelset, 0.0, p)
-    wheelset.pressure_reading = tank[0]
-    computed[0] = tank[0]
-    for n in range(1, len(tank)):
-        within = (n - 1) % p.steps_per_cycle
-        if within == 0:
-            wheelset.valve_command = commands[n]
-            command_valve(wheelset, p)
-        car.substep = float(within)
-        move_valve(wheelset, car)
-        wheelset.pressure_reading = tank[n]
-        follow_tank(wheelset, line[n] + p.atmospheric_pressure, p)
-        computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure

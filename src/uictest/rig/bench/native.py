@@ -4,7 +4,13 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from uictest.rig.backends.compiled import OPTIONS, callback, compiled_operations, compiler, translate
+from uictest.rig.backends.compiled import (
+    callback,
+    compile_inner,
+    compiled_operations,
+    compiler,
+    translate,
+)
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, BenchRig
 from uictest.rig.bench.step import run_bench_test
@@ -50,9 +56,8 @@ def run_compiled(
 
 def _compile() -> Any:
     """Return the bench compiled by numba, as a function of addresses and the lengths behind them."""
-    numba = compiler()
-    carray = numba.carray
-    entry = translate(run_bench_test, numba.njit(**OPTIONS), compiled_operations())
+    carray = compiler().carray
+    entry = translate(run_bench_test, compile_inner, compiled_operations())
 
     def on_addresses(
         car: Any,

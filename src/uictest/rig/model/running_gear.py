@@ -6,33 +6,24 @@ damping of its own. Only the creep force is implicit, since only it is stiff.
 """
 
 from uictest.physics import (
-    SLOWEST_CREEP,
-    contact_stiffness,
     fma,
-    force_and_slope,
-    friction_limit,
     gradient_force,
     locked_force,
     longitudinal,
-    lowest_slip,
     maximum,
-    minimum,
-    refined_slip,
     running_resistance,
     select,
-    stress_gradient,
     suspension_force,
     torque,
     turning_direction,
     vertical,
 )
 from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.slip_search import Slip
 from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 
 LOWEST_LOAD = 0.2
 """Smallest load of a wheel, share of the reference load: far less than braking leaves; chosen."""
-HIGHEST_LOAD = 2.5
-"""Share of the reference load beyond which the contact ellipse stays as it is; chosen."""
 
 
 def clear_forces(frame: Frame) -> None:
@@ -81,8 +72,12 @@ def _couple_longitudinally(
     car.damper_loss += p.step * damping * rate * rate
 
 
-def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -> None:
-    """Add the forces of a primary suspension to the bogie; find the wheelset's load, thrust and torque."""
+def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -> float:
+    """Add the forces of a primary suspension to the bogie; find the wheelset's load and torque.
+
+    Returns:
+        Thrust of suspension and gradient on the wheelset, N.
+    """
     above = wheelset.wheel_radius - p.bogie_height
     shift = wheelset.position - longitudinal(bogie.position, bogie.pitch, above)
     rate = wheelset.speed - longitudinal(bogie.speed, bogie.pitch_rate, above)
@@ -96,7 +91,6 @@ def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -
     car.damper_loss += p.step * fma(
         p.primary_longitudinal_damping * rate, rate, p.primary_vertical_damping * rise_rate * rise_rate
     )
-    wheelset.thrust = -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
     wheelset.wheel_load = maximum(fma(-0.5, lift, p.static_wheel_load), LOWEST_LOAD * p.reference_load)
     wheelset.torque = wheelset.brake_force * torque(
         wheelset.clamping_force,
@@ -105,104 +99,41 @@ def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -
         wheelset.pad_friction,
         p.disc_radius,
     )
+    return -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
 
 
-def bracket_slip(wheelset: Wheelset, p: Parameters) -> None:
-    """Bracket the slip speed at the end of the step and begin from the last one.
-
-    The full brake torque is assumed to act on a turning wheelset; a lock is detected at the end of the step.
-    """
-    load_ratio = minimum(wheelset.wheel_load * p.load_scale, HIGHEST_LOAD)
-    wheelset.contact_stiffness = contact_stiffness(p.creep_stiffness, load_ratio)
-    slip = fma(-wheelset.wheel_radius, wheelset.rotation, wheelset.speed)
-    braking = turning_direction(wheelset.rotation, wheelset.speed) * wheelset.torque
-    pushed = fma(p.mass_response, wheelset.thrust, slip)
-    free_slip = fma(p.inertia_response * wheelset.wheel_radius, braking, pushed)
-    direction = select(free_slip < 0.0, -1.0, 1.0)
-    wheelset.slip_direction = direction
-    wheelset.free_slip = direction * free_slip
-    wheelset.highest_slip = wheelset.free_slip
-    wheelset.lowest_slip = lowest_slip(
-        wheelset.free_slip, wheelset.slip_response, wheelset.wheel_load, wheelset.friction
-    )
-    wheelset.slip_estimate = maximum(direction * slip, 0.0)
-
-
-def find_friction_limit(wheelset: Wheelset, p: Parameters) -> None:
-    """Find the friction limit at the estimated slip speed, and how it changes."""
-    wheelset.friction_limit, wheelset.limit_slope = friction_limit(
-        wheelset.slip_estimate, wheelset.wheel_load, wheelset.friction, p.friction_ratio, p.friction_decay
-    )
-
-
-def find_stress_gradient(wheelset: Wheelset, p: Parameters) -> None:
-    """Find the gradient of the tangential stress at the estimated slip speed."""
-    (
-        wheelset.stress_numerator,
-        wheelset.stress_denominator,
-        wheelset.inverse_adhesion,
-        wheelset.inverse_slip,
-        wheelset.stress_angle,
-        wheelset.stress_tangent,
-    ) = stress_gradient(
-        wheelset.slip_estimate,
-        maximum(abs(wheelset.speed), SLOWEST_CREEP),
-        wheelset.friction_limit,
-        wheelset.contact_stiffness,
-        p.reduction_adhesion,
-        p.reduction_slip,
-    )
-
-
-def refine_slip(wheelset: Wheelset, p: Parameters) -> float:
-    """Take one Newton step towards the slip speed; return the creep force of both wheels before it, N."""
-    gradient = (
-        wheelset.stress_numerator,
-        wheelset.stress_denominator,
-        wheelset.inverse_adhesion,
-        wheelset.inverse_slip,
-        wheelset.stress_angle,
-        wheelset.stress_tangent,
-    )
-    force, slope = force_and_slope(
-        gradient,
-        maximum(abs(wheelset.speed), SLOWEST_CREEP),
-        wheelset.friction_limit,
-        wheelset.limit_slope,
-        wheelset.contact_stiffness,
-        p.reduction_adhesion,
-        p.reduction_slip,
-    )
-    wheelset.slip_estimate, wheelset.lowest_slip, wheelset.highest_slip = refined_slip(
-        wheelset.slip_estimate,
-        wheelset.lowest_slip,
-        wheelset.highest_slip,
-        wheelset.free_slip,
-        wheelset.slip_response,
-        force,
-        slope,
-    )
-    return 2.0 * force
-
-
-def step_wheelset(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
+def step_wheelset(
+    wheelset: Wheelset, bogie: Bogie, thrust: float, sliding_force: float, slip: Slip, p: Parameters
+) -> tuple[float, float]:
     """Advance speed and rotation under rail and brake; the brake torque reacts on the bogie.
 
     Where the full brake torque would turn the wheelset against its sense of rotation the brake holds it: it
     stands, and its brake carries just the torque of the rail. It stays so until the rail's torque exceeds the
     brake's, without chatter. A locked wheelset slides as fast as it did, so that its force is the one found
     at the last slip speed.
+
+    Args:
+        wheelset: its record.
+        bogie: that of its bogie.
+        thrust: :func:`couple_wheelset`, N.
+        sliding_force: creep force at the last slip speed, N.
+        slip: at the end of the step, for a wheelset that turns.
+        p: parameter record.
+
+    Returns:
+        The torque that the brake transmits, against a positive rotation, N m, and the mean rotation of the
+        discs over the step against the bogie at its beginning, rad/s.
     """
     speed = wheelset.speed
     rotation = wheelset.rotation
     direction = turning_direction(rotation, speed)
-    slip_change = wheelset.free_slip - wheelset.slip_estimate
-    turning_creep = wheelset.slip_direction * slip_change * wheelset.slip_stiffness
+    slip_change = slip.free - slip.estimate
+    turning_creep = slip.direction * slip_change * wheelset.slip_stiffness
     moment = fma(wheelset.wheel_radius, turning_creep, -direction * wheelset.torque)
     turned = fma(p.inertia_response, moment, rotation)
     locked = turned * direction <= 0.0
-    free_speed = fma(p.mass_response, wheelset.thrust, speed)
-    sliding_creep = locked_force(speed, free_speed, wheelset.sliding_force, p.mass_response)
+    free_speed = fma(p.mass_response, thrust, speed)
+    sliding_creep = locked_force(speed, free_speed, sliding_force, p.mass_response)
     holding = fma(wheelset.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
     creep = select(locked, sliding_creep, turning_creep)
     braking = select(locked, holding, direction * wheelset.torque)
@@ -210,15 +141,13 @@ def step_wheelset(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
     wheelset.speed = fma(-p.mass_response, creep, free_speed)
     wheelset.rotation = select(locked, 0.0, turned)
     wheelset.position += p.step * wheelset.speed
-    wheelset.slip_speed = fma(-wheelset.wheel_radius, wheelset.rotation, wheelset.speed)
     turning = 0.5 * (rotation + wheelset.rotation)
     wheelset.angle += p.step * turning
-    wheelset.braking = braking
-    wheelset.disc_rotation = turning + bogie.pitch_rate
     wheelset.contact_loss += (
         p.step * creep * (0.5 * (speed + wheelset.speed) - wheelset.wheel_radius * turning)
     )
     bogie.moment -= braking
+    return braking, turning + bogie.pitch_rate
 
 
 def step_frame(
@@ -235,10 +164,13 @@ def step_frame(
     frame.pitch += p.step * frame.pitch_rate
 
 
-def heat_disc(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> None:
-    """Add the work of the pads, which pitch with the bogie: known once its pitch rate has been advanced."""
-    rubbing = fma(0.5, bogie.pitch_change, wheelset.disc_rotation)
-    wheelset.brake_heat += p.step * wheelset.braking * rubbing
+def heat_disc(wheelset: Wheelset, bogie: Bogie, braking: float, rotation: float, p: Parameters) -> None:
+    """Add the work of the pads, which pitch with the bogie: known once its pitch rate has been advanced.
+
+    Torque of the brake in N m and rotation of the discs in rad/s are those of :func:`step_wheelset`.
+    """
+    rubbing = fma(0.5, bogie.pitch_change, rotation)
+    wheelset.brake_heat += p.step * braking * rubbing
 
 
 def step_body(car: Car, p: Parameters) -> None:

@@ -156,33 +156,13 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     friction: float
     cleaned_share: float  # of the rail under the wheelset and behind it
     wheel_load: float
-    thrust: float  # of suspension and gradient on the wheelset
     contact_stiffness: float
     creep_force: float  # of both wheels, against the motion
-    # search for the slip speed within a step: sizes, m/s
-    slip_direction: float
-    free_slip: float
-    lowest_slip: float
-    highest_slip: float
-    slip_estimate: float
-    sliding_force: float  # creep force at the last slip speed, N
-    # creep at the estimated slip speed: physics.polach.stress_gradient
-    friction_limit: float  # of one wheel, N
-    limit_slope: float  # N s/m
-    stress_numerator: float
-    stress_denominator: float
-    inverse_adhesion: float
-    inverse_slip: float
-    stress_angle: float
-    stress_tangent: float
     # motion
     position: float
     speed: float
     rotation: float
     angle: float  # turned since the brake command, rad
-    slip_speed: float
-    braking: float  # torque that the brake transmits, against a positive rotation, N m
-    disc_rotation: float  # mean over the step, against the bogie at its beginning, rad/s
     # ledgers
     brake_heat: float  # J
     contact_loss: float  # J

@@ -6,18 +6,15 @@ from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import (
-    bracket_slip,
     clear_forces,
     couple_body,
     couple_wheelset,
-    find_friction_limit,
-    find_stress_gradient,
     heat_disc,
-    refine_slip,
     step_body,
     step_frame,
     step_wheelset,
 )
+from uictest.rig.model.slip_search import find_slips
 from uictest.rig.model.state import Bogie, Car, Wheelset
 
 
@@ -46,39 +43,19 @@ def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
     clear_forces(trailing)
     couple_body(car, leading, p)
     couple_body(car, trailing, p)
-    couple_wheelset(wheelsets[0], leading, car, p)
-    couple_wheelset(wheelsets[1], leading, car, p)
-    couple_wheelset(wheelsets[2], trailing, car, p)
-    couple_wheelset(wheelsets[3], trailing, car, p)
-    _solve_slip(wheelsets, p)
-    step_wheelset(wheelsets[0], leading, p)
-    step_wheelset(wheelsets[1], leading, p)
-    step_wheelset(wheelsets[2], trailing, p)
-    step_wheelset(wheelsets[3], trailing, p)
+    thrust_0 = couple_wheelset(wheelsets[0], leading, car, p)
+    thrust_1 = couple_wheelset(wheelsets[1], leading, car, p)
+    thrust_2 = couple_wheelset(wheelsets[2], trailing, car, p)
+    thrust_3 = couple_wheelset(wheelsets[3], trailing, car, p)
+    slips, forces = find_slips(wheelsets, (thrust_0, thrust_1, thrust_2, thrust_3), p)
+    braking_0, rotation_0 = step_wheelset(wheelsets[0], leading, thrust_0, forces[0], slips[0], p)
+    braking_1, rotation_1 = step_wheelset(wheelsets[1], leading, thrust_1, forces[1], slips[1], p)
+    braking_2, rotation_2 = step_wheelset(wheelsets[2], trailing, thrust_2, forces[2], slips[2], p)
+    braking_3, rotation_3 = step_wheelset(wheelsets[3], trailing, thrust_3, forces[3], slips[3], p)
     step_frame(leading, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
     step_frame(trailing, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
-    heat_disc(wheelsets[0], leading, p)
-    heat_disc(wheelsets[1], leading, p)
-    heat_disc(wheelsets[2], trailing, p)
-    heat_disc(wheelsets[3], trailing, p)
+    heat_disc(wheelsets[0], leading, braking_0, rotation_0, p)
+    heat_disc(wheelsets[1], leading, braking_1, rotation_1, p)
+    heat_disc(wheelsets[2], trailing, braking_2, rotation_2, p)
+    heat_disc(wheelsets[3], trailing, braking_3, rotation_3, p)
     step_body(car, p)
-
-
-def _solve_slip(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Take two Newton steps for each wheelset; the first finds the force at the last slip speed."""
-    for i in range(4):
-        bracket_slip(wheelsets[i], p)
-    _find_creep(wheelsets, p)
-    for i in range(4):
-        wheelsets[i].sliding_force = refine_slip(wheelsets[i], p)
-    _find_creep(wheelsets, p)
-    for i in range(4):
-        refine_slip(wheelsets[i], p)
-
-
-def _find_creep(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Find friction limit and stress side by side: the processor then works on all four chains at once."""
-    for i in range(4):
-        find_friction_limit(wheelsets[i], p)
-    for i in range(4):
-        find_stress_gradient(wheelsets[i], p)

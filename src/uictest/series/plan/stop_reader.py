@@ -12,11 +12,9 @@ from uictest.scenario.yaml import (
     Diagnostic,
     Entry,
     Map,
-    Node,
     Override,
     Scalar,
     ScenarioErrors,
-    Sequence as List,
     diagnose,
     entry_at,
     in_reading_order,
@@ -25,7 +23,8 @@ from uictest.scenario.yaml import (
 )
 from uictest.series.plan.model import SeriesFile, Stops
 from uictest.series.plan.same_train import differences_of_train
-from uictest.series.plan.series import PlannedStop, Recorded
+from uictest.series.plan.series import PlannedStop
+from uictest.series.plan.stop_entry import recorded_by, scenario_of, values_set_by
 from uictest.series.result import Role
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
@@ -57,10 +56,10 @@ class StopReader:
         read: list[tuple[PlannedStop, Entry]] = []
         roles: tuple[tuple[Role, tuple[Stops, ...]], ...] = (("dry", file.dry), ("wet", file.wet))
         for role, entries in roles:
-            for number, stops in enumerate(entries):
+            for number in range(len(entries)):
                 entry = _entry(tree, role, number)
                 try:
-                    read += [(stop, entry) for stop in self._of_entry(role, stops, entry)]
+                    read += [(stop, entry) for stop in self._of_entry(role, entry)]
                 except ScenarioErrors as errors:
                     diagnostics.extend(errors.diagnostics)
         if not diagnostics:
@@ -73,12 +72,12 @@ class StopReader:
             raise ScenarioErrors(in_reading_order(list(dict.fromkeys(diagnostics))))
         return tuple(stop for stop, _ in read)
 
-    def _of_entry(self, role: Role, stops: Stops, entry: Entry) -> Iterator[PlannedStop]:
-        reference = _scenario_of(entry.node)
+    def _of_entry(self, role: Role, entry: Entry) -> Iterator[PlannedStop]:
+        reference = scenario_of(entry.node)
         self.files.beside(reference, role)
         path = self.files.path_of(reference, role)
-        cases = load_file(path, [*self.common, *_set_by(entry.node), *self.last], self.files)
-        recorded = self._recorded(stops, entry.node)
+        cases = load_file(path, [*self.common, *values_set_by(entry.node), *self.last], self.files)
+        recorded = recorded_by(entry.node, self.files)
         if recorded is not None and len(cases) > 1:
             message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
             raise single_error(reference.place, message, role, "give each its own entry, with `set`")
@@ -106,52 +105,10 @@ class StopReader:
         judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
         return replace(case, id=name, scenario=case.scenario.model_copy(update=judged_by))
 
-    def _recorded(self, stops: Stops, node: Node) -> Recorded | None:
-        """Return the recordings of an entry, None without any. Raises ScenarioErrors where one is missing."""
-        listed = node.get("recordings") if isinstance(node, Map) else None
-        if not stops.recordings or not isinstance(listed, List):
-            return None
-        files = tuple(self._existing(each) for each in listed.items)
-        return Recorded(files, self._channel_map(node))
-
-    def _existing(self, reference: Node) -> Path:
-        assert isinstance(reference, Scalar)
-        path = self.files.path_of(reference, "recordings")
-        if not path.is_file():
-            raise single_error(reference.place, f"no such file: {quoted(reference.text)}", "recordings")
-        return path
-
-    def _channel_map(self, node: Node) -> str:
-        reference = node.get("map") if isinstance(node, Map) else None
-        if not isinstance(reference, Scalar):
-            return Stops.model_fields["map"].get_default()  # type: ignore[no-any-return]
-        is_path = reference.text.endswith((".yaml", ".yml"))
-        return str(self.files.path_of(reference, "map")) if is_path else reference.text
-
 
 def _entry(tree: Map, role: Role, number: int) -> Entry:
     entry, _ = entry_at(tree, (role, number))
     return entry
-
-
-def _scenario_of(node: Node) -> Scalar:
-    reference = node.get("scenario") if isinstance(node, Map) else node
-    assert isinstance(reference, Scalar)
-    return reference
-
-
-def _set_by(node: Node) -> Iterator[Override]:
-    """Yield what an entry sets; every key is an axis, so that the ids of its stops name the values."""
-    if not isinstance(node, Map):
-        return
-    if (repeat := node.entries.get("repeat")) is not None:
-        yield Override("repeat", repeat.key, (repeat.node,))
-    section = node.get("set")
-    for key, entry in section.entries.items() if isinstance(section, Map) else ():
-        values = entry.node.items if isinstance(entry.node, List) else (entry.node,)
-        if not values:
-            raise single_error(entry.node.place, "an empty list makes no stop", f"set.{key}")
-        yield Override(key, entry.key, tuple(values), swept=True)
 
 
 def _repeated(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:

@@ -22,6 +22,7 @@ SHEETS = [
     "Cases",
     "Maps",
     "Rates",
+    "Distributions",
     "Trends",
     "Frontier",
     "Sensitivity",
@@ -46,6 +47,7 @@ def _read(content: SweepContent, **options: int) -> Any:
 
 def _table(sheet: Any) -> list[dict[str, Any]]:
     header, *rows = ([cell.value for cell in row] for row in sheet.iter_rows())
+    rows = rows[1:] if sheet.freeze_panes == "B3" else rows
     return [dict(zip(header, row, strict=True)) for row in rows]
 
 
@@ -58,8 +60,8 @@ def test_the_sheets_hold_what_the_sweep_found(make_sweep: MakeSweep, make_result
     assert (summary["cases"], summary["met"], summary["outcome fail"]) == (4, 3, 1)
     case = _table(workbook["Cases"])[0]
     assert next(iter(case)) == "id"
-    assert (case["id"], case["met"], case["braking_distance_m"]) == ("case-0", "fail", 465.25)
-    assert _table(workbook["Rates"])[1]["share_met"] == 0.5
+    assert (case["id"], case["met"], case["braking distance"]) == ("case-0", "fail", 465.25)
+    assert _table(workbook["Rates"])[1]["share met"] == 0.5
     trend = _table(workbook["Trends"])
     assert [(row["value"], row["cases"], row["mean"]) for row in trend] == [("80 %", 2, 2), ("90 %", 1, 4)]
     (flip,) = _table(workbook["Frontier"])
@@ -68,7 +70,7 @@ def test_the_sheets_hold_what_the_sweep_found(make_sweep: MakeSweep, make_result
     assert (index["first"], index["first_low"], index["total_high"]) == (0.5, 0.4, 0.6)
     worst = _table(workbook["Worst cases"])
     assert [row["case"] for row in worst] == ["lost[90 %]", "dry-120[command=90]"]
-    assert [row["braking_distance_m"] for row in worst] == [None, 465.25]
+    assert [row["braking distance"] for row in worst] == [None, 465.25]
     assert {"what": "versions: uictest", "value": "0.1.0"} in _table(workbook["Provenance"])
 
 
@@ -141,3 +143,24 @@ def test_a_damaged_summary_is_no_summary_and_nothing_stays_behind(
     with pytest.raises(ValueError, match="Parquet"):
         sweep_workbook_bytes(content)
     assert [path.name for path in tmp_path.iterdir()] == ["sweep"]
+
+
+def test_the_summary_draws_the_first_distribution_and_the_first_trend(make_sweep: MakeSweep) -> None:
+    content = make_sweep()
+    _write_summary(content.folder, _rows(4))
+    workbook = _read(content)
+    distribution, trend = workbook["Summary"]._charts
+    histogram = content.result.distributions[0]
+    rows = _table(workbook["Distributions"])[: len(histogram.edges) - 1]
+    assert [row["from"] for row in rows] == list(histogram.edges[:-1])
+    for each, (outcome, counts) in zip(distribution.series, histogram.counts.items(), strict=True):
+        assert [row[outcome] or 0 for row in rows] == list(counts)
+        assert _cells(workbook, each.val.numRef.f) == [row[outcome] for row in rows]
+    means = _cells(workbook, trend.series[0].val.numRef.f)
+    assert means == list(content.result.trends[0].mean)
+
+
+def _cells(workbook: Any, reference: str) -> list[Any]:
+    """Return the values of cells below each other, e.g. `Trends!$G$2:$G$4`."""
+    sheet, _, cells = reference.partition("!")
+    return [cell.value for (cell,) in workbook[sheet.strip("'")][cells.replace("$", "")]]

@@ -20,7 +20,7 @@ class Mark:
 
     limit, mean: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
     where it has no end. instant: an upright line at `x0`. point: the place `x0`, `y`. interval: from `x0` to
-    `x1` in row `y` of a strip.
+    `x1` in row `y` of a strip. `wheelset` is None for a mark of all of them, or of the train.
     """
 
     plot: str
@@ -29,6 +29,7 @@ class Mark:
     x0: float | None = None
     x1: float | None = None
     y: float | None = None
+    wheelset: int | None = None
     criterion: str = ""
     status: evaluation.Status = "pass"
 
@@ -65,6 +66,6 @@ def instant(plot: str, time: float, label: str) -> Mark:
     return Mark(plot, "instant", printable(label), time, time)
 
 
-def point(plot: str, x: float, y: float, label: str) -> Mark:
+def point(plot: str, x: float, y: float, label: str, wheelset: int | None = None) -> Mark:
     """Return a marked place."""
-    return Mark(plot, "point", printable(label), x, x, y)
+    return Mark(plot, "point", printable(label), x, x, y, wheelset)

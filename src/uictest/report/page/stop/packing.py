@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from uictest.report.traces.trace import Curve
 
-_LARGEST = 32766
+STEPS = 32766
+"""Into so many steps the range of a line is divided."""
+
 _MISSING = 32767
 
 Series = NDArray[np.float64]
@@ -48,12 +50,12 @@ def packed(curves: Mapping[str, Curve], interval: float = 0.0) -> dict[str, Any]
 def _scale(series: Series) -> Scale:
     finite = series[np.isfinite(series)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
-    return low, (high - low) / _LARGEST or 1.0
+    return low, (high - low) / STEPS or 1.0
 
 
 def _scale_of_times(times: Series, interval: float) -> Scale:
     """Return the interval of the record as the step of its times, where two bytes hold the differences."""
-    if interval > 0.0 and np.diff(times, prepend=times[:1]).max(initial=0.0) < _LARGEST * interval:
+    if interval > 0.0 and np.diff(times, prepend=times[:1]).max(initial=0.0) < STEPS * interval:
         return float(times[0]), interval
     return _scale(times)
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from uictest.report.page.axis import Axis, Tick, span
 from uictest.report.page.stop.bars import bars_path, magnet_bars, mark_bars
+from uictest.report.page.stop.directions import pieces
+from uictest.report.page.stop.labels import ROW, Labels, labels_of
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.polyline import dots, path, path_over_time
 from uictest.report.traces.quantities import (
@@ -21,13 +23,15 @@ from uictest.report.traces.quantities import (
     loop_lines,
     panel_lines,
 )
-from uictest.report.traces.trace import PlotTrace
+from uictest.report.traces.trace import Curve, PlotTrace
 
 WIDTH, LEFT, RIGHT = 960, 52, 948
 _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
 _BELOW = 32  # the panels: tick labels and what they count
 _BAND, _LANE = 15, 12  # of a wheelset in a strip, of a lane
 _LOOP_WIDTH, _LOOP_HEIGHT = 316, 230
+_LOOP_OF = "wheelset-1"
+"""The role of the wheelset whose loops are drawn: the leading one; the others are on the page itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +44,6 @@ class Rectangle:
     height: float
     kind: str
     status: str
-    label: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +55,6 @@ class Level:
     y: float
     kind: str
     status: str
-    label: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +67,7 @@ class PlotDrawing:
     right: float
     top: float
     bottom: float
+    labels: Labels
     x_ticks: Sequence[Tick] = ()
     y_ticks: Sequence[Tick] = ()
     x_title: str = ""
@@ -76,6 +79,10 @@ class PlotDrawing:
     """Kind of bars and their path."""
     ruled: bool = True
     """Whether a line goes through each label of the upright axis."""
+
+    def label_y(self, row: int) -> float:
+        """Return the base line of a row of labels; row 0 is that of the title."""
+        return self.top - 7 - ROW * (self.labels.rows - 1 - row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +127,9 @@ def _panel(
     curves = [(line, trace.curves[line.series]) for line in lines if line.series in trace.curves]
     if not curves:
         return None
-    upper, lower = top + _TITLE, top + _TITLE + panel.height * _HEIGHT
+    labels = labels_of(f"{panel.title}, {panel.unit}", marks, time)
+    upper = top + _TITLE + ROW * (labels.rows - 1)
+    lower = upper + panel.height * _HEIGHT
     levels = [mark.y for mark in marks if mark.y is not None]
     y = Axis(*span((curve.y for _, curve in curves), [*panel.include, *levels]), lower, upper)
     return PlotDrawing(
@@ -130,6 +139,7 @@ def _panel(
         RIGHT,
         upper,
         lower,
+        labels,
         time.tick_marks(10),
         y.tick_marks(4),
         y_title=panel.unit,
@@ -145,7 +155,8 @@ def _strip(
     bars = mark_bars(marks, strip) | magnet_bars(trace, strip.lanes)
     if not bars:
         return None
-    upper = top + _TITLE
+    labels = labels_of(strip.heading, marks, time)
+    upper = top + _TITLE + ROW * (labels.rows - 1)
     bottom = upper + len(WHEELSETS) * max(_BAND, _LANE * len(strip.lanes))
     row = Axis(0.5, len(WHEELSETS) + 0.5, upper, bottom)
     return PlotDrawing(
@@ -155,51 +166,74 @@ def _strip(
         RIGHT,
         upper,
         bottom,
+        labels,
         time.tick_marks(10),
         [(row.at(place), label) for place, label in strip.rows],
         bars=[(kind, bars_path(kind, each, time, row)) for kind, each in bars.items()],
-        levels=list(_levels([mark for mark in marks if mark.label], time, row)),
         ruled=bool(strip.lanes),
     )
 
 
 def _loop(loop: PlotLoop, trace: PlotTrace, marks: Sequence[Mark]) -> PlotDrawing:
+    """Return the drawing of a loop; of wheelsets it shows one, as four loops hide each other."""
     curves = [
         (line, trace.loops[name])
         for _, line in loop_lines(loop)
-        if (name := f"{loop.key} {line.series}") in trace.loops
+        if line.role in ("train", _LOOP_OF) and (name := f"{loop.key} {line.series}") in trace.loops
     ]
-    draw = dots if loop.dots else path
     ends = [end for mark in marks for end in (mark.x0, mark.x1) if end is not None]
     x = Axis(*span((curve.x for _, curve in curves), [*loop.include, *ends]), LEFT, _LOOP_WIDTH - 10)
-    y = Axis(*span((curve.y for _, curve in curves), [0.0]), _LOOP_HEIGHT - 34, _TITLE)
+    labels = labels_of(_loop_title(loop, curves), marks, x)
+    top = _TITLE + ROW * (labels.rows - 1)
+    y = Axis(*span((curve.y for _, curve in curves), [0.0]), _LOOP_HEIGHT - 34, top)
     return PlotDrawing(
         loop.key,
-        loop.title,
+        _loop_title(loop, curves),
         x.start,
         x.end,
         y.end,
         y.start,
+        labels,
         x.tick_marks(5),
         y.tick_marks(5),
         loop.across_title,
         loop.up_title,
-        [(line, draw(x.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
+        [drawn for line, curve in curves for drawn in _loop_paths(loop, line, curve, x, y)],
         list(_shaded(marks, x, y.end, y.start)),
     )
+
+
+def _loop_title(loop: PlotLoop, curves: Sequence[tuple[PlotLine, Curve]]) -> str:
+    of_wheelset = any(line.role == _LOOP_OF for line, _ in curves)
+    return f"{loop.title}, {_LOOP_OF.replace('-', ' ')}" if of_wheelset else loop.title
+
+
+def _loop_paths(
+    loop: PlotLoop, line: PlotLine, curve: Curve, x: Axis, y: Axis
+) -> Iterator[tuple[PlotLine, str]]:
+    """Yield the paths of a loop; a directed one has a second, dotted line where it falls."""
+    across, up = x.pixels(curve.x), y.pixels(curve.y)
+    if not loop.directed:
+        yield line, (dots if loop.dots else path)(across, up)
+        return
+    for direction in (1, -1):
+        own = [(first, last) for first, last, way in pieces(curve.x) if way == direction]
+        drawn = "".join(path(across[first : last + 1], up[first : last + 1]) for first, last in own)
+        if drawn:
+            yield replace(line, dotted=direction < 0, role=line.role if direction > 0 else "falling"), drawn
 
 
 def _shaded(marks: Sequence[Mark], x: Axis, upper: float, lower: float) -> Iterator[Rectangle]:
     for mark in marks:
         if mark.y is None:
             first, last = _ends(mark, x)
-            yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.status, mark.label)
+            yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.status)
 
 
 def _levels(marks: Sequence[Mark], x: Axis, y: Axis) -> Iterator[Level]:
     for mark in marks:
         if mark.y is not None:
-            yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.status, mark.label)
+            yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.status)
 
 
 def _ends(mark: Mark, x: Axis) -> tuple[float, float]:

@@ -62,11 +62,11 @@ def _intervals(
     label = "" if verdict.status == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
     for row in rows:
         _, first, last, n = row
-        yield Mark(strip, "interval", label if row == longest else "", first, last, float(n))
+        yield Mark(strip, "interval", label if row == longest else "", first, last, float(n), n)
 
 
 def _largest(verdict: evaluation.Verdict, trace: PlotTrace, plot: str) -> Iterator[Mark]:
     if verdict.status != "pass":
         for n, (time, value) in _moments(verdict, trace).extremes.items():
             label = f"{n}: {quantity(value, verdict.unit)}" if misses(verdict, value) else ""
-            yield point(plot, time, value, label)
+            yield point(plot, time, value, label, n)

@@ -10,11 +10,11 @@ from uictest.report.page.rendering import render
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
 from uictest.report.page.sweep.heat import HeatMap, heat_map
 from uictest.report.page.sweep.histogram import histogram_plot
-from uictest.report.page.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.result import Frontier, SweepResult
+from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
     circumstances_words,
     command_alone,
@@ -32,7 +32,7 @@ _MOST_VALUES = 40
 def sweep_page_html(content: SweepContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     result, drawn = content.result, _drawn(content)
-    keys = {view.result.id: view.key for view in drawn}
+    keys = {view.result.id: view.fragment for view in drawn}
     return render(
         "sweep.html.j2",
         content=content,
@@ -49,13 +49,14 @@ def sweep_page_html(content: SweepContent) -> str:
         notable=notable_cases(result),
         drawn=drawn,
         keys=keys,
-        opened=next((view.key for view in drawn if not view.result.met), ""),
+        opened=next((view.anchor for view in drawn if not view.result.met), ""),
         parts=shown_parts([result.base, *(view.result.parts for view in drawn)]),
         varied=result.varied,
         of_which="the scenario that is varied and the drawn stops",
         all_parts_in="sweep.json",
         plots=plots_json(),
         with_plots=bool(drawn),
+        running_head=result.name,
         alone=command_alone(content.manifest),
         circumstances_words=circumstances_words,
         counted=counted,
@@ -71,10 +72,7 @@ def sweep_page_html(content: SweepContent) -> str:
 def _drawn(content: SweepContent) -> list[CaseView]:
     result = content.result
     traced = [case for case in result.worst if case.id in content.traces]
-    return [
-        case_view(f"case-{place}", case, result.subject(case.id), content.traces[case.id])
-        for place, case in enumerate(traced, start=1)
-    ]
+    return [case_view(case, result.subject(case.id), content.traces[case.id]) for case in traced]
 
 
 def _maps(result: SweepResult, keys: Mapping[str, str]) -> Iterator[HeatMap]:

@@ -20,7 +20,7 @@ from uictest.report.sweep.result import (
     SweepMap,
     SweepResult,
 )
-from uictest.report.sweep.tail_markdown import k_dry_findings, quantile_findings
+from uictest.report.sweep.tail_tables import TailTable, tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
     bar,
     circumstances_words,
@@ -69,12 +69,18 @@ def _findings(result: SweepResult) -> Iterator[Finding]:
         yield _frontier(result.frontier)
     if result.sensitivities:
         yield "Share of the variance that each parameter explains", _sensitivities(result.sensitivities)
-    yield from quantile_findings(result)
-    yield from k_dry_findings(result)
+    yield from map(_tail, tail_tables(result))
     if result.distributions:
         yield "Measures", _measures(result.distributions)
-    if result.notes:
-        yield "Notes", MarkdownTable(("note",), "l", [row([prose(note)]) for note in result.notes])
+    if notes := (*tables_left_out(result), *result.notes):
+        yield "Notes", MarkdownTable(("note",), "l", [row([prose(note)]) for note in notes])
+
+
+def _tail(table: TailTable) -> Finding:
+    heading = f"{prose(f'{table.title[0].upper()}{table.title[1:]}')}\n\n{prose(table.basis)}"
+    rows = [row(map(prose, texts)) for texts in table.rows]
+    alignment = "l" + "r" * (len(table.columns) - 1)
+    return heading, MarkdownTable(table.columns, alignment, rows, f"more levels are in `{table.file}`.")
 
 
 def _swept(rates: Mapping[str, Sequence[OutcomeCount]]) -> MarkdownTable:

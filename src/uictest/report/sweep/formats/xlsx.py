@@ -13,8 +13,20 @@ from uictest.report.sweep.format_registry import one_file
 from uictest.report.sweep.map_sheet import write_maps
 from uictest.report.sweep.notable import notable_cases
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.tables import frontier_rows, rate_rows, sensitivity_rows, trend_rows
-from uictest.report.sweep.tail_tables import k_dry_rows, quantile_rows
+from uictest.report.sweep.summary_charts import (
+    DISTRIBUTIONS_SHEET,
+    SUMMARY_SHEET,
+    TRENDS_SHEET,
+    insert_charts,
+)
+from uictest.report.sweep.tables import (
+    distribution_rows,
+    frontier_rows,
+    rate_rows,
+    sensitivity_rows,
+    trend_rows,
+)
+from uictest.report.sweep.tail_rows import k_dry_rows, quantile_rows
 from uictest.report.sweep.wording import swept_words
 
 
@@ -28,13 +40,15 @@ def sweep_workbook_bytes(content: SweepContent, most_cases: int = MOST_CASES) ->
     buffer = io.BytesIO()
     with open_workbook(buffer, streaming=True) as workbook:
         styles = styles_of(workbook)
-        write_sheet(workbook.add_worksheet("Summary"), list(_summary(content.result, most_cases)), styles)
+        summary = workbook.add_worksheet(SUMMARY_SHEET)
+        write_sheet(summary, list(_summary(content.result, most_cases)), styles)
         write_cases(workbook.add_worksheet("Cases"), content.folder, styles, most_cases)
         if maps:
             write_maps(workbook.add_worksheet("Maps"), maps, styles)
         for name, rows in _tables(content).items():
             if rows:
                 write_sheet(workbook.add_worksheet(name), rows, styles)
+        insert_charts(workbook, summary, content.result)
     return buffer.getvalue()
 
 
@@ -42,7 +56,8 @@ def _tables(content: SweepContent) -> dict[str, list[Row]]:
     result = content.result
     return {
         "Rates": list(rate_rows(result)),
-        "Trends": [row for trend in result.trends for row in trend_rows(trend)],
+        DISTRIBUTIONS_SHEET: [row for each in result.distributions for row in distribution_rows(each)],
+        TRENDS_SHEET: [row for trend in result.trends for row in trend_rows(trend)],
         "Frontier": list(frontier_rows(result.frontier, "at ")) if result.frontier else [],
         "Sensitivity": list(sensitivity_rows(result, "at ")),
         "Quantiles": list(quantile_rows(result, "at ")),

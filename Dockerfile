@@ -1,0 +1,24 @@
+# syntax=docker/dockerfile:1
+# uictest in an image: docker build -t uictest . && docker run --rm -v "$PWD:/work" uictest run scenarios
+ARG PYTHON=3.12
+
+FROM python:${PYTHON}-slim AS build
+WORKDIR /source
+COPY . .
+RUN python -m pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
+
+FROM python:${PYTHON}-slim
+RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
+    python -m pip install --no-cache-dir /wheels/*.whl \
+    && useradd --create-home --uid 1000 uictest \
+    && install --directory --owner uictest --group uictest /work
+USER 1000
+WORKDIR /work
+# Compiles the rig for the processor that builds the image. Another one compiles it again, and finds it only
+# where UICTEST_CACHE names a volume.
+ENV UICTEST_CACHE=/home/uictest/.cache/uictest
+RUN uictest init /tmp/warm \
+    && uictest run /tmp/warm --set controller=threshold,slip-band --output /tmp/reports --quiet \
+    && rm -r /tmp/warm /tmp/reports
+ENTRYPOINT ["uictest"]
+CMD ["--help"]

@@ -1,0 +1,8 @@
+"""The public Python functions: what `import uictest` offers, except the rig that is stepped.
+
+Names are imported when they are first used.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

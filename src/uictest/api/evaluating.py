@@ -1,0 +1,156 @@
+"""Judge recorded stops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from uictest import campaign, runs, scenario as scenarios
+from uictest.api.arguments import (
+    PathName,
+    Record,
+    Trusted,
+    as_paths,
+    command_words,
+    expression_of,
+    recording_request,
+)
+from uictest.api.assignments import Assignments, override_texts
+from uictest.api.results import Results
+
+_ARGUMENTS = {
+    "rail.condition": "rail",
+    "brake.position": "position",
+    "rig.wsp": "wsp",
+    "criteria": "criteria",
+}
+"""Key that must be stated for a recording -> the argument that states it."""
+_FORMATS = ("html",)
+DEFAULT_MAP = "uictest"
+
+
+def evaluate(
+    files: PathName | Iterable[PathName],
+    *,
+    scenario: PathName | scenarios.Case | None = None,
+    select: str | None = None,
+    criteria: str | Sequence[str] | None = None,
+    rail: str | None = None,
+    position: str | None = None,
+    wsp: str | None = None,
+    channel_map: PathName = DEFAULT_MAP,
+    trigger: str | None = None,
+    trigger_lead: str | None = None,
+    raster: str | None = None,
+    low_pass: str | None = None,
+    set: Assignments | None = None,  # noqa: A002 - the name of the option
+    trust: Trusted = (),
+    record: Record = "failed",
+    output: PathName | None = None,
+) -> Results:
+    """Judge recordings of real or simulated stops: the same digits as `uictest evaluate`.
+
+    A recording does not contain what was tested: state it with `scenario`, or with `criteria`, `rail`,
+    `position` and `wsp`.
+
+    Args:
+        files: recordings; or `*.series.yaml` files whose stops name recordings.
+        scenario: file with the test conditions and the criteria, or a case from :func:`uictest.load`.
+        select: expression that selects one case of the scenario file, as `-k`.
+        criteria: names of criteria to judge by, one or several.
+        rail: rail condition, such as `wet`.
+        position: brake position, such as `R`.
+        wsp: `active` or `bypassed`.
+        channel_map: a preset or a YAML file.
+        trigger: the brake command, as `--trigger`: `auto`, `start`, ... or a time such as `12.3 s`.
+        trigger_lead: time from the brake command to the trigger.
+        raster: interval to which the samples are resampled.
+        low_pass: low-pass filter for every signal, such as `10 Hz`.
+        set: dotted key -> value, as for :func:`uictest.load`.
+        trust: folders that files may refer to, besides their own and the working folder.
+        record: samples that `output` gets: of stops `failed` (not as expected), of `all` or `none`.
+        output: folder for reports; the run gets a folder in it, as with `-o`.
+
+    Returns:
+        One result per recording, named after its file; :meth:`Results.recording` has the samples that it was
+        judged by.
+
+    Raises:
+        uictest.ScenarioErrors: the scenario, the channel map or the series is invalid.
+        ValueError: a recording cannot be read, a statement is missing, or an argument is invalid.
+        OSError: reports cannot be written.
+
+    """
+    paths, folders, request = as_paths(files), as_paths(trust), recording_request(record)
+    if not paths:
+        raise ValueError("nothing to evaluate: name recordings")
+    stated = runs.statements_of([criteria] if isinstance(criteria, str) else criteria, rail, position, wsp)
+    statements, overrides = list(stated), override_texts(set)
+    preparation = {"trigger": trigger, "trigger_lead": trigger_lead, "raster": raster, "low_pass": low_pass}
+    options = {
+        "--scenario": scenario.path if isinstance(scenario, scenarios.Case) else scenario,
+        "-k": select,
+        "--set": [*statements, *overrides],
+        "--trust": folders,
+        "--map": None if channel_map == DEFAULT_MAP else channel_map,
+        **{f"--{name.replace('_', '-')}": text for name, text in preparation.items()},
+        "--record": None if record == "failed" else record,
+        "-o": output,
+    }
+    words = command_words(["evaluate", *paths], options)
+    if any(map(runs.is_series, paths)):
+        _reject_statements(paths, [scenario, select, *statements, *preparation.values()])
+        planned, stops = runs.read_recorded_series(paths, overrides, folders)
+        cases = [case for each in planned for case in each.cases]
+        batch = runs.RecordedBatch(stops, cases, words, planned)
+    else:
+        case_of = _case_of(scenario, select, [*statements, *overrides], folders)
+        mapped, inputs = runs.named_map(str(channel_map), folders)
+        stops = runs.read_files(paths, runs.prepared_map(mapped, preparation))
+        batch = runs.RecordedBatch(stops, [stop.case(case_of, inputs) for stop in stops], words)
+    return _judged(batch, request, output)
+
+
+def _judged(
+    batch: runs.RecordedBatch, request: campaign.RecordingRequest, output: PathName | None
+) -> Results:
+    judged = runs.judge_recordings(batch)
+    if output is None:
+        return Results(judged.content, recordings=judged.recordings)
+    published = runs.publish_run(judged.content, judged.wanted(request), Path(output), _FORMATS)
+    return Results(published.content, recordings=judged.recordings, folder=published.place)
+
+
+def _case_of(
+    scenario: PathName | scenarios.Case | None,
+    select: str | None,
+    statements: Sequence[str],
+    trusted: Sequence[Path],
+) -> runs.CaseOfStop:
+    """Return the function that makes the case of a recording. Raises ValueError."""
+    if isinstance(scenario, scenarios.Case):
+        if statements or select is not None:
+            raise ValueError("a case is judged as it is: state its conditions in uictest.load")
+        return runs.case_of_stop(scenario, (), trusted)
+    case = None
+    if scenario is not None:
+        with expression_of("select", select):
+            case = runs.only_case(Path(scenario), select, statements, trusted, "choose with select=")
+    try:
+        return runs.case_of_stop(case, statements, trusted)
+    except runs.MissingStatementsError as error:
+        names = ", ".join(f"{_ARGUMENTS[key]}=" for key in error.keys)
+        raise ValueError(
+            f"a recording does not say what was tested: state it with scenario=, or with {names}"
+        ) from None
+
+
+def _reject_statements(paths: Sequence[Path], statements: Sequence[object]) -> None:
+    """Raise ValueError where series and recordings are mixed, or a series is told what its file says."""
+    if not all(map(runs.is_series, paths)):
+        raise ValueError("name series files or recordings, not both")
+    if any(statements):
+        raise ValueError(
+            "a series says itself which scenario and channel map each of its recordings has:"
+            " state it in the file, or with set"
+        )

@@ -1,0 +1,172 @@
+"""The results of a run in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, overload
+
+from uictest import evaluation, report, runs, scenario
+from uictest.api.arguments import PathName
+from uictest.api.frames import frame_of
+from uictest.api.result_html import verdict_html
+from uictest.recording import Recording, read_parquet
+from uictest.scenario.yaml import suggestion
+from uictest.series import SeriesResult
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_SHOWN = 10
+"""Cases that the text form lists."""
+_INDEX = {
+    "summary": ("id",),
+    "wheelsets": ("id", "wheelset"),
+    "criteria": ("id", "criterion"),
+    "repeats": ("id", "seed"),
+    "requirements": ("requirement", "id"),
+    "series": ("series", "speed_kmh", "measure"),
+    "series-criteria": ("series", "criterion"),
+    "series-stops": ("series", "case", "seed"),
+}
+"""Table -> the columns that tell its rows apart."""
+
+
+class Results(Sequence[evaluation.CaseResult]):
+    """The judged cases of a run, in order: iterate, count, or take one by its place or its id.
+
+    The stops of series are not among them, but in :attr:`series`.
+
+    Attributes:
+        folder: of the reports, absolute; None where none were written.
+    """
+
+    def __init__(
+        self,
+        content: report.RunContent,
+        *,
+        recordings: Mapping[str, Recording] | None = None,
+        cases: Sequence[scenario.Case] = (),
+        every: float = 0.01,
+        folder: Path | None = None,
+    ) -> None:
+        """Made by :func:`uictest.run`, :func:`uictest.evaluate` and :func:`uictest.read_results`."""
+        self._content = content
+        self._recordings = recordings or {}
+        self._cases = cases
+        self._every = every
+        self.folder = None if folder is None else folder.absolute()
+
+    def __len__(self) -> int:
+        """Return the number of cases."""
+        return len(self._content.results)
+
+    def __iter__(self) -> Iterator[evaluation.CaseResult]:
+        """Iterate over the cases."""
+        return iter(self._content.results)
+
+    @overload
+    def __getitem__(self, key: int | str) -> evaluation.CaseResult: ...
+    @overload
+    def __getitem__(self, key: slice) -> Sequence[evaluation.CaseResult]: ...
+    def __getitem__(self, key: int | str | slice) -> evaluation.CaseResult | Sequence[evaluation.CaseResult]:
+        """Return a case by its place or its id, or several by a slice. Raises IndexError, KeyError."""
+        if not isinstance(key, str):
+            return self._content.results[key]
+        results = {result.id: result for result in self._content.all_results}
+        if key not in results:
+            raise KeyError(f"no case {key!r}; {suggestion(key, results)}")
+        return results[key]
+
+    @property
+    def met(self) -> bool:
+        """Whether every case and every series came out as expected."""
+        return all(each.met for each in self) and all(each.met for each in self.series)
+
+    @property
+    def series(self) -> tuple[SeriesResult, ...]:
+        """The judged series, with their own cases."""
+        return tuple(self._content.series)
+
+    @property
+    def tally(self) -> str:
+        """The counts of the run in words, as `uictest run` ends with."""
+        return self._content.tally
+
+    def frame(self) -> pd.DataFrame:
+        """Return one row per case, index `id`: the columns of summary.csv, numbers as numbers.
+
+        Parameters are texts as written. Units are in `attrs["units"]`, by column.
+        """
+        return self.table("summary")
+
+    def wheelsets(self) -> pd.DataFrame:
+        """Return one row per case and wheelset (1 leads): the columns of wheelsets.csv."""
+        return self.table("wheelsets")
+
+    def criteria(self) -> pd.DataFrame:
+        """Return one row per case and criterion: the columns of criteria.csv, units in `unit`."""
+        return self.table("criteria")
+
+    def repeats(self) -> pd.DataFrame:
+        """Return one row per stop of repeated cases: the columns of repeats.csv. KeyError if none repeats."""
+        return self.table("repeats")
+
+    def table(self, name: str) -> pd.DataFrame:
+        """Return any table of the reports, by the name of its CSV file without `.csv`.
+
+        `summary`, `wheelsets`, `criteria`; where there are such, `repeats`, `requirements`, `series`,
+        `series-criteria`, `series-stops`. Raises KeyError for others.
+        """
+        tables = report.run_tables(self._content)
+        if name not in tables:
+            raise KeyError(f"no table {name!r} in this run; {suggestion(name, tables)}")
+        return frame_of(tables[name], _INDEX[name])
+
+    def recording(self, case: str) -> Recording:
+        """Return the recording of a case. Raises KeyError where it was not recorded."""
+        known = self[case].id
+        if known in self._recordings:
+            return self._recordings[known]
+        if self.folder is not None:
+            path = self.folder / report.RECORDINGS / f"{known}.parquet"
+            if path.is_file():
+                return read_parquet(path)
+        raise KeyError(f"{known} was not recorded: run it with record='all', or call uictest.simulate")
+
+    def save(self, output: PathName = "reports", *, formats: Sequence[str] = ("csv", "html")) -> Path:
+        """Write the reports that `uictest run -o` writes, and the recordings; return the folder of the run.
+
+        Args:
+            output: folder of all runs; the run gets a folder in it, and `latest` names it.
+            formats: as for `--report`, besides those that every run has.
+
+        Raises:
+            ValueError: there is no such format.
+            OSError: the reports cannot be written.
+
+        """
+        for name in formats:
+            if name not in report.format_names():
+                raise ValueError(f"no format {name!r}; {suggestion(name, report.format_names())}")
+        recordings = {result.id: self._recorded(result.id) for result in self._content.all_results}
+        kept = {name: samples for name, samples in recordings.items() if samples is not None}
+        content = self._content
+        if report.draws_stops(formats) and not content.traces:
+            content = runs.with_traces(content, self._cases, kept, self._every)
+        return runs.publish_run(content, kept, Path(output), formats).place
+
+    def _recorded(self, case: str) -> Recording | None:
+        try:
+            return self.recording(case)
+        except KeyError:
+            return None
+
+    def __repr__(self) -> str:
+        """Return the counts, and the line of each of the first cases."""
+        lines = [report.case_line(result) for result in self[:_SHOWN]]
+        more = [f"and {len(self) - _SHOWN} more"] if len(self) > _SHOWN else []
+        return "\n".join([self.tally, *map(report.series_line, self.series), *lines, *more])
+
+    def _repr_html_(self) -> str:
+        return verdict_html(self._content)

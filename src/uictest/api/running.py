@@ -1,0 +1,140 @@
+"""Run and judge scenarios, cases and series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from uictest import recording, report, runs, scenario, series
+from uictest.api.arguments import (
+    PathName,
+    Record,
+    Trusted,
+    as_paths,
+    checked_seed,
+    command_words,
+    recording_request,
+    thread_count,
+)
+from uictest.api.assignments import Assignments, override_texts
+from uictest.api.loading import selected
+from uictest.api.results import Results
+
+What = PathName | scenario.Case | Iterable[PathName | scenario.Case]
+FORMATS = ("csv", "html")
+DEFAULT_RATE = 100.0
+"""Samples per second."""
+
+
+def run(
+    what: What | None = None,
+    *,
+    set: Assignments | None = None,  # noqa: A002 - the name of the option
+    seed: int | None = None,
+    repeat: int | None = None,
+    select: str | None = None,
+    tag: str | None = None,
+    trust: Trusted = (),
+    jobs: int | Literal["auto"] = "auto",
+    record: Record = "failed",
+    rate: float = DEFAULT_RATE,
+    output: PathName | None = None,
+) -> Results:
+    """Simulate and judge cases: the same digits as `uictest run`.
+
+    Nothing is printed, and nothing is written unless `output` names a folder. Ctrl-C raises
+    KeyboardInterrupt.
+
+    Args:
+        what: scenario files, `*.series.yaml` files or folders, one or several [default: the folder
+            `scenarios`]; or cases from :func:`uictest.load`.
+        set: dotted key -> value or list of values in every scenario, as for :func:`uictest.load`.
+        seed: of the sensor noise in every case, 0 to 2^32 - 1.
+        repeat: run the stop of every case so many times, 1 to 1000, under its seed and those that follow.
+        select: expression over ids, file names and tags, as `-k`.
+        tag: expression over tags, as `-m`.
+        trust: folders that scenarios may refer to, besides their own and the working folder.
+        jobs: number of threads, `auto`: one for each processor.
+        record: cases to record: `failed` (not as expected), `all` or `none`.
+        rate: samples per second of a recording.
+        output: folder for reports; the run gets a folder in it, as with `-o`.
+
+    Raises:
+        uictest.ScenarioErrors: files are invalid, or a key of `set`; the message has every error in it.
+        ValueError: nothing is selected, or an argument is invalid.
+        OSError: reports cannot be written.
+
+    """
+    request, threads = recording_request(record, rate), thread_count(jobs)
+    texts, folders, seed = override_texts(set, repeat), as_paths(trust), checked_seed(seed)
+    found = _found(what, texts, seed, folders)
+    chosen, of_series = selected(found.cases, found.series, select, tag)
+    options = {
+        "--set": texts,
+        "--seed": seed,
+        "-k": select,
+        "-m": tag,
+        "--trust": folders,
+        "--record": None if record == "failed" else record,
+        "--record-rate": None if rate == DEFAULT_RATE else rate,
+        "-o": output,
+    }
+    arguments = command_words(found.words, options)
+    batch = runs.batch_of(chosen, of_series, arguments, seed)
+    batch = replace(batch, recording=request, jobs=min(threads, batch.stops))
+    return _in_memory(batch) if output is None else _published(batch, Path(output))
+
+
+class _Found(NamedTuple):
+    """Cases and series, and the words of a command line that runs them."""
+
+    cases: Sequence[scenario.Case]
+    series: Sequence[series.Series]
+    words: Sequence[str]
+
+
+def _found(what: What | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]) -> _Found:
+    """Return what there is to run. Raises ValueError, ScenarioErrors."""
+    sources = [what] if isinstance(what, str | PathLike | scenario.Case) else list(what or ())
+    if what is not None and not sources:
+        raise ValueError("nothing to run: name files or give cases")
+    names = [each for each in sources if not isinstance(each, scenario.Case)]
+    cases = [each for each in sources if isinstance(each, scenario.Case)]
+    if not cases:
+        paths = runs.scenario_paths(as_paths(names))
+        planned = runs.load_series(list(runs.series_files(paths)), texts, seed, trusted)
+        return _Found(runs.load_cases(paths, texts, seed, trusted), planned, ["run", *map(str, names)])
+    if names:
+        raise ValueError("name files or give cases, not both")
+    if texts or seed is not None or trusted:
+        raise ValueError("set, seed, repeat and trust apply to files: pass them to uictest.load")
+    _require_distinct(cases)
+    files = dict.fromkeys(str(case.path) for case in cases)
+    return _Found(cases, (), [report.CASES_IN_PYTHON, *files])
+
+
+def _require_distinct(cases: Sequence[scenario.Case]) -> None:
+    """Raise ValueError where two cases have the same id."""
+    seen: dict[str, Path] = {}
+    for case in cases:
+        if case.id in seen:
+            raise ValueError(f"two cases are called {case.id!r}, of {seen[case.id]} and {case.path}")
+        seen[case.id] = case.path
+
+
+def _in_memory(batch: runs.Batch) -> Results:
+    recordings: dict[str, recording.Recording] = {}
+    done = runs.run_batch(batch, runs.Observer(), keep=recordings.__setitem__)
+    if done.interrupted:
+        raise KeyboardInterrupt
+    return Results(done.content, recordings=recordings, cases=batch.all_cases, every=batch.recording.every)
+
+
+def _published(batch: runs.Batch, output: Path) -> Results:
+    published = runs.publish_batch(batch, output, FORMATS, runs.Observer())
+    if published is None or published.interrupted:
+        raise KeyboardInterrupt
+    return Results(published.content, folder=published.place)

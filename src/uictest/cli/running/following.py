@@ -1,0 +1,47 @@
+"""A run as a terminal shows it while it goes on: messages, progress, results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from uictest import campaign, report, rig, runs, scenario, series
+from uictest.cli.output import message
+from uictest.cli.progress import announce_compilation, announce_in_process, progress
+from uictest.cli.running.display import Display
+
+
+class TerminalObserver(runs.Observer):
+    """Shows results on stdout with a display; progress, warnings and tracebacks on stderr."""
+
+    def __init__(self, display: Display, *, quiet: bool, verbose: bool, in_process: bool) -> None:
+        self._display = display
+        self._quiet = quiet
+        self._verbose = verbose
+        self._in_process = in_process
+
+    @contextmanager
+    def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
+        """Announce what takes long or is dangerous, and show the progress of the stops."""
+        foreign = any(case.scenario.controller.program for case in cases)
+        announce_in_process(foreign=self._in_process and foreign, quiet=self._quiet)
+        announce_compilation(warm=rig.is_compiled(cases), quiet=self._quiet)
+        stops = sum(case.scenario.repeat for case in cases)
+        unit = "stops" if stops > len(cases) else "cases"
+        with progress(stops, quiet=self._quiet, unit=unit) as advance:
+            yield advance
+
+    def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
+        """Show a case; with -v, the traceback of its crash, too."""
+        self._display.case(run.result, differences)
+        if self._verbose and run.traceback:
+            message(run.traceback.rstrip())
+
+    def case_of_series(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
+        """Show a case of a series, which only -v does."""
+        if self._verbose:
+            self.case(run, differences)
+
+    def series(self, result: series.SeriesResult) -> None:
+        """Show a series."""
+        self._display.series(result)

@@ -1,0 +1,58 @@
+"""Two runs: series by series outcome, verdicts, stops that count and measures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from uictest.comparison.tolerance import Tolerances, compare_numbers
+from uictest.report import Difference
+from uictest.series import SeriesResult
+from uictest.series_measures import SERIES_MEASURES, SeriesValue
+
+
+def series_differences(
+    first: Sequence[SeriesResult], second: Sequence[SeriesResult], tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    """Yield one item per quantity of the series compared: None where both sides are the same.
+
+    Series are paired by id; one on one side only is a difference.
+    """
+    ours, theirs = ({result.id: result for result in side} for side in (first, second))
+    for name in dict.fromkeys([*ours, *theirs]):
+        if name in ours and name in theirs:
+            yield from _differences(ours[name], theirs[name], tolerances)
+        else:
+            before, after = (side[name].outcome if name in side else "missing" for side in (ours, theirs))
+            remark = "the series is on one side only"
+            yield Difference(name, "series", before, after, within=False, remark=remark)
+
+
+def _differences(
+    first: SeriesResult, second: SeriesResult, tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    texts, others = _texts(first), _texts(second)
+    for quantity in dict.fromkeys([*texts, *others]):
+        sides = texts.get(quantity, "none"), others.get(quantity, "none")
+        yield None if sides[0] == sides[1] else Difference(first.id, quantity, *sides, within=False)
+    for name in dict.fromkeys([*first.measures, *second.measures]):
+        before, after = _value(first.measures, name), _value(second.measures, name)
+        yield compare_numbers(first.id, name, before, after, tolerances, SERIES_MEASURES[name].unit)
+
+
+def _texts(result: SeriesResult) -> dict[str, str]:
+    """Return what of a series is no number: outcome, verdicts, and how many stops count."""
+    verdicts = {
+        f"criterion {each.verdict.id}": each.verdict.status.replace("_", " ") for each in result.criteria
+    }
+    counts = {
+        f"{role} stops from {speed.speed_kmh:g} km/h": f"{each.counted} of {each.run}"
+        for speed in result.speeds
+        for role, each in (("dry", speed.dry), ("wet", speed.wet))
+    }
+    return {"outcome": result.outcome, **verdicts, **counts}
+
+
+def _value(measures: Mapping[str, SeriesValue], name: str) -> float:
+    value = measures.get(name, SeriesValue())
+    return math.nan if value.estimate is None else value.estimate.value

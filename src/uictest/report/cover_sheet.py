@@ -1,0 +1,124 @@
+"""The first sheet of a run's workbook: what came out, what is not as expected, what the sheets hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+from uictest.report.charts import Cells, Plotted, bar_chart, height_of_bars
+from uictest.report.content import RunContent
+from uictest.report.domain_wording import domain_notices
+from uictest.report.series.wording import series_word
+from uictest.report.sheet import Row, Styles, columns_of, heading_rows, print_on_a4, write_cell
+from uictest.report.wording import CASE_WORDS, counted, tone
+
+if TYPE_CHECKING:
+    from xlsxwriter import Workbook
+    from xlsxwriter.format import Format
+    from xlsxwriter.worksheet import Worksheet
+
+COVER: Final = "Cover"
+MOST_MISSED: Final = 20
+"""Cases not as expected that the cover names; the sheet of cases has all."""
+
+CONTENTS: Final = {
+    "Series": "each series and its outcome",
+    "Series criteria": "verdict of each criterion over the stops of a series",
+    "Series measures": "each measure of a series with its confidence interval",
+    "Series stops": "each stop of a series",
+    "Cases": "outcome, parameters and measures of each case",
+    "Wheelsets": "measures of each wheelset",
+    "Criteria": "verdict of each criterion with value, limits and margin",
+    "Repeats": "each stop of the cases that repeat theirs",
+    "Requirements": "requirements down, cases across",
+    "Baseline": "quantities that differ from the baseline",
+    "Parts": "parts that each case was run with",
+    "Parameters": "every parameter of these parts with its source",
+    "Provenance": "versions, command and the SHA-256 of every input",
+}
+"""Sheet -> what it holds."""
+
+Line = tuple[str | int, ...]
+_WIDTHS: Final = (30, 16, 36)  # characters
+_CHART_COLUMN = 4
+_GAP = 20  # pixels
+
+
+def write_cover(sheet: Worksheet, content: RunContent, sheets: Sequence[str], styles: Styles) -> None:
+    """Write the cover of a workbook that has these other sheets."""
+    write_cell(sheet, 0, 0, content.name, styles["title"])
+    row = 2
+    for heading, lines in _blocks(content, sheets).items():
+        for line in [(heading,), *lines, ()] if lines else ():
+            for place, cell in enumerate(line):
+                write_cell(sheet, row, place, cell, _style(cell, line == (heading,), styles))
+            row += 1
+    for place, width in enumerate(_WIDTHS):
+        sheet.set_column(place, place, width)
+    print_on_a4(sheet)
+    sheet.fit_to_pages(1, 0)
+
+
+def insert_charts(workbook: Workbook, cover: Worksheet, cases: Sequence[Row]) -> None:
+    """Draw distance and narrowest margin of every case beside the cover's text; nothing without cases.
+
+    `cases` are the rows of the sheet of cases, which the charts refer to.
+    """
+    places = {name: place for place, name in enumerate(columns_of(cases))}
+    top = heading_rows(places)
+    for number, (column, title, axis) in enumerate(_CHARTS):
+        if any(row.get(column) is not None for row in cases):
+            names, values = (
+                Cells("Cases", places[name], top, top + len(cases) - 1) for name in ("case", column)
+            )
+            chart = bar_chart(workbook, title, names, Plotted(title, values), axis)
+            below = number * height_of_bars(len(cases))
+            cover.insert_chart(1, _CHART_COLUMN, chart, {"y_offset": below + _GAP * number})
+
+
+_CHARTS: Final[tuple[tuple[str, str, dict[str, Any]], ...]] = (
+    ("braking_distance_m", "Braking distance, m", {"num_format": "0", "min": 0}),
+    (
+        "narrowest_margin",
+        "Narrowest margin of a case, share of its limit (axis: -100 .. 100 %)",
+        {"num_format": "0 %", "min": -1, "max": 1},
+    ),
+)
+
+
+def _blocks(content: RunContent, sheets: Sequence[str]) -> dict[str, list[Line]]:
+    return {
+        "Outcome": [(line,) for line in (content.tally, *domain_notices(content.all_results))],
+        "Cases": list(_counts(content)),
+        "Not as expected": list(_missed(content)),
+        "Sheets": [(name, CONTENTS.get(name, "")) for name in sheets],
+        "Made by": list(_provenance(content)),
+    }
+
+
+def _counts(content: RunContent) -> Iterator[Line]:
+    words = [content.word(result) for result in content.results]
+    return ((word, words.count(word)) for word in CASE_WORDS if word in words)
+
+
+def _missed(content: RunContent) -> Iterator[Line]:
+    yield from ((each.id, series_word(each), each.reason) for each in content.series if not each.met)
+    missed = [result for result in content.results if not content.passes(result)]
+    for result in missed[:MOST_MISSED]:
+        yield result.id, content.word(result), "; ".join(content.explanation(result))
+    if len(missed) > MOST_MISSED:
+        yield (f"and {counted(len(missed) - MOST_MISSED, 'case')} more on the sheet Cases",)
+
+
+def _provenance(content: RunContent) -> Iterator[Line]:
+    manifest = content.manifest
+    yield "uictest", manifest.versions.get("uictest", "")
+    yield "command", " ".join(manifest.command)
+    yield "seed", "of each scenario" if manifest.seed is None else str(manifest.seed)
+    yield "complete", "yes" if content.complete else "no: some selected cases did not run"
+
+
+def _style(cell: str | int, heading: bool, styles: Styles) -> Format | None:
+    if heading:
+        return styles["header"]
+    return styles["good" if tone(cell) == "good" else "bad"] if cell in CASE_WORDS else None

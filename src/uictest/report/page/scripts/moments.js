@@ -1,0 +1,42 @@
+/* The buttons that show where the value of a criterion was taken: cursor, light band, ring around the value. */
+const ring = (panels) => {
+  const circle = panels.appendChild(make("div", "", { class: "ring" }));
+  circle.hidden = true;
+  let at = null;
+  const put = () => {
+    const place = at && panels.placeOf(at.plot, at.wheelset);
+    circle.hidden = !place || at.value === null;
+    if (circle.hidden) return;
+    const { [place.x]: x, [place.y]: y } = panels._fullLayout;
+    const [left, top] = [x.l2p(at.time), y.l2p(at.value)];
+    circle.hidden = left < 0 || left > x._length || top < 0 || top > y._length;
+    circle.style.cssText = `left:${x._offset + left}px;top:${y._offset + top}px`;
+  };
+  panels.on("plotly_afterplot", put);
+  return (moment) => {
+    at = moment;
+    put();
+  };
+};
+
+const offerMoments = (within, panels, show) => {
+  const band = uprights(panels, "spotlight");
+  const encircle = ring(panels);
+  const buttons = all("button.moment", within);
+  for (const button of buttons)
+    button.addEventListener("click", () => {
+      const again = button.getAttribute("aria-pressed") === "true";
+      for (const each of buttons) each.setAttribute("aria-pressed", String(each === button && !again));
+      if (again) {
+        band(null);
+        encircle(null);
+        return;
+      }
+      const { plot, start, end, wheelset, value } = button.dataset;
+      band(Number(start), Number(end));
+      encircle({ plot, time: Number(start), wheelset: Number(wheelset), value: value === "" ? null : Number(value) });
+      show(Number(start));
+      panels.scrollIntoView({ block: "nearest" });
+    });
+  for (const button of buttons) button.setAttribute("aria-pressed", "false");
+};

@@ -1,0 +1,112 @@
+"""The criteria of a stop on one scale: the margin of each over its limit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from uictest import evaluation
+from uictest.report.page.stop.taken import Taken, taken_at
+from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
+from uictest.report.traces.trace import PlotTrace
+from uictest.report.wording import limits, quantity
+
+_TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
+
+
+@dataclass(frozen=True, slots=True)
+class Margin:
+    """The margin of one criterion: `share` in per cent of the limit, negative where it is missed.
+
+    `share` is None for a criterion that only says yes or no, or whose limit is 0.
+    """
+
+    verdict: evaluation.Verdict
+    share: float | None
+    taken: Taken | None
+
+    @property
+    def bar(self) -> tuple[float, float]:
+        """Beginning and width of the bar, in per cent of the scale; the limit is in its middle."""
+        share = min(max(self.share or 0.0, -100.0), 100.0)
+        return 50.0 + min(share, 0.0) / 2, abs(share) / 2
+
+    @property
+    def beyond(self) -> bool:
+        """Whether the margin lies beyond the scale."""
+        return self.share is not None and abs(self.share) > 100.0
+
+    @property
+    def share_text(self) -> str:
+        """The share with its sign and unit."""
+        if self.share is None:
+            return "met" if self.verdict.status == "pass" else "missed"
+        return f"{self.share:+.3g} %" if abs(self.share) < 1e3 else f"{self.share:+.0f} %"
+
+    @property
+    def value_text(self) -> str:
+        """The value next to its limits."""
+        return f"{quantity(self.verdict.value, self.verdict.unit)}, {limits(self.verdict, word='')}"
+
+    @property
+    def taken_text(self) -> str:
+        """When and where the value was taken; empty where the plots show no such place."""
+        taken = self.taken
+        if taken is None:
+            return ""
+        times = f"{taken.start:.4g}" if taken.start == taken.end else f"{taken.start:.4g} to {taken.end:.4g}"
+        return f"{times} s" + (f", wheelset {taken.wheelset}" if taken.wheelset else "")
+
+    @property
+    def plot_title(self) -> str:
+        """The title of the plot in which the value was taken."""
+        return _TITLES[self.taken.plot] if self.taken else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Margins:
+    """The criteria that were judged, the narrowest margin first, and those that were not."""
+
+    judged: Sequence[Margin]
+    inconclusive: Sequence[evaluation.Verdict]
+    not_applicable: Sequence[evaluation.Verdict]
+
+
+def margins_of(
+    verdicts: Iterable[evaluation.Verdict], drawn: Iterable[evaluation.Verdict], trace: PlotTrace
+) -> Margins:
+    """Return the margins of a case, failing criteria first.
+
+    Args:
+        verdicts: of the case.
+        drawn: of the stop that is drawn: of a repeated case this is one of several.
+        trace: of the stop that is drawn.
+
+    """
+    verdicts, of_stop = list(verdicts), {verdict.id: verdict for verdict in drawn}
+    judged = [
+        Margin(verdict, margin_share(verdict), taken_at(of_stop.get(verdict.id, verdict), trace))
+        for verdict in verdicts
+        if verdict.status in ("pass", "fail")
+    ]
+    return Margins(
+        sorted(judged, key=_urgency),
+        [verdict for verdict in verdicts if verdict.status == "inconclusive"],
+        [verdict for verdict in verdicts if verdict.status == "not_applicable"],
+    )
+
+
+def margin_share(verdict: evaluation.Verdict) -> float | None:
+    """Return the margin in per cent of the limit, of two the larger one; None where there is no such share.
+
+    A criterion that is met exactly, as that of standstill is, only says yes or no.
+    """
+    bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
+    if verdict.margin is None or not bound or (verdict.margin == 0.0 and verdict.status == "pass"):
+        return None
+    return 100.0 * verdict.margin / bound
+
+
+def _urgency(margin: Margin) -> tuple[bool, bool, float]:
+    share = margin.share
+    return margin.verdict.status == "pass", share is None, 0.0 if share is None else share

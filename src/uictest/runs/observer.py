@@ -1,0 +1,29 @@
+"""What a run reports while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
+
+from uictest import campaign, report, scenario, series
+
+
+class Observer:
+    """Follows a run. This one shows nothing; a display overrides what it shows."""
+
+    def simulating(self, cases: Sequence[scenario.Case]) -> AbstractContextManager[Callable[[], None]]:
+        """Return a context in which these cases are simulated; it lends what is called after each stop."""
+        return nullcontext(_ignore)
+
+    def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
+        """Take note of a finished case; `differences` are its quantities that differ from the baseline."""
+
+    def case_of_series(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
+        """Take note of a finished case of a series."""
+
+    def series(self, result: series.SeriesResult) -> None:
+        """Take note of a series whose last stop is finished."""
+
+
+def _ignore() -> None:
+    pass

@@ -1,0 +1,81 @@
+"""A run from its start to its published folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+
+from uictest import recording, report
+from uictest.runs.batch import Batch, run_batch
+from uictest.runs.observer import Observer
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A run whose reports are written.
+
+    Args:
+        place: its folder.
+        content: what the reports show.
+        document: the text of results.json.
+        interrupted: whether an interrupt ended the run.
+
+    """
+
+    place: Path
+    content: report.RunContent
+    document: str
+    interrupted: bool = False
+
+
+def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: Observer) -> Published | None:
+    """Run a batch and publish its reports; after an interruption, those of the finished cases.
+
+    Returns None, and writes nothing, if no case is finished. Raises OSError if the reports cannot be written,
+    and removes those that were.
+    """
+    # The folder comes first: if it cannot be written, nothing should be simulated.
+    with _folder(output, batch.manifest) as folder:
+        run = run_batch(
+            batch,
+            observer,
+            name=folder.name,
+            draws_stops=report.draws_stops(formats),
+            keep=partial(report.write_recording, folder.path),
+        )
+        if not run.content.all_results:
+            return None
+        document = _write(folder.path, run.content, formats)
+        place = folder.publish()
+    report.point_latest(place)
+    return Published(place, run.content, document, run.interrupted)
+
+
+def publish_run(
+    content: report.RunContent,
+    recordings: Mapping[str, recording.Recording],
+    output: Path,
+    formats: Sequence[str],
+) -> Published:
+    """Write the reports of a run that is finished, and some recordings by id. Raises OSError."""
+    with _folder(output, content.manifest) as folder:
+        for case_id, samples in recordings.items():
+            report.write_recording(folder.path, case_id, samples)
+        named = replace(content, name=folder.name)
+        document = _write(folder.path, named, formats)
+        place = folder.publish()
+    report.point_latest(place)
+    return Published(place, named, document)
+
+
+def _folder(output: Path, manifest: report.RunManifest) -> report.RunFolder:
+    return report.RunFolder(output, report.run_name(datetime.now(UTC), manifest))
+
+
+def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> str:
+    document = report.write_reports(folder, content)
+    report.write_formats(folder, content, [each for each in formats if each not in report.IN_EVERY_RUN])
+    return document

@@ -1,0 +1,150 @@
+"""The files of recorded stops, read through a channel map."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TypeVar
+
+from uictest import field_data, scenario
+from uictest.recording import formats
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.runs.recorded.conditions import CaseOfStop
+from uictest.scenario import yaml
+from uictest.units import KILOMETRE_PER_HOUR
+
+Result = TypeVar("Result")
+_UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
+"""m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_LONGEST_NAME = 80
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedFile:
+    """A file with a recorded stop.
+
+    Args:
+        path: of the file.
+        name: of the stop in the reports.
+        digest: SHA-256 of the file.
+        stop: the stop in it; None where it cannot be used.
+        defects: what is wrong with the record.
+
+    """
+
+    path: Path
+    name: str
+    digest: str
+    stop: field_data.RecordedStop | None
+    defects: tuple[field_data.Defect, ...]
+
+    def case(self, case_of: CaseOfStop, inputs: dict[str, str]) -> scenario.Case:
+        """Return the case that this stop is judged as; `inputs` are the other files read for it."""
+        speed = _UNKNOWN_SPEED if self.stop is None else float(self.stop.recording["speed"][0])
+        case = case_of(self.name, speed)
+        shown = yaml.display_name(self.path)
+        return replace(
+            case, id=self.name, path=Path(shown), inputs={**case.inputs, **inputs, shown: self.digest}
+        )
+
+
+def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> list[RecordedFile]:
+    """Read every file. Raises InvalidInputError with the errors of all files that cannot be read."""
+
+    def read(path: Path) -> RecordedFile:
+        try:
+            stop = field_data.stop_in(path, channel_map)
+        except field_data.UnusableError as error:
+            return RecordedFile(path, "", field_data.digest_of(path), None, error.defects)
+        return RecordedFile(path, "", field_data.digest_of(path), stop, stop.defects)
+
+    files = each_file(paths, read)
+    return [replace(file, name=name) for file, name in zip(files, stop_names(paths), strict=True)]
+
+
+def named_map(
+    reference: str, trusted: Sequence[Path] | None = None
+) -> tuple[field_data.ChannelMap, dict[str, str]]:
+    """Return a channel map, a preset or a file, and the files read for it.
+
+    Raises InvalidInputError where there is no such map, ScenarioErrors where its file is invalid.
+    """
+    try:
+        return field_data.load_map(reference, trusted or ())
+    except KeyError:
+        known = ", ".join(field_data.presets())
+        raise InvalidInputError(
+            f"no channel map {reference!r}: name a preset ({known}) or a .yaml file"
+        ) from None
+
+
+class PreparationError(ValueError):
+    """A preparation of recordings that cannot be carried out; `name` is that of its argument."""
+
+    def __init__(self, name: str, message: str) -> None:
+        self.name = name
+        self.reason = message
+        super().__init__(f"{name}: {message}")
+
+
+def prepared_map(
+    channel_map: field_data.ChannelMap, texts: Mapping[str, str | None]
+) -> field_data.ChannelMap:
+    """Return a channel map with another preparation, as far as there is one.
+
+    Args:
+        channel_map: the channel map.
+        texts: `trigger` (a name or a time), `trigger_lead`, `raster`, `low_pass`; None: as the map says.
+
+    Raises:
+        PreparationError: one of them does not fit.
+
+    """
+    from pydantic import ValidationError
+
+    stated = {name: text for name, text in texts.items() if text is not None}
+    if (trigger := stated.get("trigger")) is not None and any(map(str.isdigit, trigger)):
+        stated["trigger_time"] = stated.pop("trigger")
+    try:
+        changed = field_data.Preparation.model_validate({**dict(channel_map.preparation), **stated})
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        name = str(first["loc"][0]) if first["loc"] else ""
+        raise PreparationError(name.removesuffix("_time"), str(first["msg"])) from error
+    return channel_map.model_copy(update={"preparation": changed})
+
+
+def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
+    """Apply `use` to every file, and return its results.
+
+    Raises InvalidInputError with every file's error, ReadingInterruptedError where reading was cut off.
+    """
+    results: list[Result] = []
+    errors: list[str] = []
+    for path in paths:
+        try:
+            results.append(use(path))
+        except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
+            errors.append(f"{path}: {error}")
+        except formats.ReadingInterruptedError:
+            raise  # not an error of the file
+        except OSError as error:
+            errors.append(f"{path}: {error.strerror or error}")
+    if errors:
+        raise InvalidInputError(*errors)
+    return results
+
+
+def stop_names(paths: Sequence[Path]) -> list[str]:
+    """Return a name for each file, safe as a file name and all different."""
+    names: list[str] = []
+    for path in paths:
+        stem = _UNSAFE.sub("-", path.stem).strip("-.")[:_LONGEST_NAME].lower() or "recording"
+        name = next(
+            n for k in range(1, len(paths) + 1) if (n := stem if k == 1 else f"{stem}-{k}") not in names
+        )
+        names.append(name)
+    return names

@@ -1,0 +1,96 @@
+"""Find and load the cases and the series that paths name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from uictest import scenario, series
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.scenario import yaml
+
+DEFAULT_FOLDER = Path("scenarios")
+
+
+def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
+    """Return the given paths, else the default folder. Raises InvalidInputError where that is missing."""
+    if paths:
+        return list(paths)
+    if not DEFAULT_FOLDER.is_dir():
+        raise InvalidInputError(
+            f"there is no folder {DEFAULT_FOLDER}/ here: name scenario files or folders, "
+            "or make a first scenario with 'uictest init'"
+        )
+    return [DEFAULT_FOLDER]
+
+
+def load_cases(
+    paths: Sequence[Path] | None,
+    overrides: Sequence[str] | None = None,
+    seed: int | None = None,
+    trusted: Sequence[Path] | None = None,
+) -> list[scenario.Case]:
+    """Return all cases of the scenarios. Series among the paths are left to :func:`load_series`.
+
+    Raises ScenarioErrors with every diagnostic of every file, and InvalidInputError.
+    """
+    places = [path for path in scenario_paths(paths) if not is_series(path)]
+    return scenario.load(places, tuple(overrides or ()), seed, trusted or ()) if places else []
+
+
+def is_series(path: Path) -> bool:
+    """Return whether a path names a series file."""
+    return path.name.endswith(scenario.SERIES_SUFFIXES)
+
+
+def series_files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield the series files among the paths, and those below folders that are not hidden, each once."""
+    seen: set[Path] = set()
+    for path in paths:
+        for file in _below(path) if path.is_dir() else ([path] if is_series(path) else []):
+            if file.absolute() not in seen:
+                seen.add(file.absolute())
+                yield file
+
+
+def _below(folder: Path) -> list[Path]:
+    found = sorted(folder.rglob("*.series.y*ml"), key=Path.as_posix)
+    return [each for each in found if is_series(each) and not _hidden(each.relative_to(folder))]
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)
+
+
+def load_series(
+    paths: Sequence[Path],
+    overrides: Sequence[str] | None = None,
+    seed: int | None = None,
+    trusted: Sequence[Path] | None = None,
+) -> list[series.Series]:
+    """Return all series of the files.
+
+    Raises ScenarioErrors with every diagnostic of every file, and InvalidInputError where two have one id.
+    """
+    loaded: list[series.Series] = []
+    diagnostics: list[yaml.Diagnostic] = []
+    for path in paths:
+        try:
+            loaded += series.load_series(path, tuple(overrides or ()), seed, trusted or ())
+        except yaml.ScenarioErrors as errors:
+            diagnostics.extend(errors.diagnostics)
+    if diagnostics:
+        raise yaml.ScenarioErrors(diagnostics)
+    _require_distinct(loaded)
+    return loaded
+
+
+def _require_distinct(loaded: Sequence[series.Series]) -> None:
+    file_of: dict[str, Path] = {}
+    for each in loaded:
+        if each.id in file_of:
+            where = f"{each.path} and {file_of[each.id]}"
+            raise InvalidInputError(
+                f"a second series {each.id!r} in {where}: give every series a name of its own"
+            )
+        file_of[each.id] = each.path

@@ -1,0 +1,66 @@
+"""Select cases and series by expression and tag."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from uictest import campaign, scenario, series
+from uictest.report import counted
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.runs.scenario_files import load_cases
+
+
+def select_cases(
+    cases: Sequence[scenario.Case], expression: str | None = None, tag: str | None = None
+) -> list[scenario.Case]:
+    """Return the cases that an expression (`-k`) and tags (`-m`) select. Raises ExpressionError."""
+    selected = list(cases)
+    if expression is not None:
+        selected = campaign.by_expression(selected, expression)
+    return selected if tag is None else campaign.by_tag(selected, tag)
+
+
+def select_series(
+    loaded: Sequence[series.Series], expression: str | None = None, tag: str | None = None
+) -> list[series.Series]:
+    """Return the series that an expression (`-k`) and tags (`-m`) select. Raises ExpressionError."""
+    selected = list(loaded)
+    for text, whole in ((expression, False), (tag, True)):
+        if text is not None:
+            holds = campaign.parse(text)
+            selected = [each for each in selected if holds(_matcher(each, whole=whole))]
+    return selected
+
+
+def _matcher(each: series.Series, *, whole: bool) -> campaign.Matches:
+    if whole:
+        return frozenset(each.file.tags).__contains__
+    names = [name.casefold() for name in (each.id, each.path.stem, *each.file.tags)]
+    return lambda word: any(word.casefold() in name for name in names)
+
+
+def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
+    """Return the message for an empty selection, with the number of cases and series and their tags."""
+    of_series = {tag for each in planned for tag in each.file.tags}
+    tags = sorted({tag for case in cases for tag in case.scenario.tags} | of_series)
+    among = f"{counted(len(cases), 'case')}{f' and {len(planned)} series' if planned else ''}"
+    return f"nothing selected among {among}; their tags: {', '.join(tags) or 'none'}"
+
+
+def only_case(
+    path: Path,
+    expression: str | None,
+    overrides: Sequence[str],
+    trusted: Sequence[Path] | None,
+    how: str = "choose with -k",
+) -> scenario.Case:
+    """Return the one case of a scenario file; `how` says how to choose one.
+
+    Raises InvalidInputError where there are several or none, ScenarioErrors, ExpressionError.
+    """
+    cases = select_cases(load_cases([path], overrides, None, trusted), expression)
+    if len(cases) != 1:
+        ids = ", ".join(case.id for case in cases[:8]) or "none is selected"
+        raise InvalidInputError(f"{path} has {len(cases)} cases where one is needed ({ids}); {how}")
+    return cases[0]

@@ -1,0 +1,1 @@
+"""Sweeps: their chunks, and the results and reports of a finished one."""

@@ -1,0 +1,84 @@
+"""Publish a finished sweep: its result, its worst cases, its reports."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from uictest import campaign, evaluation, report, sweeps
+from uictest.runs.sweep.nominal_stops import with_nominal_stops
+from uictest.runs.sweep.observer import SweepObserver
+from uictest.runs.sweep.run import SweepRun, prepared_runner
+
+
+@dataclass(frozen=True, slots=True)
+class FinishedSweep:
+    """A sweep whose results are written.
+
+    Args:
+        result: of the sweep.
+        document: the text of sweep.json.
+        content: what its reports show.
+
+    """
+
+    result: report.SweepResult
+    document: str
+    content: report.SweepContent
+
+
+def publish(run: SweepRun, store: sweeps.ChunkStore, observer: SweepObserver) -> FinishedSweep:
+    """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
+    summary = sweeps.summarize(run.selection, store, run.pair, run.measures)
+    frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
+    worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
+    result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
+    result = with_nominal_stops(run, result)
+    document = report.write_sweep_result(store.folder, result, run.selection.plan.file)
+    content = report.read_sweep(store.folder, traces=report.draws_stops(run.formats))
+    report.write_sweep_formats(store.folder, content, run.formats)
+    store.remove_partial_files()
+    return FinishedSweep(result, document, content)
+
+
+def _run_worst(
+    run: SweepRun, indices: Sequence[int], folder: Path
+) -> tuple[tuple[evaluation.CaseResult, ...], Mapping[str, report.CaseDescription]]:
+    """Run the worst cases again with explanations, and write their recordings next to the tables.
+
+    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
+    """
+    cases = sweeps.full_cases(run.selection.plan, indices)
+    shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
+
+    def write_recording(case_run: campaign.CaseRun) -> None:
+        if case_run.recording is not None:
+            report.write_recording(folder, case_run.result.id, case_run.recording)
+
+    request = campaign.RecordingRequest("all")
+    request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
+    parts = campaign.parts_of_cases(cases)
+    batch = campaign.run_cases(
+        cases,
+        jobs=run.jobs,
+        recording=request,
+        parts=parts,
+        in_process=run.in_process,
+        on_result=write_recording,
+    )
+    if batch.interrupted:
+        raise KeyboardInterrupt
+    return tuple(batch.results), campaign.descriptions_of(cases)
+
+
+def _frontier(
+    run: SweepRun, summary: sweeps.SweepSummary, search: sweeps.FrontierSearch, observer: SweepObserver
+) -> report.Frontier:
+    observer.searching(search.key)
+    runner = prepared_runner(run, observer)
+    scans = search.run(
+        summary.verdicts, lambda plan, indices: sweeps.verdicts_of(plan, indices, runner, run.jobs)
+    )
+    return report.Frontier(search.key, tuple(scans))

@@ -1,0 +1,191 @@
+"""Run the chunks of a sweep."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from uictest import rig, sweeps
+from uictest.report import counted
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.runs.sweep.observer import SweepObserver
+from uictest.sweeps import (
+    CaseSelection,
+    ChangedInputsError,
+    ChunkRunner,
+    ChunkStore,
+    FrontierSearch,
+    Shard,
+)
+
+
+@dataclass(frozen=True)
+class SweepRun:
+    """The cases of a sweep, options of the run, and the folder of the results."""
+
+    selection: CaseSelection
+    manifest: dict[str, Any]
+    folder: Path
+    jobs: int
+    shard: Shard = field(default_factory=Shard)
+    merged: Sequence[Path] = ()
+    """Folders of shards to merge."""
+    cluster: str | None = None
+    restart: bool = False
+    maxfail: int | None = None
+    pair: tuple[str, str] | None = None
+    measures: Sequence[str] = ()
+    search: FrontierSearch | None = None
+    formats: Sequence[str] = ()
+    in_process: bool = False
+    run_block: sweeps.RunBlock = rig.run_block
+    """Simulates blocks with controllers from outside."""
+
+
+class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
+    """`maxfail` cases missed their expectation; the message gives their number and the first."""
+
+
+def run_missing_chunks(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> None:
+    """Run the chunks of the run's shard that are not finished, and write them to the store.
+
+    Finished chunks are kept whatever is raised: InvalidInputError where the folder holds the chunks of other
+    inputs, OSError where it cannot be written, KeyboardInterrupt, MaxfailReached.
+    """
+    _open_store(run, store, observer)
+    finished, damaged = store.finished()
+    for path in damaged:
+        observer.damaged(path)
+    own_chunks = run.shard.chunk_numbers(run.selection.chunks)
+    missing_chunks = [number for number in own_chunks if number not in finished]
+    cases, missing_cases = (_cases_in(run, numbers) for numbers in (own_chunks, missing_chunks))
+    observer.found(cases, missing_cases)
+    with observer.simulating(cases, cases - missing_cases) as advance:
+        failures = _Failures(run.maxfail)
+
+        def write_chunk(number: int, content: bytes) -> None:
+            store.write(number, content)
+            advance(run.selection.chunk(number).size)
+            failures.add(content)
+
+        if missing_chunks:
+            _run_chunks(run, missing_chunks, write_chunk, observer)
+
+
+def _cases_in(run: SweepRun, numbers: Sequence[int]) -> int:
+    return sum(run.selection.chunk(number).size for number in numbers)
+
+
+def _open_store(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> None:
+    try:
+        store.open(run.manifest, restart=run.restart)
+    except ChangedInputsError as error:
+        raise InvalidInputError(
+            f"{run.folder} holds chunks of this sweep with other inputs ({error}); "
+            "--restart discards them, -o names another folder"
+        ) from error
+    for folder in run.merged:
+        _merge_shard(store, folder, observer)
+
+
+def _merge_shard(store: ChunkStore, folder: Path, observer: SweepObserver) -> None:
+    try:
+        merged_chunks, damaged = store.merge(ChunkStore(folder))
+    except ChangedInputsError as error:
+        raise InvalidInputError(f"not a shard of this sweep: {error}") from error
+    for path in damaged:
+        observer.damaged_in_shard(path)
+    observer.merged(merged_chunks, folder)
+
+
+def _run_chunks(
+    run: SweepRun, numbers: Sequence[int], write_chunk: sweeps.WriteChunk, observer: SweepObserver
+) -> None:
+    if run.cluster is None:
+        runner = prepared_runner(run, observer)
+        sweeps.run_on_threads(runner, run.selection, numbers, run.jobs, write_chunk)
+    else:
+        _run_on_cluster(run, run.cluster, numbers, write_chunk, observer)
+
+
+def _run_on_cluster(
+    run: SweepRun,
+    address: str,
+    numbers: Sequence[int],
+    write_chunk: sweeps.WriteChunk,
+    observer: SweepObserver,
+) -> None:
+    try:
+        sweeps.run_on_cluster(run.selection, numbers, address, write_chunk, lambda: observer.waiting(address))
+    except ImportError as error:
+        raise InvalidInputError("--dask needs the extra: pip install 'uictest[dask]'") from error
+    except sweeps.ClusterError as error:
+        raise OSError(str(error)) from error
+
+
+def prepared_runner(run: SweepRun, observer: SweepObserver) -> ChunkRunner:
+    """Return a runner with a compiled rig.
+
+    Raises InvalidInputError where the sweep needs a GPU and there is none.
+    """
+    if run.selection.device == "cuda":
+        return _runner_on_gpu(run)
+    base = run.selection.plan.base.scenario
+    if not rig.block_is_compiled([base.controller.program], [rig.controller_of(base)]):
+        observer.compiling()
+    runner = sweeps.chunk_runner(run.selection.plan, run.run_block)
+    runner.prepare()
+    return runner
+
+
+def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
+    try:
+        runner = sweeps.chunk_runner(run.selection.plan, run.run_block, "cuda")
+        runner.prepare()
+    except sweeps.NoDeviceError as error:
+        raise InvalidInputError(
+            f"no CUDA device found ({error}); leave --device out to use the processor"
+        ) from error
+    except ImportError as error:
+        # The compiler for GPUs belongs to the extra as well, and is imported at its first use.
+        raise InvalidInputError("--device cuda needs the extra: pip install 'uictest[cuda]'") from error
+    return runner
+
+
+def reason_missed(reason: str) -> str:
+    """Return why a case is not met; one that passes unexpectedly has no reason of its own."""
+    return reason or "another outcome was expected"
+
+
+class _Failures:
+    """Counts the missed cases, chunk by chunk, up to `maxfail`."""
+
+    def __init__(self, maxfail: int | None) -> None:
+        self._maxfail = maxfail
+        self._count = 0
+        self._first = ""
+
+    def add(self, content: bytes) -> None:
+        """Count the missed cases of a finished chunk. Raises MaxfailReached."""
+        if self._maxfail is None:
+            return
+        missed = _missed(content)
+        if missed and not self._first:
+            outcome, name, reason = missed[0]
+            self._first = f"{name}: {outcome}, {reason_missed(reason)}"
+        self._count += len(missed)
+        if self._count >= self._maxfail:
+            raise MaxfailReached(f"{counted(self._count, 'case')} not met, the first: {self._first}")
+
+
+def _missed(content: bytes) -> list[tuple[str, str, str]]:
+    """Return outcome, id and reason of the missed cases in a chunk."""
+    import pyarrow.parquet as pq
+
+    names = ["met", "outcome", "id", "reason"]
+    columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
+    rows = zip(*(columns[name] for name in names), strict=True)
+    return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]

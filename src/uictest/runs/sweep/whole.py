@@ -1,0 +1,49 @@
+"""A sweep from its lock to its published results."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from uictest import controllers, rig
+from uictest.folder_lock import FolderInUseError, FolderLock
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.runs.sweep.observer import SweepObserver
+from uictest.runs.sweep.publishing import FinishedSweep, publish
+from uictest.runs.sweep.run import SweepRun, run_missing_chunks
+from uictest.sweeps import ChunkStore, programs_of
+
+
+def run_sweep(run: SweepRun, observer: SweepObserver) -> FinishedSweep | None:
+    """Run a sweep; chunks that are finished already are not run again.
+
+    Returns the finished sweep, None where this run is one shard of several. Finished chunks are kept whatever
+    is raised: InvalidInputError where the folder is in use or holds the chunks of other inputs, OSError,
+    KeyboardInterrupt, MaxfailReached.
+    """
+    with _locked(run.folder, shared=run.shard.count > 1 and not run.restart), rig.Workers() as workers:
+        if run.in_process and any(programs_of(run.selection.plan)):
+            observer.foreign_in_process()
+        isolated = run if run.in_process else replace(run, run_block=workers.run_block)
+        try:
+            return _run_and_publish(isolated, observer)
+        except KeyboardInterrupt:
+            controllers.interrupt_turns()
+            raise
+
+
+def _run_and_publish(run: SweepRun, observer: SweepObserver) -> FinishedSweep | None:
+    store = ChunkStore(run.folder)
+    run_missing_chunks(run, store, observer)
+    return None if run.shard.count > 1 else publish(run, store, observer)
+
+
+def _locked(folder: Path, *, shared: bool) -> FolderLock:
+    """Return the lock on the folder of a sweep; shards of the sweep share it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        return FolderLock(folder, shared=shared)
+    except FolderInUseError as error:
+        raise InvalidInputError(
+            f"{folder} is in use by {error}: wait until it ends, or name another folder with -o"
+        ) from error

@@ -1,0 +1,68 @@
+"""Ask every question."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from uictest.selftest.check import Answer, Check, NotCheckedError
+from uictest.selftest.checks import all_checks
+from uictest.selftest.environment import environment
+from uictest.selftest.finding import SEVERITY, Finding, Status
+from uictest.selftest.known_stops import KnownStops
+from uictest.selftest.reference import reference_version
+
+
+@dataclass(frozen=True, slots=True)
+class Examination:
+    """An installation and what the checks have found.
+
+    Attributes:
+        environment: versions, processor and extras, by name.
+        reference: version of uictest that computed the stored numbers.
+        findings: one for each check.
+    """
+
+    environment: Mapping[str, str]
+    reference: str
+    findings: tuple[Finding, ...]
+
+    @property
+    def status(self) -> Status:
+        """The worst of the findings."""
+        return max((finding.status for finding in self.findings), key=SEVERITY.index)
+
+
+def examine(stops: KnownStops, checks: Sequence[Check] | None = None) -> Examination:
+    """Ask every question, or these; an exception in a check is a finding with the status `error`."""
+    asked = all_checks(stops) if checks is None else checks
+    return Examination(environment(), reference_version(), tuple(_finding(check, stops) for check in asked))
+
+
+def _finding(check: Check, stops: KnownStops) -> Finding:
+    try:
+        answer = check.answer(stops)
+    except NotCheckedError as error:
+        return _without_answer(check, "not_checked", str(error))
+    except Exception as error:
+        return _without_answer(check, "error", f"{type(error).__name__}: {error}")
+    status = _status(check, answer)
+    described = check.id, check.group, check.what
+    return Finding(
+        *described, status, answer.expected, answer.found, check.tolerance, check.unit, answer.words
+    )
+
+
+def _without_answer(check: Check, status: Status, reason: str) -> Finding:
+    return Finding(check.id, check.group, check.what, status, None, None, check.tolerance, check.unit, reason)
+
+
+def _status(check: Check, answer: Answer) -> Status:
+    if _agree(answer.expected, answer.found, check.tolerance):
+        return "pass"
+    return "warning" if check.advisory else "fail"
+
+
+def _agree(expected: float | str, found: float | str, tolerance: float) -> bool:
+    if isinstance(expected, str) or isinstance(found, str):
+        return expected == found
+    # Not `>`: a number that is none must not pass.
+    return abs(found - expected) <= tolerance * abs(expected)

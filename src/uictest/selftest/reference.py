@@ -1,0 +1,65 @@
+"""The stored numbers of the known stops: `reference.json`, made by `scripts/selftest_reference.py`."""
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+from uictest import __version__
+from uictest.selftest.known_stops import (
+    KnownStops,
+    Numbers,
+    inputs_digest,
+    numbers_of_stop,
+)
+from uictest.selftest.template_stops import python_stop
+
+SCHEMA: Final = "uictest/known-stops/1"
+REFERENCE: Final = Path(__file__).parent / "reference.json"
+_OUTSIDE: Final = "controller-from-outside"
+
+
+@cache
+def _stored() -> Mapping[str, Any]:
+    stored: Mapping[str, Any] = json.loads(REFERENCE.read_text("utf-8"))
+    if stored.get("schema") != SCHEMA:
+        raise ValueError(f"{REFERENCE.name}: expected the schema {SCHEMA}, found {stored.get('schema')!r}")
+    return stored
+
+
+def reference_version() -> str:
+    """Return the version of uictest that computed the stored numbers."""
+    return str(_stored()["version"])
+
+
+def stored_numbers(stop: str) -> Numbers:
+    """Return the stored numbers of a known stop."""
+    numbers: Numbers = _stored()["stops"][stop]["numbers"]
+    return numbers
+
+
+def stored_inputs(stop: str) -> str:
+    """Return the SHA-256 of what the rig was given for a known stop."""
+    return str(_stored()["stops"][stop]["inputs_sha256"])
+
+
+def stored_numbers_from_outside() -> Numbers:
+    """Return the stored numbers of the stop with a controller from outside."""
+    numbers: Numbers = _stored()[_OUTSIDE]
+    return numbers
+
+
+def computed_reference() -> str:
+    """Return the content of the stored file as this installation computes it."""
+    stops = KnownStops()
+    content = {
+        "schema": SCHEMA,
+        "version": __version__,
+        "stops": {
+            name: {"inputs_sha256": inputs_digest(case), "numbers": numbers_of_stop(stops.stop(name))}
+            for name, case in stops.cases.items()
+        },
+        _OUTSIDE: numbers_of_stop(python_stop()),
+    }
+    return json.dumps(content, indent=1) + "\n"

@@ -1,0 +1,68 @@
+"""Reject quantiles and K_dry that the cases of a sweep do not support."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from uictest.scenario import CONDITION, Scenario
+from uictest.scenario.yaml import Map, ScenarioErrors, diagnose, quoted
+from uictest.sweeps.plan.column import ParameterValue
+from uictest.sweeps.plan.plan import ListedGroup, Plan, SampledGroup, random_sample
+from uictest.sweeps.plan.scenario_values import with_values
+
+DRY: Final = "dry"
+"""Name of the rail condition that K_dry is defined for."""
+_RANDOM: Final = "a quantile is bounded from independent draws: write `sample: {method: random, ...}`"
+
+
+def reject_unsupported_tails(plan: Plan, tree: Map) -> None:
+    """Raise ScenarioErrors where quantiles or K_dry lack a random sample, or K_dry a dry rail.
+
+    `tree` is the sweep file, at whose keys the errors are reported.
+    """
+    diagnostics = [
+        diagnose(tree.entries[section].key, message, section, hint)
+        for section, is_requested in (("quantiles", plan.quantiles), ("k_dry", plan.k_dry is not None))
+        if is_requested
+        for message, hint in _problems(plan, of_dry_rail=section == "k_dry")
+    ]
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
+
+
+def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
+    """Yield what is wrong and what to write instead."""
+    last = plan.groups[-1]
+    if not isinstance(last, SampledGroup):
+        yield "the values of this sweep are listed, not drawn", _RANDOM
+    elif random_sample(plan) is None:
+        yield f"points of method {last.method} are not independent of each other", _RANDOM
+    if of_dry_rail:
+        for name in dict.fromkeys(_conditions(plan)):
+            if name != DRY:
+                hint = "write `rail: {condition: dry}` in the scenario, and no other condition in the sweep"
+                yield f"K_dry holds for dry rail; the rail condition is {quoted(name)}", hint
+
+
+def _conditions(plan: Plan) -> Iterator[str]:
+    """Yield the names of the rail conditions that the cases have."""
+    base = plan.base.scenario
+    scenarios = [scenario for key in plan.keys for scenario in _with_condition(plan, key)]
+    yield from (scenario.rail.condition.name for scenario in scenarios or [base])
+
+
+def _with_condition(plan: Plan, key: str) -> Iterator[Scenario]:
+    """Yield the base with each value of a key that sets the condition."""
+    if f"{CONDITION}.".startswith(f"{key}."):
+        for value in _values(plan, key):
+            yield with_values(plan.base.scenario, {key: value.content})
+
+
+def _values(plan: Plan, key: str) -> Iterator[ParameterValue]:
+    group = next(group for group in plan.groups if key in group.keys)
+    place = group.keys.index(key)
+    if isinstance(group, ListedGroup):
+        yield from (row[place] for row in group.rows)
+    else:
+        yield from group.draws[place].choices

@@ -1,0 +1,156 @@
+"""Run one chunk of a sweep and encode its results as Parquet."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest import rig
+from uictest.campaign import ThreadedMap
+from uictest.ensemble import Places, rows_at
+from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, result_columns
+from uictest.sweeps.plan.plan import Plan
+from uictest.sweeps.running.case_blocks import BlockAssembler, CaseBlock
+from uictest.sweeps.running.case_selection import CaseSelection
+from uictest.sweeps.running.device import Device, Measures, Simulate, simulator
+from uictest.sweeps.running.table import REPEATED_TEXTS, rows
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
+"""Simulates a block in which a controller comes from outside: here, or in child processes."""
+WriteChunk = Callable[[int, bytes], None]
+"""Takes the number of a finished chunk and its results."""
+_CHUNKS_AHEAD = 2
+"""Chunks that wait or are ready beyond those in progress: bounds memory."""
+
+
+@dataclass(frozen=True)
+class ChunkRunner:
+    """Simulates and judges the cases of one chunk; several threads may share a runner."""
+
+    assembler: BlockAssembler
+    simulate: Simulate
+    plan: Plan
+    run_block: RunBlock
+
+    def run(self, indices: NDArray[np.int64]) -> bytes:
+        """Return the rows of the cases with the given indices as a Parquet file."""
+        block = self.assembler.block(indices)
+        return parquet_bytes(rows(self.plan, block, self.results(block)))
+
+    def prepare(self) -> None:
+        """Compile the rig before several threads need it at once."""
+        block = self.assembler.block(np.zeros(1, np.int64))
+        if any(block.programs):
+            rig.load_block(block.programs, block.controllers)
+            return
+        block.parameters["cycles"] = 1
+        self.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
+
+    def results(self, block: CaseBlock) -> ResultColumns:
+        """Return the results of a block; an error in a case is its result."""
+        places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
+        columns = result_columns(len(block.ids))
+        if places.size:
+            try:
+                measures = self._simulated(block, places)
+            except Exception as error:
+                return self._run_one_by_one(block, error)
+            self._judge(block, places, measures, columns)
+        for place, reason in enumerate(block.rejections):
+            if reason:
+                columns.put(place, error_result(self.assembler.case(block, place), reason))
+        return columns
+
+    def _simulated(self, block: CaseBlock, places: Places) -> Measures:
+        """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
+        controllers = [block.controllers[place] for place in places]
+        inputs = (
+            rows_at(block.parameters, places),
+            rows_at(block.wheelset_parameters, places),
+            rows_at(block.rail, places),
+            controllers,
+        )
+        programs = [block.programs[place] for place in places]
+        if not any(programs):
+            return self.simulate(*inputs)
+        configs = [block.configs[place] for place in places]
+        run = self.run_block(rig.BlockInputs(programs, configs, *inputs))
+        for place, failure in zip(places, run.failures, strict=True):
+            block.rejections[place] = failure
+        return run.measures, run.wheelset_measures
+
+    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> ResultColumns:
+        """Find the case that caused the error of the block."""
+        if len(block.ids) == 1:
+            block.rejections[0] = f"{type(error).__name__}: {error}"
+            return self.results(block)
+        columns = result_columns(len(block.ids))
+        for place in range(len(block.ids)):
+            at = np.array([place])
+            columns.put_block(at, self.results(block.take(at)))
+        return columns
+
+    def _judge(self, block: CaseBlock, places: Places, measures: Measures, columns: ResultColumns) -> None:
+        """Set the results of the simulated cases at some places, group by group of the same criteria."""
+        position = np.full(len(block.ids), -1)
+        position[places] = np.arange(places.size)
+        for group in block.judged_as.groups(by_numbers=False):
+            own = group[position[group] >= 0]
+            own = own[[not block.rejections[place] for place in own]]
+            if own.size:
+                of_stops, of_wheelsets = (rows_at(each, position[own]) for each in measures)
+                columns.put_block(own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets)))
+
+    def _stops(
+        self, block: CaseBlock, places: Places, measures: NDArray[Any], wheelset_measures: NDArray[Any]
+    ) -> StopBlock:
+        return StopBlock(
+            measures,
+            wheelset_measures,
+            lambda place: self.assembler.case(block, int(places[place])),
+            lambda own: block.judged_as.together(places[own]),
+        )
+
+
+def chunk_runner(plan: Plan, run_block: RunBlock, device: Device = "cpu") -> ChunkRunner:
+    """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
+    return ChunkRunner(BlockAssembler(plan), simulator(device), plan, run_block)
+
+
+def run_on_threads(
+    runner: ChunkRunner, selection: CaseSelection, numbers: Sequence[int], jobs: int, write_chunk: WriteChunk
+) -> None:
+    """Run the chunks with the given numbers; `write_chunk` gets each in this thread, in this order.
+
+    After any exception, KeyboardInterrupt included, the chunks that `write_chunk` got are kept.
+    """
+    jobs = min(jobs, len(numbers)) or 1
+    with ThreadedMap(
+        lambda number: runner.run(selection.chunk(number)), numbers, jobs=jobs, pending=jobs + _CHUNKS_AHEAD
+    ) as contents:
+        for number, content in zip(numbers, contents, strict=True):
+            write_chunk(number, content)
+
+
+def parquet_bytes(table: pa.Table) -> bytes:
+    """Return a table as a Parquet file; the same table gives the same bytes."""
+    import pyarrow.parquet as pq
+
+    buffer = io.BytesIO()
+    pq.write_table(
+        table,
+        buffer,
+        compression="lz4",
+        use_dictionary=list(REPEATED_TEXTS),
+        write_statistics=False,  # a chunk is read as a whole
+        write_page_checksum=True,
+    )
+    return buffer.getvalue()

@@ -1,0 +1,84 @@
+"""Rows of a sweep: one per case, as an Arrow table whose columns are known from the plan."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from uictest.evaluation import ResultColumns
+from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.sweeps.plan.plan import Plan
+from uictest.sweeps.running.case_blocks import CaseBlock
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+WHEELSETS: Final = 4
+_OWN: Final = ("expect", "outcome", "reason")
+REPEATED_TEXTS: Final = (*_OWN, "narrowest_criterion")
+"""Columns whose texts recur from case to case; to look for numbers that do takes half of writing."""
+
+
+def text_column(key: str) -> str:
+    """Return the name of the column with a parameter as written."""
+    return f"parameters.{key}"
+
+
+def number_column(key: str) -> str:
+    """Return the name of the column with a parameter in SI units."""
+    return f"values.{key}"
+
+
+def measure_columns() -> list[str]:
+    """Return the columns of measures: those of the stop, then those of each wheelset."""
+    return [
+        *STOP_COLUMNS,
+        *(column for name in WHEELSET_COLUMNS for column in wheelset_columns(name)),
+    ]
+
+
+def wheelset_columns(name: str) -> tuple[str, ...]:
+    """Return the columns of a measure of wheelsets, leading wheelset first."""
+    return tuple(f"{name}_{k}" for k in _numbers())
+
+
+def row_schema(plan: Plan) -> pa.Schema:
+    """Return names and types of the columns, in order."""
+    import pyarrow as pa
+
+    text, number = pa.string(), pa.float64()
+    return pa.schema(
+        [
+            ("index", pa.int64()),
+            ("id", text),
+            *((text_column(key), text) for key in plan.keys),
+            *((number_column(key), number) for key in plan.numeric_keys),
+            *((name, text) for name in _OWN),
+            ("met", pa.bool_()),
+            ("narrowest_margin", number),
+            ("narrowest_criterion", text),
+            *((name, number) for name in measure_columns()),
+        ]
+    )
+
+
+def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
+    """Return the rows of a block; a measure without a value is null."""
+    import pyarrow as pa
+
+    columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
+    for key, column in block.settings.items():
+        columns[text_column(key)] = column.written
+    for key in plan.numeric_keys:
+        columns[number_column(key)] = block.settings[key].numbers
+    columns |= {"expect": results.expectations, "outcome": results.outcomes, "reason": results.reasons}
+    columns |= {"met": results.met, "narrowest_margin": results.margins}
+    columns["narrowest_criterion"] = results.criteria
+    columns |= results.measures
+    for name, numbers in results.wheelsets.items():
+        columns |= zip(wheelset_columns(name), numbers.T, strict=True)
+    schema = row_schema(plan)
+    return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
+
+
+def _numbers() -> range:
+    return range(1, WHEELSETS + 1)

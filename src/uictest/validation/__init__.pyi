@@ -1,0 +1,20 @@
+from .agreement import Agreement as Agreement, Differences as Differences, agreement_of as agreement_of
+from .conditions import Conditions as Conditions, conditions_of as conditions_of
+from .document import (
+    Validation as Validation,
+    ValidationReference as ValidationReference,
+    read_validation as read_validation,
+    validation_json as validation_json,
+)
+from .domain import Domain as Domain, deviations as deviations, domains_of as domains_of
+from .plan.definition import load_validation as load_validation, plan_of_series as plan_of_series
+from .plan.model import VALIDATION_SCHEMA as VALIDATION_SCHEMA, ValidationFile as ValidationFile
+from .plan.plan import PlannedComparison as PlannedComparison, ValidationPlan as ValidationPlan
+from .report import (
+    figures_csv as figures_csv,
+    markdown as markdown,
+    stops_csv as stops_csv,
+    validation_lines as validation_lines,
+)
+from .stops import ComparedStop as ComparedStop, as_recorded as as_recorded, figures_of as figures_of
+from .summary import StopUnderConditions as StopUnderConditions, validation_of as validation_of

@@ -1,0 +1,100 @@
+"""The result of a validation and its JSON form, schema uictest/validation-result/1."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from pydantic import ConfigDict, TypeAdapter
+
+from uictest.evaluation import DomainOfValidity, EffectivePart, from_json_form, to_json_form
+from uictest.scenario.yaml import display_name
+from uictest.validation.agreement import Agreement
+from uictest.validation.conditions import conditions_of
+from uictest.validation.domain import Domain, deviations
+from uictest.validation.stops import ComparedStop
+
+SCHEMA: Final = "uictest/validation-result/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Validation:
+    """What recorded stops have shown of the model.
+
+    Attributes:
+        name: of the validation.
+        title: one line for people.
+        version: of uictest that simulated.
+        confidence: of the intervals.
+        inputs: every file that was read, and its SHA-256.
+        stops: all of them, those that are not counted too.
+        figures: agreement of each figure over the counted stops.
+        not_compared: figures that no counted stop has both recorded and simulated.
+        domains: where it holds.
+    """
+
+    name: str
+    title: str
+    version: str
+    confidence: float
+    inputs: Mapping[str, str]
+    stops: tuple[ComparedStop, ...]
+    figures: tuple[Agreement, ...]
+    not_compared: tuple[str, ...]
+    domains: tuple[Domain, ...]
+
+    @property
+    def counted(self) -> tuple[ComparedStop, ...]:
+        """The stops that bias, spread and domain are of."""
+        return tuple(stop for stop in self.stops if stop.counted)
+
+
+@dataclass(frozen=True, slots=True)
+class ValidationReference:
+    """A validation that cases are held against; its file as shown to users, and the SHA-256 of that."""
+
+    validation: Validation
+    file: str
+    sha256: str
+
+    def domains_of(self, parts: Mapping[str, Mapping[str, EffectivePart]]) -> dict[str, DomainOfValidity]:
+        """Return whether cases lie in its domain, by id.
+
+        Args:
+            parts: case id -> role -> part.
+        """
+        return {case_id: self._domain_of(of_case) for case_id, of_case in parts.items()}
+
+    def _domain_of(self, parts: Mapping[str, EffectivePart]) -> DomainOfValidity:
+        outside = deviations(self.validation.domains, conditions_of(parts))
+        return DomainOfValidity(self.validation.name, self.sha256, outside)
+
+
+# Of a list: its configuration then holds for everything inside.
+_VALIDATIONS: Final = TypeAdapter(list[Validation], config=ConfigDict(extra="forbid", defer_build=True))
+
+
+def validation_json(validation: Validation) -> str:
+    """Return a validation as JSON; NaN is null."""
+    [content] = to_json_form(_VALIDATIONS, [validation])
+    form: dict[str, Any] = {"schema": SCHEMA, **content}
+    return json.dumps(form, indent=2, allow_nan=False) + "\n"
+
+
+def read_validation(path: Path) -> ValidationReference:
+    """Return the validation in a file.
+
+    Raises OSError, and ValueError where the file is none, or none of its stops is counted.
+    """
+    content = path.read_bytes()
+    form = json.loads(content)
+    if not isinstance(form, dict) or form.pop("schema", None) != SCHEMA:
+        raise ValueError(f"not the result of a validation: expected a document with the schema {SCHEMA}")
+    [validation] = from_json_form(_VALIDATIONS, [form])
+    if not validation.domains:
+        raise ValueError("none of its stops is counted: nothing was validated")
+    return ValidationReference(validation, display_name(path), hashlib.sha256(content).hexdigest())

@@ -1,0 +1,1 @@
+"""What a validation file says: recorded stops and the scenarios that simulate them."""

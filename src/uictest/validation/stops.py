@@ -1,0 +1,59 @@
+"""Recorded stops beside their simulations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from uictest.evaluation import CaseResult, Number
+from uictest.scenario import Case
+from uictest.scenario.yaml import parse_quantity
+
+Figures = Mapping[str, Number]
+"""Column of results, of a wheelset `maximum_slide_1` -> number; NaN where it is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedStop:
+    """One recorded stop and its simulation.
+
+    Attributes:
+        id: of both.
+        recording: file, as shown to users.
+        sha256: of the file.
+        initial_speed: recorded, m/s; the simulation has the same.
+        recorded: its figures.
+        simulated: the same figures of the simulation; medians where it was repeated.
+        repeats: seeds under which it was simulated.
+        tuned: whether numbers of the scenario were found with it: it then shows nothing of the model.
+        not_counted: why it cannot be compared; empty where it can.
+    """
+
+    id: str
+    recording: str
+    sha256: str
+    initial_speed: float
+    recorded: Figures = field(default_factory=dict)
+    simulated: Figures = field(default_factory=dict)
+    repeats: int = 1
+    tuned: bool = False
+    not_counted: str = ""
+
+    @property
+    def counted(self) -> bool:
+        """Whether it takes part in bias, spread and domain."""
+        return not (self.tuned or self.not_counted)
+
+
+def as_recorded(case: Case, case_id: str, initial_speed: float) -> Case:
+    """Return the case of a recorded stop, simulated from its own initial speed, m/s."""
+    speed = parse_quantity(f"{initial_speed!r} m/s", "speed")
+    return replace(case, id=case_id, scenario=case.scenario.model_copy(update={"initial_speed": speed}))
+
+
+def figures_of(result: CaseResult) -> dict[str, float]:
+    """Return the figures of a stop and of its wheelsets."""
+    figures = dict(result.measures or {})
+    for number, columns in enumerate(result.wheelsets, start=1):
+        figures |= {f"{name}_{number}": value for name, value in columns.items()}
+    return figures

@@ -1,0 +1,49 @@
+"""Short stops in a working folder of their own, run by the command and in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.cli.entry import execute
+
+Write = Callable[..., Path]
+Command = Callable[..., int]
+
+
+@pytest.fixture(autouse=True)
+def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
+    return tmp_path
+
+
+@pytest.fixture
+def write(workplace: Path) -> Write:
+    """Write a short stop below scenarios/, with more lines of YAML where a test wants them."""
+
+    def write_scenario(
+        name: str = "stop", text: str = "", rail: str = "{condition: wet, friction: 0.06}"
+    ) -> Path:
+        path = Path("scenarios", f"{name}.yaml")
+        path.parent.mkdir(exist_ok=True)
+        head = f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n"
+        path.write_text(f"{head}rail: {rail}\ncriteria: [uictest-stop]\n{text}")
+        return path
+
+    return write_scenario
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Command:
+    """Call the program in this process and return its exit code; what it prints is dropped."""
+
+    def call(*arguments: str | Path) -> int:
+        code = int(execute([str(argument) for argument in arguments]))
+        capsys.readouterr()
+        return code
+
+    return call

@@ -1,0 +1,169 @@
+"""Results as data frames: nothing that the CSV files have is lost."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pytest
+
+import uictest
+from uictest import measures, report
+from uictest.api.frames import column_units
+
+Write = Callable[..., Path]
+HOSTILE = "<script>alert(1)</script> & \x1b[31m"
+
+
+@pytest.fixture
+def results(write: Write) -> uictest.Results:
+    """Two cases, one of them repeated, one not as expected."""
+    write("many", "repeat: 3\nrequirements: [BR-1]\n")
+    write("one", "expect: fail\nmatrix: {rail.friction: [0.06, 0.1]}\n")
+    return uictest.run()
+
+
+def cells(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = frame.reset_index().to_dict("records")
+    return rows
+
+
+def as_csv(value: object) -> str:
+    """Return a value as the CSV files write it."""
+    if value is None or value != value:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else repr(value)
+
+
+@pytest.mark.parametrize("name", ["summary", "wheelsets", "criteria", "repeats", "requirements"])
+def test_a_table_has_every_cell_of_its_file(results: uictest.Results, name: str) -> None:
+    text = (results.save("out") / f"{name}.csv").read_text()
+    written = list(csv.DictReader(io.StringIO(text)))
+    rows = cells(results.table(name))
+    assert [set(row) for row in rows] == [set(row) for row in written]
+    for row, line in zip(rows, written, strict=True):
+        for column, value in row.items():
+            assert as_csv(value) == line[column] or float(value) == float(line[column]), column
+
+
+def test_numbers_are_numbers_and_texts_are_as_written(results: uictest.Results) -> None:
+    frame = results.frame()
+    assert frame.index.name == "id"
+    assert {str(frame[name].dtype) for name in measures.STOP_COLUMNS} == {"float64"}
+    assert frame["met"].dtype == bool
+    assert list(frame["parameters.rail.friction"].dropna()) == ["0.06", "0.1"]
+    assert (
+        frame.loc["one[friction=0.1]", "braking_distance_m"]
+        == results["one[friction=0.1]"].measures[  # type: ignore[index]
+            "braking_distance_m"
+        ]
+    )
+
+
+def test_units_stand_beside_the_columns(results: uictest.Results) -> None:
+    units = results.frame().attrs["units"]
+    assert units["braking_distance_m"] == units["braking_distance_m_highest"] == "m"
+    assert "outcome" not in units
+    assert results.wheelsets().attrs["units"]["locked_time_s"] == "s"
+
+
+@pytest.mark.parametrize("name", [*measures.STOP_COLUMNS, *measures.WHEELSET_COLUMNS])
+def test_every_measure_has_its_unit(name: str) -> None:
+    columns = {**measures.STOP_COLUMNS, **measures.WHEELSET_COLUMNS}
+    assert column_units([name, f"{name}_lowest"]) == dict.fromkeys(
+        (name, f"{name}_lowest"), columns[name].unit
+    )
+
+
+def test_the_index_tells_rows_apart(results: uictest.Results) -> None:
+    for frame in (results.frame(), results.wheelsets(), results.criteria(), results.repeats()):
+        assert frame.index.is_unique
+    assert list(results.wheelsets().loc["many"].index) == [1, 2, 3, 4]
+    assert list(results.repeats().index.get_level_values("seed")) == [0, 1, 2]
+
+
+def test_a_table_that_is_not_there_is_named(write: Write) -> None:
+    results = uictest.run(write())
+    with pytest.raises(KeyError, match="no table 'repeats' in this run; accepted: criteria, summary"):
+        results.repeats()
+    with pytest.raises(KeyError, match="did you mean 'criteria'"):
+        results.table("criterias")
+
+
+def test_cases_by_place_by_slice_and_by_id(results: uictest.Results) -> None:
+    assert len(results) == 3
+    assert results[0] is results["many"] is next(iter(results))
+    assert [each.id for each in results[1:]] == ["one[friction=0.06]", "one[friction=0.1]"]
+    assert results[-1].id == "one[friction=0.1]"
+    with pytest.raises(KeyError, match=r"no case 'one\[friction=0\.05\]'; did you mean"):
+        results["one[friction=0.05]"]
+    with pytest.raises(IndexError):
+        results[3]
+
+
+def test_met_and_tally(results: uictest.Results) -> None:
+    assert not results.met
+    assert results.tally == "3 cases: 1 pass, 2 unexpected pass; 2 not as expected"
+    assert repr(results).splitlines()[0] == results.tally
+    assert repr(results).splitlines()[1].startswith("pass many outcome=pass")
+
+
+class _Page(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
+
+
+def test_the_table_for_notebooks_escapes_what_users_wrote() -> None:
+    hostile = uictest.CaseResult(HOSTILE, "a.yaml", {}, "pass", "fail", reason=HOSTILE)
+    page = _Page()
+    text = uictest.Results(report.RunContent("run", [hostile]))._repr_html_()
+    page.feed(text)
+    assert page.tags <= {"p", "table", "thead", "tbody", "tr", "th", "td"}
+    assert "\x1b" not in text + repr(uictest.Results(report.RunContent("run", [hostile])))
+
+
+def test_the_table_for_notebooks_has_what_failed_first_and_an_end() -> None:
+    many = [uictest.CaseResult(f"case-{n}", "a.yaml", {}, "pass", "pass") for n in range(200)]
+    failed = uictest.CaseResult("failed", "a.yaml", {}, "pass", "fail", reason="locked")
+    text = uictest.Results(report.RunContent("run", [*many, failed]))._repr_html_()
+    assert text.index("failed") < text.index("case-0")
+    assert "and 151 more cases" in text
+    assert text.count("<tr>") == 51
+
+
+def test_a_case_without_measures_is_a_row_of_nan() -> None:
+    crashed = uictest.CaseResult("a", "a.yaml", {}, "pass", "error", reason="no wheel load")
+    frame = uictest.Results(report.RunContent("run", [crashed])).frame()
+    assert math.isnan(float(frame.loc["a", "braking_distance_m"]))  # type: ignore[arg-type]
+    assert frame["braking_distance_m"].dtype == float
+
+
+def test_what_was_not_recorded_says_how_to(results: uictest.Results) -> None:
+    with pytest.raises(KeyError, match=r"many was not recorded: run it with record='all'"):
+        results.recording("many")
+    assert len(results.recording("one[friction=0.06]")) > 100
+
+
+def test_saving_in_an_unknown_format_names_the_nearest(results: uictest.Results) -> None:
+    with pytest.raises(ValueError, match="no format 'xslx'; did you mean 'xlsx'"):
+        results.save(formats=["xslx"])
+    assert not Path("reports").exists()
+    assert (results.save(formats=["xlsx", "md"]) / "report.xlsx").is_file()
+
+
+def test_a_table_of_a_series_without_criteria_is_empty(write: Write) -> None:
+    write("dry", rail="{condition: dry}")
+    path = write("wet").with_name("free.series.yaml")
+    path.write_text("schema: uictest/series/1\nname: free\ndry: dry.yaml\nwet: wet.yaml\ncriteria: []\n")
+    table = uictest.run(path).table("series-criteria")
+    assert (len(table), table.index.names) == (0, ["series", "criterion"])

@@ -1,0 +1,301 @@
+"""Runs in Python are those of the command: the same digits, the same files, no output."""
+
+from __future__ import annotations
+
+import json
+import math
+import signal
+import threading
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import uictest
+from uictest import campaign, evaluation, recording
+from uictest.campaign import batch
+from uictest.report import latest_run, read_run
+
+Write = Callable[..., Path]
+Command = Callable[..., int]
+AXIS = {"rail.friction": [0.06, 0.1]}
+FAILING = "expect: fail\n"
+
+
+def contents(run: Path) -> dict[str, bytes]:
+    """The files of a run: without JUnit's, which have durations, and with one name for all runs."""
+    files = {path.relative_to(run).as_posix(): path for path in run.rglob("*") if path.is_file()}
+    in_css = run.name.replace("-", r"\2d ")
+    return {
+        name: path.read_bytes().replace(run.name.encode(), b"RUN").replace(in_css.encode(), b"RUN")
+        for name, path in files.items()
+        if not name.startswith("junit")
+    }
+
+
+def figures(results: Iterable[uictest.CaseResult]) -> str:
+    """Every digit of results; NaN, which equals nothing, as text."""
+    return evaluation.to_json(evaluation.cases_document(results))
+
+
+def test_digits_and_files_are_those_of_the_command(write: Write, command: Command) -> None:
+    path = write(text=FAILING)
+    assert command("run", path, "--set", "rail.friction=0.06,0.1", "--seed", "5", "-o", "out") == 1
+    there = latest_run(Path("out").rename("there"))
+    results = uictest.run(path, set=AXIS, seed=5, output="out")
+    assert there is not None
+    assert results.folder is not None
+    ours = contents(results.folder)
+    assert ours == contents(there)
+    assert {"recordings/stop[friction=0.06].parquet", "summary.csv", "index.html"} <= set(ours)
+
+
+def test_nothing_is_written_or_printed(
+    write: Write, workplace: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = write()
+    before = sorted(workplace.rglob("*"))
+    results = uictest.run(path, set=AXIS)
+    uictest.simulate(path)
+    assert [result.id for result in results] == ["stop[friction=0.06]", "stop[friction=0.1]"]
+    assert sorted(workplace.rglob("*")) == before
+    assert capfd.readouterr() == ("", "")
+
+
+def test_cases_run_as_their_files_do(write: Write) -> None:
+    path = write()
+    cases = uictest.load(path, set=AXIS, seed=2)
+    results = uictest.run(cases, jobs=1)
+    assert figures(results) == figures(uictest.run(path, set=AXIS, seed=2, jobs=3))
+    assert figures(uictest.run(cases[1])) == figures([results[1]])
+    assert figures(uictest.run(cases, select="0.1")) == figures([results[1]])
+
+
+def test_the_page_of_loaded_cases_offers_no_command_that_would_run_others(write: Write) -> None:
+    path = write()
+    by_file = uictest.run(path, seed=2, record="all", output="out").folder
+    loaded = uictest.run(uictest.load(path, seed=2), record="all", output="out").folder
+    assert by_file is not None
+    assert loaded is not None
+    assert "--seed 2 -k stop" in (by_file / "index.html").read_text()
+    assert "Copy command" not in (loaded / "index.html").read_text()
+
+
+def test_results_are_found_from_another_working_folder(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    results = uictest.run(write(), record="all", output="out")
+    again = uictest.read_results("out/latest")
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    for each in (results, again):
+        assert each.recording("stop")["time"].size > 100
+        assert (each.save() / "recordings" / "stop.parquet").is_file()
+
+
+def test_saving_later_writes_what_output_writes(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("uictest.api.running.command_words", lambda *_, **__: ["run"])
+    path = write(text=FAILING)
+    at_once = uictest.run(path, set=AXIS, output="out").folder
+    later = uictest.run(path, set=AXIS).save("out")
+    assert at_once is not None
+    assert contents(at_once) == contents(later)
+    assert contents(uictest.read_results(later).save("out")) == contents(later)
+
+
+@pytest.mark.parametrize(
+    ("record", "recorded"),
+    [("all", ["fails", "passes"]), ("failed", ["fails"]), ("none", [])],
+)
+def test_what_is_recorded(write: Write, record: Any, recorded: list[str]) -> None:
+    write("passes"), write("fails", FAILING)
+    results = uictest.run(record=record, rate=50.0)
+    assert [result.id for result in results if has_recording(results, result.id)] == recorded
+    for name in recorded:
+        assert results.recording(name)["time"][1] == pytest.approx(0.02)
+    folder = uictest.run(record=record, output="out").folder
+    assert folder is not None
+    assert sorted(path.stem for path in folder.glob("recordings/*")) == recorded
+
+
+def has_recording(results: uictest.Results, name: str) -> bool:
+    try:
+        return len(results.recording(name)) > 1
+    except KeyError:
+        return False
+
+
+def test_a_repeated_stop_has_its_seeds(write: Write) -> None:
+    results = uictest.run(write(), repeat=3, seed=4)
+    assert list(results.repeats().index) == [("stop", 4), ("stop", 5), ("stop", 6)]
+    assert results.frame().loc["stop", "stops"] == 3
+
+
+def test_a_series_is_judged(write: Write) -> None:
+    write("dry", rail="{condition: dry}"), write("wet")
+    text = "schema: uictest/series/1\nname: both\ndry: dry.yaml\nwet: wet.yaml\ncriteria: uictest-wsp\n"
+    path = Path("scenarios/both.series.yaml")
+    path.write_text(text)
+    results = uictest.run(path)
+    assert (len(results), [each.id for each in results.series]) == (0, ["both"])
+    assert results["both.wet"].id == "both.wet"
+    assert {"k_wet"} <= set(results.table("series").index.get_level_values("measure"))
+    assert results.met is results.series[0].met
+    for name in ("series", "series-criteria", "series-stops"):
+        table = results.table(name)
+        assert len(table) > 0
+        assert table.index.is_unique
+    assert "both" in repr(results)
+    assert "both" in results._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"jobs": 0}, "jobs is 0, expected a number of threads from 1 or 'auto'"),
+        ({"jobs": "two"}, "jobs is 'two', expected a number of threads from 1 or 'auto'"),
+        ({"record": "al"}, "record is 'al'; did you mean 'all'?"),
+        ({"rate": math.nan}, "rate is nan, expected 1 to 100000 samples per second"),
+        ({"select": "x"}, "nothing selected among 1 case; their tags: none"),
+    ],
+)
+def test_an_argument_that_cannot_be_used_is_named(
+    write: Write, arguments: dict[str, Any], message: str
+) -> None:
+    path = write()
+    with pytest.raises(ValueError) as raised:
+        uictest.run(path, **arguments)
+    assert str(raised.value) == message
+
+
+def test_cases_are_not_changed_nor_mixed_with_files(write: Write) -> None:
+    path = write()
+    cases = uictest.load(path)
+    for arguments in ({"set": AXIS}, {"seed": 1}, {"repeat": 2}, {"trust": ["."]}):
+        with pytest.raises(ValueError, match=r"apply to files: pass them to uictest\.load"):
+            uictest.run(cases, **arguments)
+    with pytest.raises(ValueError, match="nothing to run: name files or give cases"):
+        uictest.run([])
+    with pytest.raises(ValueError, match="name files or give cases, not both"):
+        uictest.run([path, *cases])
+    with pytest.raises(ValueError, match="two cases are called 'stop'"):
+        uictest.run([*cases, *cases])
+
+
+def test_an_interrupt_is_raised(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write()
+    monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path)
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path, output="reports")
+    assert not Path("reports").exists()
+
+
+def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(
+    write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, run_case = write(), batch.run_case
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    def interrupted(case: Any, *arguments: Any) -> campaign.CaseRun:
+        signal.raise_signal(signal.SIGINT)
+        return run_case(case, *arguments)
+
+    try:
+        with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+            patched.setattr(batch, "run_case", interrupted)
+            uictest.run(path, set={"seed": list(range(20))}, jobs=1)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert uictest.run(path).met
+
+
+def test_what_is_finished_when_a_run_is_interrupted_is_reported(
+    write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, run_cases = write(), campaign.run_cases
+
+    def cut_short(cases: Any, **options: Any) -> campaign.BatchResult:
+        done = run_cases(cases[:1], **options)
+        done.interrupted = True
+        return done
+
+    monkeypatch.setattr(campaign, "run_cases", cut_short)
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path, set=AXIS, output="out")
+    assert [result.id for result in uictest.read_results("out/latest")] == ["stop[friction=0.06]"]
+
+
+def test_a_stop_that_crashes_is_a_result(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash(case: Any, *_: object) -> campaign.CaseRun:
+        return campaign.CaseRun(evaluation.error_result(case, "ZeroDivisionError: no wheel load"))
+
+    monkeypatch.setattr(batch, "run_case", crash)
+    results = uictest.run(write())
+    assert (results.met, results[0].outcome) == (False, "error")
+    assert math.isnan(results.frame().loc["stop", "braking_distance_m"])  # type: ignore[arg-type]
+
+
+def test_threads_may_run_side_by_side(write: Write) -> None:
+    path = write()
+    alone = figures(uictest.run(path, set=AXIS))
+    found: list[str] = []
+    threads = [
+        threading.Thread(target=lambda: found.append(figures(uictest.run(path, set=AXIS)))) for _ in range(2)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [alone, alone]
+
+
+def test_the_manifest_names_the_command_that_does_the_same(write: Write) -> None:
+    path = write("a", "tags: [wet]\n")
+    folder = uictest.run(path, set={"rail.friction": [0.06, 0.1]}, seed=3, tag="wet", output="out").folder
+    assert folder is not None
+    words = [
+        "run",
+        "scenarios/a.yaml",
+        "--set",
+        "rail.friction=0.06,0.1",
+        "--seed",
+        "3",
+        "-m",
+        "wet",
+        "-o",
+        "out",
+    ]
+    assert json.loads((folder / "manifest.json").read_text())["command"] == ["uictest", *words]
+
+
+def test_reports_are_read_back(write: Write) -> None:
+    results = uictest.run(write(text=FAILING), output="out")
+    assert results.folder is not None
+    for place in (results.folder, results.folder / "results.json", Path("out/latest")):
+        again = uictest.read_results(place)
+        assert figures(again) == figures(results)
+        assert again.frame().equals(results.frame())
+        recorded = again.recording("stop")
+        assert recorded.units == results.recording("stop").units
+    assert figures(read_run(results.folder).results) == figures(results)
+    with pytest.raises(ValueError, match="not the results of a run"):
+        (Path("out") / "results.json").write_text("[]")
+        uictest.read_results("out/results.json")
+    with pytest.raises(FileNotFoundError):
+        uictest.read_results("nowhere")
+
+
+def test_recordings_of_memory_and_folder_are_the_same(write: Write) -> None:
+    path = write()
+    kept = uictest.run(path, record="all").recording("stop")
+    written = uictest.run(path, record="all", output="out").recording("stop")
+    simulated = uictest.simulate(path)
+    for other in (written, simulated):
+        assert other.metadata == kept.metadata
+        assert isinstance(other, recording.Recording)
+        assert other.frame().equals(kept.frame())

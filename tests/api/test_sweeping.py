@@ -1,0 +1,104 @@
+"""Sweeps in Python are those of the command."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import uictest
+from uictest.sweeps import ChunkStore
+
+Write = Callable[..., Path]
+Command = Callable[..., int]
+TEXT = """schema: uictest/sweep/1
+name: study
+scenario: scenarios/stop.yaml
+grid:
+  rail.friction: [0.06, 0.1]
+"""
+
+
+@pytest.fixture
+def study(write: Write) -> Path:
+    write()
+    path = Path("study.sweep.yaml")
+    path.write_text(f"{TEXT}  brake.command: [80 %, 100 %]\n")
+    return path
+
+
+def same(value: Any, text: str) -> bool:
+    """Return whether a cell of a CSV file is this value."""
+    if isinstance(value, str | bool):
+        return text.lower() == str(value).lower()
+    return text == "" if value != value else float(text) == value
+
+
+def test_rows_are_those_of_the_command(study: Path, command: Command) -> None:
+    assert command("sweep", study, "-o", "out") == 0
+    frame = uictest.sweep(study).frame()
+    with Path("out/study/summary.csv").open(newline="") as file:
+        written = list(csv.DictReader(file))
+    rows = frame.reset_index().to_dict("records")
+    assert len(rows) == len(written) == 4
+    assert [set(row) for row in rows] == [set(row) for row in written]
+    for row, line in zip(rows, written, strict=True):
+        for column, value in row.items():
+            assert same(value, line[column]), column
+    assert (
+        frame.attrs["units"]["braking_distance_m"] == frame.attrs["units"]["deceleration_distance_m"] == "m"
+    )
+    assert list(frame["values.brake.command"]) == [0.8, 1.0, 0.8, 1.0]
+
+
+def test_nothing_is_left_behind_without_output(study: Path, workplace: Path) -> None:
+    before = sorted(workplace.rglob("*"))
+    results = uictest.sweep(study, jobs=1)
+    assert (len(results), results.met, results.folder) == (4, True, None)
+    assert sorted(workplace.rglob("*")) == before
+    assert repr(results).startswith("study: 4 cases")
+
+
+def test_one_measure_may_stand_alone(study: Path) -> None:
+    alone, listed = (
+        uictest.sweep(study, measures=each).result.maps for each in ("braking_time_s", ["braking_time_s"])
+    )
+    assert alone == listed
+
+
+def test_a_finished_sweep_is_not_run_again(study: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = uictest.sweep(study, output="out")
+    assert first.folder == Path("out/study").absolute()
+
+    def fail(*_: object) -> None:
+        raise AssertionError("a chunk was computed again")
+
+    monkeypatch.setattr(ChunkStore, "write", fail)
+    assert uictest.sweep(study, output="out").frame().equals(first.frame())
+    with pytest.raises(ValueError, match="holds chunks of this sweep with other inputs"):
+        uictest.sweep(study, output="out", seed=3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"select": "nothing"}, "nothing selected among 4 cases"),
+        ({"measures": ["braking_distanc_m"]}, "did you mean 'braking_distance_m'"),
+        ({"frontier": "rail.fric"}, "rail.fric"),
+        ({"frontier": "rail.friction", "tolerance": "wide"}, "wide"),
+    ],
+)
+def test_an_argument_that_cannot_be_used_is_named(
+    study: Path, arguments: dict[str, object], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        uictest.sweep(study, **arguments)  # type: ignore[arg-type]
+
+
+def test_errors_of_the_file_have_their_places(study: Path) -> None:
+    study.write_text(f"{TEXT}  brake.comand: [80 %]\n")
+    with pytest.raises(uictest.ScenarioErrors, match=r"study\.sweep\.yaml:6:3: .*brake\.comand"):
+        uictest.sweep(study)

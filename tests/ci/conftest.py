@@ -1,0 +1,61 @@
+"""The parts for CI services: files of the repository, and the program on the path as a job finds it."""
+
+from __future__ import annotations
+
+import os
+import re
+import sysconfig
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+REPOSITORY = Path(__file__).parents[2]
+TOOLS = Path(sysconfig.get_path("scripts"))
+HANGING = 900.0
+"""Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
+SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n{text}"
+_INPUT = re.compile(r"\$\[\[ inputs\.(\w+) \]\]")
+
+
+@pytest.fixture
+def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder of a job: one scenario, the program on the path, and a pip that installs nothing."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scenarios").mkdir()
+    (tmp_path / "scenarios" / "stop.yaml").write_text(SCENARIO.format(name="stop", text=""), "utf-8")
+    pip = tmp_path / "bin" / "pip"
+    pip.parent.mkdir()
+    pip.write_text("#!/bin/sh\n", "utf-8")
+    pip.chmod(0o755)
+    path = [str(pip.parent), str(TOOLS), os.environ["PATH"]]
+    monkeypatch.setenv("PATH", os.pathsep.join(path))
+    monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
+    return tmp_path
+
+
+def gitlab_component(**given: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the inputs that the GitLab component declares, and its jobs with inputs filled in."""
+    text = (REPOSITORY / "templates" / "uictest" / "template.yml").read_text("utf-8")
+    header, _, body = text.partition("\n---\n")
+    inputs = yaml.safe_load(header)["spec"]["inputs"]
+    values = {name: given.get(name, declared.get("default")) for name, declared in inputs.items()}
+    return inputs, yaml.safe_load(_INPUT.sub(lambda match: values[match[1]], body))
+
+
+def used_inputs() -> set[str]:
+    """Return the inputs that the jobs of the GitLab component use."""
+    return set(_INPUT.findall((REPOSITORY / "templates" / "uictest" / "template.yml").read_text("utf-8")))
+
+
+def action() -> dict[str, Any]:
+    """Return the GitHub action."""
+    content: dict[str, Any] = yaml.safe_load((REPOSITORY / "action.yml").read_text("utf-8"))
+    return content
+
+
+def blocks_of_page() -> dict[str, str]:
+    """Return the YAML files that docs/ci.md shows, by name."""
+    page = (REPOSITORY / "docs" / "ci.md").read_text("utf-8")
+    return dict(re.findall(r"^```yaml\n# (\S+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL))

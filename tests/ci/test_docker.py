@@ -1,0 +1,29 @@
+"""The image: its file has no known defect, and the build gets what it needs and nothing else."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from .conftest import REPOSITORY, TOOLS
+
+
+def test_no_known_defect() -> None:
+    command = [TOOLS / "hadolint", REPOSITORY / "Dockerfile"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_the_image_does_not_run_as_root() -> None:
+    lines = (REPOSITORY / "Dockerfile").read_text("utf-8").splitlines()
+    users = [line.split()[1] for line in lines if line.startswith("USER ")]
+    assert users == ["1000"]
+    assert any(f"--uid {users[0]}" in line for line in lines)
+
+
+def test_the_build_gets_every_file_that_the_package_is_made_of() -> None:
+    kept = {
+        line[1:] for line in (REPOSITORY / ".dockerignore").read_text("utf-8").splitlines() if line[0] == "!"
+    }
+    assert kept == {"src", "pyproject.toml", "README.md", "LICENSE"}
+    assert all(Path(REPOSITORY, name).exists() for name in kept)

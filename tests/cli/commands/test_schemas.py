@@ -1,0 +1,86 @@
+"""Every kind of file has a schema that its shipped files keep to and that mistakes do not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from uictest.cli.commands.schema import SchemaKind, schema_text
+from uictest.scenario import PART_MODELS
+from uictest.scenario.yaml import plain, read_file
+
+REPOSITORY = Path(__file__).parents[3]
+LIBRARY = REPOSITORY / "src" / "uictest" / "library"
+KINDS = {kind.value: kind for kind in SchemaKind}
+PARTS = [LIBRARY, REPOSITORY / "examples", REPOSITORY / "calibration"]
+
+
+def _document(path: Path) -> Any:
+    return json.loads(json.dumps(plain(read_file(path))))
+
+
+def _files() -> Iterator[Path]:
+    for folder in PARTS:
+        for path in sorted(folder.rglob("*.yaml")):
+            if path.read_text("utf-8").partition("uictest/")[2].partition("/")[0] in KINDS:
+                yield path
+
+
+def _errors(path_or_kind: str, document: Any) -> list[str]:
+    validator = jsonschema.Draft7Validator(json.loads(schema_text(KINDS[path_or_kind])))
+    return [f"{list(error.path)}: {error.message}" for error in validator.iter_errors(document)]
+
+
+@pytest.mark.parametrize("kind", SchemaKind, ids=str)
+def test_the_schema_of_each_kind_is_kept_in_the_repository(kind: SchemaKind) -> None:
+    text = schema_text(kind)
+    jsonschema.Draft7Validator.check_schema(json.loads(text))
+    kept = REPOSITORY / "schema" / f"{kind}.schema.json"
+    assert kept.read_text("utf-8") == text, f"run uictest schema {kind} -o {kept.name}"
+
+
+@pytest.mark.parametrize("path", list(_files()), ids=lambda path: path.stem)
+def test_shipped_files_keep_to_the_schema_and_a_mistyped_key_does_not(path: Path) -> None:
+    document = _document(path)
+    kind = document["schema"].split("/")[1]
+    assert _errors(kind, document) == []
+    assert _errors(kind, {**document, "mistyped_key": 1}) != []
+
+
+def test_every_kind_of_part_has_a_schema() -> None:
+    assert PART_MODELS.keys() <= set(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("kind", "own", "valid"),
+    [
+        ("vehicle", {"extends": "intercity-180", "body": {"mass": "25 t"}}, True),
+        ("vehicle", {"extends": "intercity-180", "body": {"mass": "25 m"}}, False),
+        ("vehicle", {"extends": "intercity-180", "body": {"mas": "25 t"}}, False),
+        ("brake", {"extends": "ep-disc", "positions": {"R": {"maximum_pressure": "3.1 bar"}}}, True),
+        ("controller", {"extends": "threshold", "slip_threshold": "1.4 m/s"}, True),
+        ("controller", {"extends": "threshold", "slip_threshold": "1.4 s"}, False),
+        ("controller", {"python": "my_wsp.py", "class": "MyWsp", "parameters": {"a": 1}}, True),
+        ("pad", {"speed": {"points": [{"speed": "20 km/h", "factor": 1.08}]}}, True),
+        ("pad", {"speed": {"points": [{"speed": "20 km/h"}]}}, False),
+        ("criteria", {"criteria": [{"id": "x"}]}, False),
+        ("channel-map", {"extends": "uictest", "channels": {"speed": "v", "time": ["t", "Zeit"]}}, True),
+        ("channel-map", {"extends": "uictest", "channels": {"speed": 3}}, False),
+    ],
+)
+def test_a_part_states_only_what_differs(kind: str, own: dict[str, Any], valid: bool) -> None:
+    document = {"schema": f"uictest/{kind}/1", "name": "mine", **own}
+    assert (_errors(kind, document) == []) is valid
+
+
+def test_the_examples_name_the_schema_of_their_kind() -> None:
+    for path in sorted((REPOSITORY / "examples").rglob("*.yaml")):
+        first = path.read_text("utf-8").splitlines()[0]
+        named = path.parent / first.removeprefix("# yaml-language-server: $schema=")
+        kind = read_file(path).get("schema")
+        assert named.resolve() == REPOSITORY / f"schema/{str(kind.text).split('/')[1]}.schema.json", path

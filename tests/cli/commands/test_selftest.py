@@ -1,0 +1,104 @@
+"""`uictest selftest`: exit codes, and the findings as text, JSON and JUnit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import junitparser
+import pytest
+
+from uictest import selftest
+from uictest.selftest import examination
+
+Call = Callable[..., Any]
+
+
+def no_answer(stops: selftest.KnownStops) -> selftest.Answer:
+    raise ZeroDivisionError("no wheel load")
+
+
+def not_here(stops: selftest.KnownStops) -> selftest.Answer:
+    raise selftest.NotCheckedError("no C compiler (cc)")
+
+
+CHECKS = {
+    "met": selftest.Check("tank", "physics", "a tank", lambda stops: selftest.Answer(1.0, 1.001), 0.01, "K"),
+    "missed": selftest.Check(
+        "stop", "numerics", "a stop", lambda stops: selftest.Answer("a1", "b2", "1 differs")
+    ),
+    "error": selftest.Check("creep", "physics", "the creep", no_answer),
+    "not checked": selftest.Check("c", "controllers", "a controller in C", not_here),
+}
+
+
+@pytest.fixture
+def asks(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Let the installation be asked only some made-up questions."""
+
+    def ask(*names: str) -> None:
+        monkeypatch.setattr(examination, "all_checks", lambda stops: [CHECKS[name] for name in names])
+
+    return ask
+
+
+@pytest.mark.parametrize(
+    ("names", "code"),
+    [
+        (("met",), 0),
+        (("met", "not checked"), 0),
+        (("met", "missed"), 1),
+        (("missed", "error"), 3),
+    ],
+)
+def test_exit_code_is_that_of_the_worst_finding(
+    call: Call, asks: Callable[..., None], names: tuple[str, ...], code: int
+) -> None:
+    asks(*names)
+    assert call("selftest").code == code
+
+
+def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
+    call: Call, asks: Callable[..., None]
+) -> None:
+    asks(*CHECKS)
+    lines = call("selftest").out.splitlines()
+    assert "tank   pass         1         1.001  1e-02   K     a tank" in lines
+    assert "stop   fail         a1        b2     exact         a stop" in lines
+    assert lines[-4:] == [
+        "fail stop: 1 differs",
+        "error creep: ZeroDivisionError: no wheel load",
+        "not checked c: no C compiler (cc)",
+        "4 known answers: 1 not checked, 1 pass, 1 fail, 1 error",
+    ]
+
+
+def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[..., None]) -> None:
+    asks(*CHECKS)
+    document = json.loads(call("selftest", "--format", "json").out)
+    assert (document["schema"], document["status"]) == ("uictest/selftest/1", "error")
+    assert {"uictest", "python", "processor", "numpy"} <= set(document["environment"])
+    assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "not_checked"]
+    assert document["checks"][1] == {
+        "id": "stop",
+        "group": "numerics",
+        "what": "a stop",
+        "status": "fail",
+        "expected": "a1",
+        "found": "b2",
+        "tolerance": 0.0,
+        "unit": "",
+        "reason": "1 differs",
+    }
+
+
+def test_junit_has_a_testcase_for_every_question(call: Call, asks: Callable[..., None]) -> None:
+    asks(*CHECKS)
+    call("selftest", "--junitxml", "selftest.xml")
+    [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
+    assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (4, 1, 1, 1)
+    kinds = [type(case.result[0]).__name__ if case.result else "" for case in suite]
+    assert kinds == ["", "Failure", "Error", "Skipped"]
+    assert {"uictest", "processor", "reference"} <= {each.name for each in suite.properties()}

@@ -1,0 +1,261 @@
+"""`uictest validate` and `uictest run --validated`: hand-made recordings with a known bias."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from openpyxl import load_workbook
+
+from uictest.validation import read_validation
+
+from ..conftest import FIGURES
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+SIMULATED = FIGURES["braking_distance_m"]
+"""What every simulation comes to here, m."""
+
+
+def record(name: str, distance: float, speed_kmh: float = 30.0) -> str:
+    """Write the record of a train that stops within a distance (m) at a constant deceleration."""
+    speed = speed_kmh / 3.6
+    deceleration = speed**2 / (2.0 * distance)
+    time = np.arange(-1.0, speed / deceleration + 1.0, 0.01)
+    speeds = np.clip(speed - deceleration * time, 0.0, speed)
+    lines = ["time [s],speed [m/s]", *(f"{t:.2f},{v!r}" for t, v in zip(time, speeds.tolist(), strict=True))]
+    Path(name).write_text("\n".join(lines) + "\n", "utf-8")
+    return name
+
+
+@pytest.fixture
+def validate(call: Call, scenario: Write, made_up: list[str]) -> Callable[..., Any]:
+    """Validate records, whose simulation is made up, against a stop from 30 km/h."""
+    scenario("stop", "rail: {condition: wet, friction: 0.1}\n")
+    Path("map.yaml").write_text(
+        "schema: uictest/channel-map/1\nname: m\nextends: uictest\npreparation: {trigger_time: 0 s}\n"
+    )
+
+    def run(*entries: str, options: tuple[str, ...] = (), text: str = "") -> Any:
+        stops = "".join(f"  - {{scenario: scenarios/stop.yaml, map: map.yaml, {each}}}\n" for each in entries)
+        head = "schema: uictest/validation/1\nname: my-train\n"
+        Path("my.validation.yaml").write_text(f"{head}{text}stops:\n{stops}", "utf-8")
+        return call("validate", "my.validation.yaml", *options)
+
+    return run
+
+
+def newest() -> Path:
+    [folder] = Path("reports").glob("validation-*")
+    return folder
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    with (newest() / name).open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_known_bias_of_the_distance_is_found(validate: Callable[..., Any]) -> None:
+    """Simulated stops are 5, 10 and 15 m longer than these records: bias 10 m, deviation 5 m."""
+    files = [record(f"r{error}.csv", SIMULATED - error) for error in (5, 10, 15)]
+    answer = validate(f"recordings: [{', '.join(files)}]")
+    assert answer.code == 0
+    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    assert figure["stops"] == "3"
+    assert float(figure["bias"]) == pytest.approx(10.0, abs=1e-3)
+    assert float(figure["deviation"]) == pytest.approx(5.0, abs=1e-3)
+    # Student's t with two degrees of freedom: 4.3027.
+    assert float(figure["bias_high"]) == pytest.approx(10.0 + 4.30265 * 5.0 / 3**0.5, abs=1e-3)
+    assert float(figure["limits_low"]) == pytest.approx(10.0 - 4.30265 * 5.0 * (4 / 3) ** 0.5, abs=1e-3)
+    expected = np.mean([error / (SIMULATED - error) for error in (5, 10, 15)])
+    assert float(figure["relative_bias"]) == pytest.approx(expected, rel=1e-4)
+    assert "3 of 3 recorded stops counted" in answer.err
+    lines = answer.out.splitlines()
+    assert any(line.startswith("braking_distance_m") and "+10" in line for line in lines)
+
+
+def test_every_stop_is_in_the_table_of_stops_with_its_difference(validate: Callable[..., Any]) -> None:
+    validate(f"recordings: [{record('a.csv', SIMULATED - 5.0)}]")
+    [row] = [each for each in rows("stops.csv") if each["figure"] == "braking_distance_m"]
+    assert (row["stop"], row["recording"], row["counted"]) == ("my-train.stop.a", "a.csv", "true")
+    assert float(row["simulated"]) == SIMULATED
+    assert float(row["difference"]) == pytest.approx(5.0, abs=1e-3)
+
+
+def test_one_stop_claims_no_spread(validate: Callable[..., Any]) -> None:
+    answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
+    assert "not compared, as no counted stop has both: " in answer.out
+    assert "maximum_disc_temperature_degc_1" not in answer.out
+    assert "one stop: it shows a difference, and nothing of bias or spread" in answer.out
+    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    assert (figure["deviation"], figure["bias_low"], figure["limits_high"]) == ("", "", "")
+
+
+def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: Callable[..., Any]) -> None:
+    used, other = record("used.csv", SIMULATED - 100.0), record("other.csv", SIMULATED - 5.0)
+    answer = validate(f"recordings: [{used}], tuned: true", f"recordings: [{other}]")
+    assert answer.code == 0
+    assert "not counted: numbers of its scenario were found with it" in answer.out
+    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    assert (figure["stops"], float(figure["bias"])) == ("1", pytest.approx(5.0, abs=1e-3))
+    assert "1 of 2 recorded stops counted" in answer.err
+
+
+def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Callable[..., Any]) -> None:
+    for folder in ("monday", "tuesday"):
+        Path(folder).mkdir()
+        record(f"{folder}/run.csv", SIMULATED)
+    answer = validate("recordings: [monday/run.csv]", "recordings: [tuesday/run.csv], repeat: 1")
+    assert answer.code == 4
+    assert "a second recorded stop 'my-train.stop.run', of tuesday/run.csv and monday/run.csv" in answer.err
+    assert list(Path("reports").glob("*")) == []
+
+
+def test_a_copy_of_a_record_is_no_second_stop(validate: Callable[..., Any]) -> None:
+    copy = Path(shutil.copy(record("a.csv", SIMULATED - 5.0), "b.csv"))
+    answer = validate(f"recordings: [a.csv, {copy}]")
+    assert answer.code == 1
+    assert "stop my-train.stop.b from 30 km/h" in answer.out
+    assert "not counted: a copy of a.csv" in answer.out
+    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    assert (figure["stops"], figure["deviation"]) == ("1", "")
+
+
+def test_a_copy_of_a_record_that_the_numbers_come_from_does_not_count(validate: Callable[..., Any]) -> None:
+    copy = Path(shutil.copy(record("used.csv", SIMULATED), "again.csv"))
+    answer = validate(f"recordings: [{copy}]", "recordings: [used.csv], tuned: true")
+    assert answer.code == 1
+    assert "not counted: a copy of used.csv" in answer.out
+    assert "0 of 2 recorded stops counted" in answer.err
+
+
+def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Callable[..., Any]) -> None:
+    near, far = record("near.csv", SIMULATED, 32.0), record("far.csv", SIMULATED, 34.0)
+    answer = validate(f"recordings: [{near}, {far}]")
+    assert answer.code == 1
+    assert "stop my-train.stop.far from 34 km/h: not counted: its scenario begins at 30 km/h" in answer.out
+    validation = read_validation(newest() / "validation.json").validation
+    assert [stop.id for stop in validation.counted] == ["my-train.stop.near"]
+
+
+def test_a_record_without_an_end_is_named_and_the_others_count(validate: Callable[..., Any]) -> None:
+    Path("bad.csv").write_text("time [s],speed [m/s]\n0,8\n1,nan\n")
+    answer = validate(f"recordings: [bad.csv, {record('good.csv', SIMULATED)}]")
+    assert answer.code == 1
+    assert (
+        "stop my-train.stop.bad from 28.8 km/h: not counted: the record has no braking distance" in answer.out
+    )
+    validation = read_validation(newest() / "validation.json").validation
+    assert [domain.stops for domain in validation.domains] == [1]
+
+
+def test_a_simulation_that_fails_is_an_error_and_never_a_figure(
+    validate: Callable[..., Any], scenario: Write
+) -> None:
+    scenario("stop", "tags: [error]\n")
+    answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
+    assert answer.code == 3
+    assert "not counted: simulation: ZeroDivisionError: no wheel load" in answer.out
+    assert rows("figures.csv") == []
+
+
+def test_json_is_the_document_that_is_written(validate: Callable[..., Any]) -> None:
+    answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", options=("--format", "json"))
+    assert answer.out == (newest() / "validation.json").read_text("utf-8")
+    document = json.loads(answer.out)
+    assert document["schema"] == "uictest/validation-result/1"
+    assert {"my.validation.yaml", "scenarios/stop.yaml", "map.yaml", "a.csv"} <= set(document["inputs"])
+
+
+def test_a_series_without_recordings_says_what_to_write(call: Call, scenario: Write) -> None:
+    scenario("dry", "rail: {condition: dry}\n")
+    scenario("wet", "rail: {condition: wet}\n")
+    text = "schema: uictest/series/1\nname: s\ndry: scenarios/dry.yaml\nwet: scenarios/wet.yaml\n"
+    Path("s.series.yaml").write_text(text)
+    answer = call("validate", "s.series.yaml")
+    assert answer.code == 4
+    assert "no stop names a recording: list them under `recordings`" in answer.err
+
+
+@pytest.fixture
+def validated(validate: Callable[..., Any]) -> Path:
+    """The document of a validation from 29 to 31 km/h."""
+    files = [record(f"r{speed}.csv", SIMULATED, float(speed)) for speed in (29, 31)]
+    assert validate(f"recordings: [{', '.join(files)}]").code == 0
+    return newest() / "validation.json"
+
+
+def test_cases_outside_of_what_was_validated_are_flagged_everywhere(call: Call, validated: Path) -> None:
+    changes = ("--set", "initial_speed=30 km/h,40 km/h")
+    answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, "--report", "html,xlsx")
+    assert answer.code == 0
+    flags = [line for line in answer.out.splitlines() if line.startswith("outside")]
+    assert flags == [
+        "outside stop[initial_speed=40kmh] of what my-train validated: initial_speed 40 km/h > 31 km/h"
+    ]
+    assert "1 of 2 cases outside of what my-train validated" in answer.err
+    folder = Path("reports/latest")
+    results = json.loads((folder / "results.json").read_text("utf-8"))
+    inside, outside = (case["domain_of_validity"] for case in results["cases"])
+    assert (inside["validation"], inside["outside"]) == ("my-train", [])
+    assert [each["key"] for each in outside["outside"]] == ["initial_speed"]
+    page = (folder / "index.html").read_text("utf-8")
+    assert "1 of 2 cases outside of what my-train validated" in page
+    assert page.count("outside of what my-train validated: initial_speed 40 km/h &gt; 31 km/h") == 1
+    flag = "outside of what my-train validated: initial_speed 40 km/h > 31 km/h"
+    said = [each.text or "" for each in ElementTree.parse(folder / "junit.xml").iter("system-out")]
+    assert sum(flag in text for text in said) == 1
+    workbook = load_workbook(folder / "report.xlsx", read_only=True)
+    cells = {name: [cell for row in workbook[name].values for cell in row] for name in ("Cover", "Cases")}
+    assert "1 of 2 cases outside of what my-train validated" in cells["Cover"]
+    assert cells["Cases"].count(flag) == 1
+    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    assert inside["sha256"] in manifest["inputs"].values()
+
+
+def test_without_the_option_nothing_is_said(call: Call, validated: Path) -> None:
+    answer = call("run", "scenarios/stop.yaml", "--set", "initial_speed=90 km/h")
+    assert "outside" not in answer.out + answer.err
+    assert "domain_of_validity" not in Path("reports/latest/results.json").read_text("utf-8")
+
+
+def test_results_with_a_domain_are_read_back(call: Call, validated: Path) -> None:
+    call("run", "scenarios/stop.yaml", "--set", "vehicle=crh380a", "--validated", validated)
+    before = Path("reports/latest/results.json").read_text("utf-8")
+    answer = call("report", "reports/latest", "--format", "md")
+    assert answer.code == 0
+    assert "outside of what my-train validated" in Path("reports/latest/summary.md").read_text("utf-8")
+    assert Path("reports/latest/results.json").read_text("utf-8") == before
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda document: document.update(schema="uictest/result/1"), "not the result of a validation"),
+        (lambda document: document.update(domains=[]), "none of its stops is counted"),
+        (lambda document: document["domains"][0].update(stops="two"), "domains"),
+        (lambda document: document.update(verdict="pass"), "verdict"),
+    ],
+)
+def test_a_document_that_is_none_is_refused(
+    call: Call, validated: Path, change: Callable[[dict[str, Any]], None], message: str
+) -> None:
+    document = json.loads(validated.read_text("utf-8"))
+    change(document)
+    validated.write_text(json.dumps(document), "utf-8")
+    answer = call("run", "scenarios/stop.yaml", "--validated", validated)
+    assert answer.code == 4
+    assert message in answer.err
+
+
+def test_a_missing_document_is_refused(call: Call, scenario: Write) -> None:
+    scenario()
+    answer = call("run", "scenarios/stop.yaml", "--validated", "none.json")
+    assert (answer.code, "none.json: No such file" in answer.err) == (4, True)

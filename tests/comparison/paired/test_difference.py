@@ -1,0 +1,126 @@
+"""Differences of pairs against SciPy, against statistics by hand, and against the truth they estimate."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+from scipy import stats
+
+from uictest.comparison import Draw, PairedDifference, paired_group
+
+NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
+
+
+def _stops(values: list[float], first_seed: int = 0, key: str = "ab") -> dict[Draw, dict[str, float]]:
+    return {Draw("", key, first_seed + n): {"locked_time_s": value} for n, value in enumerate(values)}
+
+
+def _difference(first: list[float], second: list[float]) -> PairedDifference:
+    (difference,) = paired_group("x", _stops(first), _stops(second)).differences
+    return difference
+
+
+def test_the_interval_of_the_mean_is_that_of_the_paired_t_test() -> None:
+    draws = np.random.default_rng(1).normal(size=(2, 12))
+    difference = _difference(draws[0].tolist(), (draws[1] + 3.0).tolist())
+    test = stats.ttest_rel(draws[1] + 3.0, draws[0]).confidence_interval(0.95)
+    assert (difference.mean.low, difference.mean.high) == pytest.approx((test.low, test.high))
+    assert difference.mean.value == pytest.approx(np.mean(draws[1] + 3.0 - draws[0]))
+
+
+def test_the_median_of_ten_lies_between_the_second_and_the_ninth_difference() -> None:
+    differences = [5.0, -1.0, 2.0, 8.0, 3.0, 13.0, 21.0, 34.0, 0.5, 1.5]
+    difference = _difference([100.0] * 10, [100.0 + each for each in differences])
+    ranked = sorted(differences)
+    assert (difference.median.low, difference.median.high) == (ranked[1], ranked[8])
+    assert difference.median.value == 4.0
+    assert (difference.first, difference.second) == (100.0, 104.0)
+    assert (difference.larger, difference.smaller, difference.unit) == (9, 1, "s")
+
+
+def test_both_intervals_contain_the_true_difference_as_often_as_they_say() -> None:
+    generator, trials = np.random.default_rng(7), 400
+    inside = np.zeros(2)
+    for _ in range(trials):
+        noise = generator.normal(size=20)
+        own = generator.normal(scale=0.3, size=(2, 20))
+        difference = _difference((noise + own[0]).tolist(), (noise + own[1] + 1.0).tolist())
+        inside += [each.low <= 1.0 <= each.high for each in (difference.mean, difference.median)]
+    assert (inside / trials > 0.92).all()
+    assert inside[0] / trials < 0.98
+
+
+def test_common_noise_makes_the_interval_narrow() -> None:
+    noise = np.random.default_rng(3).normal(scale=50.0, size=10)
+    difference = _difference(noise.tolist(), (noise + np.linspace(0.9, 1.1, 10)).tolist())
+    assert difference.mean.high - difference.mean.low < 0.2
+    assert difference.mean.low > 0.9
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=2, max_size=20))
+def test_sides_exchanged_the_difference_changes_its_sign(pairs: list[tuple[float, float]]) -> None:
+    first, second = ([pair[place] for pair in pairs] for place in (0, 1))
+    there, back = _difference(first, second), _difference(second, first)
+    assert there.mean.value == -back.mean.value
+    assert there.median.value == -back.median.value
+    assert (there.larger, there.smaller) == (back.smaller, back.larger)
+    assert there.mean.low == pytest.approx(-back.mean.high, nan_ok=True)
+
+
+def test_differences_that_are_all_alike_have_no_interval_of_their_mean() -> None:
+    difference = _difference([1.0] * 8, [1.5] * 8)
+    assert math.isnan(difference.mean.low)
+    assert (difference.median.low, difference.median.high) == (0.5, 0.5)
+    same = _difference([2.0, 3.0], [2.0, 3.0])
+    assert same.is_zero
+    assert not difference.is_zero
+
+
+def test_stops_pair_by_seed_and_not_by_place() -> None:
+    first = {Draw("", "ab", seed): {"locked_time_s": float(seed)} for seed in (1, 2, 3)}
+    second = {Draw("", "ab", seed): {"locked_time_s": 10.0 + seed} for seed in (4, 3, 2)}
+    group = paired_group("x", first, second)
+    (difference,) = group.differences
+    assert (difference.mean.value, difference.mean.smallest) == (10.0, 10.0)
+    assert (group.seeds, group.pairs, group.unpaired) == ((2, 3), 2, (1, 1))
+
+
+def test_a_pair_without_a_number_is_left_out_and_counted() -> None:
+    difference = _difference([1.0, math.nan, 3.0, 4.0], [2.0, 3.0, 5.0, math.nan])
+    assert (difference.pairs, difference.missing, difference.mean.value) == (2, 2, 1.5)
+    assert paired_group("x", _stops([1.0, math.nan]), _stops([2.0, 2.0])).differences == ()
+
+
+def test_stops_under_other_conditions_that_met_the_same_noise_count_as_one_draw() -> None:
+    def stops(shift: float) -> dict[Draw, dict[str, float]]:
+        return {
+            Draw(name, "ab", seed): {"locked_time_s": shift + seed}
+            for name in ("wet", "cleaning")
+            for seed in (1, 2, 3)
+        }
+
+    group = paired_group("x", stops(0.0), stops(1.0))
+    assert (group.pairs, group.draws) == (6, 3)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "reason"),
+    [
+        (_stops([1.0, 2.0]), _stops([1.0, 2.0], key="cd"), "other noise"),
+        (_stops([1.0, 2.0]), _stops([1.0, 2.0], 10), "no seed is on both sides: seeds 0, 1; seeds 10, 11"),
+        (_stops([1.0, 2.0]), _stops([1.0, 2.0], 1), "1 pair, 2 are needed"),
+        (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0]), "the noise of the first side is not known"),
+        (_stops([1.0, 2.0]), _stops([1.0, 2.0], key=""), "the noise of the second side is not known"),
+        (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0], key=""), "noise of the first side is not known"),
+        ({Draw("", "ab", None): {}}, {Draw("", "ab", None): {}}, "no known seed; no known seed"),
+        (_stops([]), _stops([1.0, 2.0]), "no stop of the first side has measures"),
+    ],
+)
+def test_stops_that_did_not_meet_the_same_noise_are_refused(
+    first: dict[Draw, dict[str, float]], second: dict[Draw, dict[str, float]], reason: str
+) -> None:
+    with pytest.raises(ValueError, match=reason):
+        paired_group("x", first, second)

@@ -1,0 +1,158 @@
+"""The series of two runs: what is compared of them, and which of their stops pair."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import pytest
+
+from uictest import series
+from uictest.comparison import (
+    Baseline,
+    Comparison,
+    PairedComparison,
+    Scope,
+    Tolerances,
+    compare_runs,
+    compare_variants,
+    comparison_lines,
+)
+from uictest.evaluation import CaseResult, Verdict
+from uictest.report import RunContent
+from uictest.series_measures import SeriesValue, mean_of
+
+MakeCase = Callable[..., CaseResult]
+MakeSeries = Callable[..., series.SeriesResult]
+
+
+@pytest.fixture
+def make_series(make_repeated: MakeCase) -> MakeSeries:
+    """A series of one dry and several wet stops from 120 km/h, the wet ones under two frictions."""
+
+    def make(
+        wet: Sequence[float],
+        status: str = "pass",
+        name: str = "acceptance",
+        parameters: dict[str, str] | None = None,
+        not_counted: tuple[series.UncountedStop, ...] = (),
+        keys: tuple[str, str] = ("00000007", "00000009"),
+    ) -> series.SeriesResult:
+        cases = [series.SeriesCase("dry", 120.0, make_repeated({1: 460.0}, f"{name}.dry"))]
+        for key, friction in zip(keys, ("0.07", "0.09"), strict=True):
+            case_id = f"{name}.wet[friction={friction}]"
+            case = make_repeated(
+                dict(enumerate(wet, 1)), case_id, key, parameters={"rail.friction": friction}
+            )
+            cases.append(series.SeriesCase("wet", 120.0, case))
+        extension = SeriesValue(mean_of([each - 460.0 for each in wet], 0.95))
+        measures = {"deceleration_distance_extension": extension, "k_wet": SeriesValue(None, "no wet stop")}
+        verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")  # type: ignore[arg-type]
+        counts = series.StopCounts(1, 1), series.StopCounts(2 * len(wet), 2 * len(wet) - len(not_counted))
+        return series.SeriesResult(
+            *(name, "acceptance.series.yaml", "", parameters or {}, "pass", "pass", "", 0.95, 0.8, 3.0),
+            criteria=(series.SeriesVerdict(verdict),),
+            measures=measures,
+            speeds=(series.SpeedResult(120.0, *counts, measures),),
+            not_counted=not_counted,
+            cases=tuple(cases),
+        )
+
+    return make
+
+
+def _compared(first: list[series.SeriesResult], second: list[series.SeriesResult]) -> Comparison:
+    runs = RunContent("one", [], series=first), RunContent("other", [], series=second)
+    return compare_runs(*runs, Tolerances())
+
+
+def _paired(found: Comparison) -> PairedComparison:
+    assert found.paired is not None
+    return found.paired
+
+
+def test_a_series_and_itself_agree(make_series: MakeSeries) -> None:
+    found = _compared([make_series([500.0, 510.0])], [make_series([500.0, 510.0])])
+    assert found.agrees
+    # The outcome, a criterion, the dry and the wet stops that count, two measures.
+    assert found.compared == 6
+    assert list(comparison_lines(found)) == []
+
+
+def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series: MakeSeries) -> None:
+    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
+    found = _compared(
+        [make_series([500.0, 510.0])], [make_series([500.0, 530.0], "fail", not_counted=left_out)]
+    )
+    shown = [(each.case, each.quantity, each.first, each.second, each.unit) for each in found.beyond]
+    assert shown == [
+        ("acceptance", "criterion k-wet", "pass", "fail", ""),
+        ("acceptance", "wet stops from 120 km/h", "4 of 4", "3 of 4", ""),
+        ("acceptance", "deceleration_distance_extension", 45.0, 55.0, "%"),
+    ]
+
+
+def test_a_series_on_one_side_only_is_a_difference(make_series: MakeSeries) -> None:
+    found = _compared([make_series([500.0, 510.0])], [])
+    assert [(each.case, each.first, each.second) for each in found.beyond] == [
+        ("acceptance", "pass", "missing")
+    ]
+
+
+def test_the_wet_stops_that_count_on_both_sides_pair(make_series: MakeSeries) -> None:
+    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
+    before = make_series([500.0, 510.0])
+    (group,) = _paired(_compared([before], [make_series([501.0, 513.0])])).groups
+    assert (group.name, group.pairs) == ("acceptance, wet stops from 120 km/h", 4)
+    assert (group.draws, group.seeds) == (4, (1, 2))
+    distance = next(each for each in group.differences if each.quantity == "braking_distance_m")
+    assert (distance.mean.value, distance.mean.smallest, distance.mean.largest) == (2.0, 1.0, 3.0)
+    (group,) = _paired(_compared([before], [make_series([501.0, 513.0], not_counted=left_out)])).groups
+    assert (group.pairs, group.unpaired) == (3, (1, 0))
+
+
+def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series: MakeSeries) -> None:
+    """As those on a rail that sliding cleans and on one that it does not: their friction is the same."""
+    keys = ("00000007", "00000007")
+    found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
+    (group,) = _paired(found).groups
+    assert (group.pairs, group.draws) == (4, 2)
+    line = next(line for line in comparison_lines(found) if line.startswith("paired: acceptance"))
+    assert "only 2 draws of noise, so that the intervals are too narrow" in line
+
+
+def test_a_single_stop_that_does_not_count_is_left_out(make_series: MakeSeries) -> None:
+    # Of a case without repeats the list of stops that do not count has no seed.
+    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", None, "invalid", "no test"),)
+    before = make_series([500.0, 510.0])
+    (group,) = _paired(_compared([before], [dataclasses.replace(before, not_counted=left_out)])).groups
+    assert (group.pairs, group.unpaired) == (2, (2, 0))
+
+
+def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series: MakeSeries) -> None:
+    run = RunContent(
+        "run",
+        [],
+        series=[
+            make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
+            make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
+        ],
+    )
+    (found,) = compare_variants(run, ["controller", "rig.wsp"])
+    assert (found.first, found.second) == ("controller=a", "rig.wsp=bypassed")
+    (group,) = found.groups
+    assert (group.name, group.pairs) == ("wsp, wet stops from 120 km/h", 4)
+    distance = next(each for each in group.differences if each.quantity == "braking_distance_m")
+    assert distance.mean.value == -10.0
+
+
+def test_a_baseline_says_that_it_compares_no_series(make_series: MakeSeries, make_repeated: MakeCase) -> None:
+    with_series = RunContent("run", [], series=[make_series([500.0, 510.0])])
+    without = RunContent("run", [make_repeated({1: 500.0})])
+    note = "series are not compared with the baseline"
+    pairs = {(True, False): True, (False, True): True, (False, False): False}
+    for sides, noted in pairs.items():
+        accepted, run = (with_series if side else without for side in sides)
+        results = {each.id: each for each in accepted.results}
+        baseline = Baseline("kept", "", accepted, results, {}, Scope(frozenset()), Tolerances())
+        assert (note in baseline.compare(run).notes) is noted

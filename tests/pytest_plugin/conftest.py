@@ -1,0 +1,105 @@
+"""A project of somebody else, with scenarios, that is tested by pytest in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+# pytest would load the plugin a second time if it found its entry point as well.
+_PYTEST = [sys.executable, "-m", "pytest", "-p", "uictest.pytest_plugin"]
+_ENVIRONMENT = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
+HANGING = 600.0
+"""Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
+
+SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n{text}"
+SHORT_STOPS = """\
+schema: uictest/criteria/1
+name: short-stops
+sources: {ours: {mark: chosen, text: A limit that the stops of these tests miss}}
+criteria:
+  - id: distance
+    title: A stop of at most 35 m
+    source: ours
+    requirements: [BR-2]
+    layer: requirement
+    measure: braking_distance
+    upper: {value: 35 m, source: ours}
+"""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a test run came to."""
+
+    code: int
+    lines: list[str]
+
+    @property
+    def node_ids(self) -> list[str]:
+        """The collected tests, after `--collect-only -q`."""
+        return [line for line in self.lines if "::" in line]
+
+    @property
+    def summary(self) -> str:
+        """The last line without the time."""
+        return self.lines[-1].strip("= ").partition(" in ")[0]
+
+
+Run = Callable[..., Outcome]
+Write = Callable[[str, str], Path]
+
+
+@pytest.fixture
+def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+    """Write a file of the project."""
+    monkeypatch.chdir(tmp_path)
+
+    def to(name: str, text: str) -> Path:
+        path = Path(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+        return path
+
+    to("pytest.ini", "[pytest]\nuictest_files = scenarios\n")
+    return to
+
+
+@pytest.fixture
+def scenario(write: Write) -> Callable[..., Path]:
+    """Write a scenario of the project; the text is appended to what every scenario needs."""
+
+    def to(name: str, text: str = "") -> Path:
+        return write(f"scenarios/{name}.yaml", SCENARIO.format(name=name, text=text))
+
+    return to
+
+
+@pytest.fixture
+def run(write: Write) -> Run:
+    """Run pytest in the project."""
+
+    def call(*arguments: str) -> Outcome:
+        command = [*_PYTEST, *arguments]
+        done = subprocess.run(
+            command, capture_output=True, text=True, check=False, timeout=HANGING, env=_ENVIRONMENT
+        )
+        return Outcome(done.returncode, [*done.stdout.splitlines(), *done.stderr.splitlines()])
+
+    return call
+
+
+def junit_testcases(junit: Path) -> dict[str, ElementTree.Element]:
+    """Return the testcases of a JUnit file by name."""
+    return {str(each.get("name")): each for each in ElementTree.parse(junit).iter("testcase")}
+
+
+def properties(testcase: ElementTree.Element) -> dict[str, str]:
+    """Return the properties of a testcase."""
+    return {str(each.get("name")): str(each.get("value")) for each in testcase.iter("property")}

@@ -1,0 +1,94 @@
+"""Chromium, headless, driven by selenium: what the tests of pages ask of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest.report import RunContent
+from uictest.report.page import page_html
+
+ARGUMENTS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--no-first-run",
+    "--window-size=1400,1000",
+)
+
+PLOTTED = "return document.querySelectorAll('.panels-plot .scatterlayer .trace').length"
+
+
+def started() -> Any:
+    """Return a browser; skip, or fail where UICTEST_BROWSER says that there must be one."""
+    programs = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
+    for name, place in programs.items():
+        if place is None:
+            _unavailable(f"no {name} on the PATH (Debian: chromium, chromium-driver)")
+    try:
+        from selenium import webdriver
+    except ModuleNotFoundError:
+        _unavailable("selenium is not installed (it is in the extra 'dev')")
+    options = webdriver.ChromeOptions()
+    options.binary_location = str(programs["chromium"])
+    for argument in ARGUMENTS:
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    service = webdriver.ChromeService(str(programs["chromedriver"]))
+    return webdriver.Chrome(options=options, service=service)
+
+
+def _unavailable(reason: str) -> None:
+    if os.environ.get("UICTEST_BROWSER") == "required":
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+def written(folder: Path, content: RunContent) -> Path:
+    """Write the page of a run; return where it stands."""
+    path = folder / "index.html"
+    path.write_text(page_html(content), encoding="utf-8")
+    return path
+
+
+def requests(browser: Any) -> list[str]:
+    """Return what was asked for beyond the page itself and what it holds."""
+    events = (json.loads(entry["message"])["message"] for entry in browser.get_log("performance"))
+    urls = (e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent")
+    return [url for url in urls if not url.startswith(("file:", "data:", "blob:", "about:"))]
+
+
+def emulate(browser: Any, scheme: str = "light", media: str = "") -> None:
+    """Prefer a colour scheme; show the page on a medium."""
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
+
+
+def resize(browser: Any, width: int) -> None:
+    """Give the window a width in pixels; a narrow one is that of a phone."""
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+
+def run(browser: Any, script: str, *arguments: Any) -> Any:
+    """Return what a script returns."""
+    return browser.execute_script(script, *arguments)
+
+
+def wait(browser: Any, script: str, *arguments: Any) -> Any:
+    """Return what a script returns as soon as that is anything, at the latest after some minutes."""
+    for _ in range(4000):
+        found = run(browser, script, *arguments)
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError(f"nothing came of: {script}")

@@ -1,0 +1,179 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import AppliedDefinition, Sensitivity, Verdict, VerdictInterval
+from uictest.recording import Recording
+from uictest.report.page.stop.margins import margin_share, margins_of
+from uictest.report.page.stop.taken import taken_at
+from uictest.report.traces.trace import PlotTrace, trace_of
+
+MakeVerdict = Callable[..., Verdict]
+
+
+@pytest.fixture
+def trace() -> PlotTrace:
+    return PlotTrace(0.0, 30.0, 0.01, {})
+
+
+def _verdicts(make: MakeVerdict, *changes: dict[str, object]) -> list[Verdict]:
+    return [make(id=str(place), **each) for place, each in enumerate(changes)]
+
+
+def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(
+    make_verdict: MakeVerdict, trace: PlotTrace
+) -> None:
+    upper = {"lower": None, "upper": 10.0}
+    verdicts = _verdicts(
+        make_verdict,
+        {**upper, "margin": 5.0},
+        {"lower": 1.0, "upper": None, "value": 1.0, "margin": 0.0},
+        {**upper, "margin": 0.5},
+        {**upper, "margin": -1.0, "status": "fail"},
+        {**upper, "margin": -30.0, "status": "fail"},
+        {"status": "inconclusive", "margin": None},
+        {"status": "not_applicable", "margin": None},
+    )
+    margins = margins_of(verdicts, verdicts, trace)
+    assert [each.verdict.id for each in margins.judged] == ["4", "3", "2", "0", "1"]
+    assert [each.share_text for each in margins.judged] == ["-300 %", "-10 %", "+5 %", "+50 %", "met"]
+    assert [each.id for each in margins.inconclusive] == ["5"]
+    assert [each.id for each in margins.not_applicable] == ["6"]
+
+
+@pytest.mark.parametrize(
+    ("share", "bar", "beyond"),
+    [
+        (-250.0, (0.0, 50.0), True),
+        (-40.0, (30.0, 20.0), False),
+        (60.0, (50.0, 30.0), False),
+        (3e4, (50.0, 50.0), True),
+    ],
+)
+def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
+    make_verdict: MakeVerdict, trace: PlotTrace, share: float, bar: tuple[float, float], beyond: bool
+) -> None:
+    status = "pass" if share > 0 else "fail"
+    verdict = make_verdict(lower=None, upper=2.0, margin=share / 50.0, status=status)
+    (margin,) = margins_of([verdict], [verdict], trace).judged
+    assert margin.bar == pytest.approx(bar)
+    assert margin.beyond is beyond
+
+
+def test_a_verdict_that_turns_keeps_its_margin(make_verdict: MakeVerdict) -> None:
+    intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
+    verdict = make_verdict(
+        lower=None, upper=10.0, margin=4.0, sensitivity=(Sensitivity("d", "s", 0.0, 1.0, intervals),)
+    )
+    assert margin_share(verdict) == pytest.approx(40.0)
+
+
+def test_a_limit_of_zero_has_no_share(make_verdict: MakeVerdict) -> None:
+    verdict = make_verdict(lower=None, upper=0.0, value=0.2, margin=-0.2, status="fail")
+    assert margin_share(verdict) is None
+
+
+def _definitions(**values: float) -> tuple[AppliedDefinition, ...]:
+    return tuple(AppliedDefinition(name, value, "m/s", "chosen") for name, value in values.items())
+
+
+def _with(recording: Recording, **channels: np.ndarray) -> Recording:
+    units = {**dict.fromkeys(channels, "1"), **recording.units}
+    return Recording({**recording.channels, **channels}, units, recording.metadata)
+
+
+@pytest.mark.parametrize(
+    ("measure", "value", "interval"),
+    [("locked_time", 3.0, (10.0, 22.0)), ("longest_lock", 2.0, (20.0, 22.0))],
+)
+def test_a_lock_is_that_of_the_wheelset_that_decides(
+    make_verdict: MakeVerdict,
+    make_recording: Callable[..., Recording],
+    measure: str,
+    value: float,
+    interval: tuple[float, float],
+) -> None:
+    """Wheelset 2 is locked for 1 s and for 2 s, wheelset 4 for 0.5 s."""
+    recording = make_recording()
+    time, speed = recording["time"], recording["wheel_speed_1"]
+
+    def locked(*spans: tuple[float, float]) -> np.ndarray:
+        within = [(time > first + 1e-6) & (time < last + 1e-6) for first, last in spans]
+        return np.where(np.logical_or.reduce(within), 0.0, speed)
+
+    recording = _with(
+        recording, wheel_speed_2=locked((10.0, 11.0), (20.0, 22.0)), wheel_speed_4=locked((15.0, 15.5))
+    )
+    verdict = make_verdict(
+        measure=measure,
+        value=value,
+        definitions=_definitions(locked_speed=0.1, moving_speed=1.0),
+    )
+    taken = taken_at(verdict, trace_of(recording, [verdict]))
+    assert taken is not None
+    assert (taken.start, taken.end) == pytest.approx(interval, abs=0.011)
+    assert (taken.plot, taken.wheelset) == ("locked", 2)
+
+
+def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own(
+    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
+) -> None:
+    recording = make_recording()
+    time = recording["time"]
+    lowest = _with(recording, reservoir_pressure=8e5 - 1e5 * np.exp(-((time - 12.0) ** 2)))
+    verdict = make_verdict(measure="reservoir_minimum_pressure", value=7.0, unit="bar")
+    taken = taken_at(verdict, trace_of(lowest, [verdict]))
+    assert taken is not None
+    assert taken.start == taken.end == pytest.approx(12.0, abs=0.011)
+    assert (taken.plot, taken.wheelset, taken.value) == ("pressure", None, pytest.approx(7.0, abs=1e-6))
+
+
+def _in_fault(recording: Recording, **channels: np.ndarray) -> Recording:
+    active = np.where((recording["time"] > 5.0) & (recording["time"] < 9.0), 2.0, 0.0)
+    faulty = _with(recording, active_faults=active, **channels)
+    return Recording(faulty.channels, faulty.units, {**faulty.metadata, "faults": "a, b"})
+
+
+def test_the_reference_is_furthest_off_after_the_first_fault(
+    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
+) -> None:
+    """It is 3 m/s too high at 2 s, before the fault, and 2 m/s at 12 s."""
+    recording = make_recording()
+    time, speed = recording["time"], recording["speed"]
+    excess = 3.0 * np.exp(-((time - 2.0) ** 2)) + 2.0 * np.exp(-((time - 12.0) ** 2))
+    faulty = _in_fault(recording, reference_speed=speed + excess)
+    verdict = make_verdict(measure="reference_excess", value=7.2, unit="km/h")
+    taken = taken_at(verdict, trace_of(faulty, [verdict]))
+    assert taken is not None
+    assert taken.start == pytest.approx(12.0, abs=0.011)
+    assert taken.value == pytest.approx((120 / 3.6 - 12.0 + 2.0) * 3.6, abs=0.1)
+
+
+@pytest.mark.parametrize(("value", "wheelset"), [(0.5, 4), (1.7, None)])
+def test_a_lock_of_a_sound_wheelset_is_found_by_its_duration(
+    make_verdict: MakeVerdict,
+    make_recording: Callable[..., Recording],
+    value: float,
+    wheelset: int | None,
+) -> None:
+    """Wheelset 2 is faulty and locked for 2 s, wheelset 4 for 0.5 s; nothing lasts 1.7 s."""
+    recording = make_recording()
+    time, speed = recording["time"], recording["wheel_speed_1"]
+
+    def locked(first: float, last: float) -> np.ndarray:
+        return np.where((time > first + 1e-6) & (time < last + 1e-6), 0.0, speed)
+
+    recording = _with(recording, wheel_speed_2=locked(20.0, 22.0), wheel_speed_4=locked(15.0, 15.5))
+    definitions = _definitions(locked_speed=0.1, moving_speed=1.0)
+    verdict = make_verdict(measure="longest_lock_of_sound_wheelsets", value=value, definitions=definitions)
+    taken = taken_at(verdict, trace_of(recording, [verdict]))
+    assert (taken.wheelset if taken else None) == wheelset
+
+
+def test_what_has_no_place_in_the_plots_has_none(make_verdict: MakeVerdict, trace: PlotTrace) -> None:
+    assert taken_at(make_verdict(measure="contact_energy"), trace) is None
+    assert taken_at(make_verdict(measure="braking_distance", value=None), trace) is None
+    assert taken_at(make_verdict(measure="locked_time", value=0.0), trace) is None

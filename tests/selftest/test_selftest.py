@@ -1,0 +1,222 @@
+"""The known answers hold here, and what is not as it should be is found."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import math
+from collections.abc import Callable
+from importlib.metadata import Distribution
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest import physics, selftest, user_cache
+from uictest.selftest import environment, reference, template_stops
+from uictest.selftest.bits import answer_of
+from uictest.selftest.check import Answer, Check, NotCheckedError
+
+STORED = json.loads(selftest.REFERENCE.read_text("utf-8"))
+NUMBERS = {
+    f"{stop}.{name}": text
+    for stop, of_stop in STORED["stops"].items()
+    for name, text in of_stop["numbers"].items()
+}
+FINITE = sorted(name for name, text in NUMBERS.items() if " " not in text and math.isfinite(float(text)))
+
+
+def status_of(stops: selftest.KnownStops, check_id: str) -> str:
+    """Ask one question and return what came of it."""
+    check = next(each for each in selftest.all_checks(stops) if each.id == check_id)
+    return selftest.examine(stops, [check]).findings[0].status
+
+
+def test_every_known_answer_holds_in_this_installation(stops: selftest.KnownStops) -> None:
+    examination = selftest.examine(stops)
+    assert {each.id: each.reason for each in examination.findings if each.status in ("fail", "error")} == {}
+    assert len({each.id for each in examination.findings}) == len(examination.findings)
+
+
+def test_the_stored_numbers_are_those_of_this_tree() -> None:
+    """Where a change is meant to change results: python scripts/selftest_reference.py."""
+    computed = json.loads(selftest.computed_reference())
+    assert {**computed, "version": STORED["version"]} == STORED
+
+
+@given(st.sampled_from(FINITE), st.sampled_from([-math.inf, math.inf]))
+def test_a_changed_bit_of_any_number_is_found_and_named(name: str, towards: float) -> None:
+    changed = {**NUMBERS, name: repr(float(np.nextafter(float(NUMBERS[name]), towards)))}
+    answer = answer_of(NUMBERS, changed)
+    assert answer.expected != answer.found
+    assert answer.words.startswith(f"1 of {len(NUMBERS)} numbers differ: {name}: expected {NUMBERS[name]}")
+
+
+def test_a_number_that_is_missing_or_new_is_found() -> None:
+    fewer = dict(list(NUMBERS.items())[1:])
+    for answer in (answer_of(NUMBERS, fewer), answer_of(fewer, NUMBERS)):
+        assert answer.expected != answer.found
+        assert "no such number" in answer.words
+
+
+def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored = dict(reference.stored_numbers("dry-120"))
+    distance = float(stored["braking_distance"])
+    stored["braking_distance"] = repr(float(np.nextafter(distance, 0.0)))
+    content = {
+        **STORED,
+        "stops": {**STORED["stops"], "dry-120": {**STORED["stops"]["dry-120"], "numbers": stored}},
+    }
+    monkeypatch.setattr(reference, "_stored", lambda: content)
+    failed = [each for each in selftest.examine(stops).findings if each.status == "fail"]
+    assert [each.id for each in failed] == ["dry-120", "lanes"]
+    assert all("1 of " in each.reason and "braking_distance" in each.reason for each in failed)
+
+
+def test_a_changed_part_of_the_library_is_found_in_the_inputs(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    changed = stops.cases["dry-120"]
+    heavier = changed.scenario.model_copy(update={"seed": 1})
+    monkeypatch.setitem(stops.cases, "dry-120", type(changed)(changed.id, heavier, changed.path, {}, {}))
+    assert status_of(stops, "inputs-of-dry-120") == "fail"
+
+
+def scaled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Let a function return one per cent more."""
+
+    def more(*arguments: Any, **named: Any) -> Any:
+        result = function(*arguments, **named)
+        return tuple(1.01 * each for each in result) if isinstance(result, tuple) else 1.01 * result
+
+    return more
+
+
+BROKEN = {
+    "adiabatic-tank": "enthalpy",
+    "isothermal-tank": "mass_flow",
+    "choked-orifice": "mass_flow",
+    "creep-without-reduction": "creep_force",
+    "creep-on-wet-rail": "creep_force",
+    "highest-creep": "creep_force",
+    "play-loop": "force_after",
+    "caliper-loop": "stroke_after",
+}
+"""Check -> the function of physics without which it must fail."""
+
+
+@pytest.mark.parametrize("check_id", BROKEN)
+def test_physics_that_is_wrong_by_one_per_cent_is_found(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch, check_id: str
+) -> None:
+    function = BROKEN[check_id]
+    monkeypatch.setattr(physics, function, scaled(getattr(physics, function)))
+    assert status_of(stops, check_id) == "fail"
+
+
+def test_a_stop_that_is_wrong_by_one_per_cent_misses_the_textbook(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stop = stops.stop("rolling-120")
+    measures = stop.measures.copy()
+    measures["braking_distance"] *= 1.01
+    monkeypatch.setattr(stops, "stop", lambda name: type(stop)(measures, stop.wheelset_measures))
+    assert status_of(stops, "textbook-stop") == "fail"
+
+
+def asked(stops: selftest.KnownStops, answer: Callable[[selftest.KnownStops], Answer], **options: Any) -> Any:
+    """Ask one question that is made up."""
+    return selftest.examine(stops, [Check("made-up", "physics", "made up", answer, **options)]).findings[0]
+
+
+def test_what_a_machine_lacks_is_not_checked_and_says_why(stops: selftest.KnownStops) -> None:
+    def lacking(stops: selftest.KnownStops) -> Answer:
+        raise NotCheckedError("no C compiler")
+
+    finding = asked(stops, lacking)
+    assert (finding.status, finding.reason) == ("not_checked", "no C compiler")
+
+
+def test_a_check_that_raises_is_an_error(stops: selftest.KnownStops) -> None:
+    finding = asked(stops, lambda stops: Answer(1.0, 1.0 / 0.0))
+    assert (finding.status, finding.reason) == ("error", "ZeroDivisionError: float division by zero")
+
+
+@pytest.mark.parametrize(
+    ("expected", "found", "tolerance", "status"),
+    [
+        (100.0, 100.0, 0.0, "pass"),
+        (100.0, math.nextafter(100.0, 0.0), 0.0, "fail"),
+        (100.0, 100.9, 0.01, "pass"),
+        (100.0, 101.1, 0.01, "fail"),
+        (-100.0, -100.9, 0.01, "pass"),
+        (100.0, math.nan, 0.01, "fail"),
+        ("pass", "fail", 0.0, "fail"),
+        ("1", 1.0, 0.0, "fail"),
+    ],
+)
+def test_answers_agree_within_the_tolerance(
+    stops: selftest.KnownStops, expected: Any, found: Any, tolerance: float, status: str
+) -> None:
+    assert asked(stops, lambda stops: Answer(expected, found), tolerance=tolerance).status == status
+
+
+def test_an_advisory_check_only_warns(stops: selftest.KnownStops) -> None:
+    assert asked(stops, lambda stops: Answer("read back", "nothing"), advisory=True).status == "warning"
+
+
+def test_without_a_compiler_the_controller_in_c_is_not_checked(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CC", "no-such-compiler")
+    assert status_of(stops, "c-controller") == "not_checked"
+
+
+def test_a_controller_from_outside_that_answers_otherwise_is_found(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    files = template_stops.templates.controller_files("python")
+    files["my-wsp.yaml"] = files["my-wsp.yaml"].replace("upper_slide: 0.15", "upper_slide: 0.16")
+    monkeypatch.setattr(template_stops.templates, "controller_files", lambda language: files)
+    assert status_of(stops, "python-controller") == "fail"
+
+
+def test_a_cache_that_keeps_nothing_is_a_warning(
+    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(user_cache, "read", lambda kind, inputs: None)
+    assert status_of(stops, "cache") == "warning"
+
+
+def installed(folder: Path, content: bytes) -> Distribution:
+    """Return a package of one file as an installer leaves it."""
+    digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+    (folder / "uictest").mkdir()
+    (folder / "uictest" / "limits.yaml").write_bytes(content)
+    record = folder / "uictest-0.dist-info"
+    record.mkdir()
+    (record / "METADATA").write_text("Metadata-Version: 2.1\nName: uictest\nVersion: 0\n")
+    (record / "RECORD").write_text(f"uictest/limits.yaml,sha256={digest},{len(content)}\nuictest/own.pyc,,\n")
+    return Distribution.at(record)
+
+
+@pytest.mark.parametrize(("content", "status"), [(b"1 s", "pass"), (b"2 s", "fail"), (None, "fail")])
+def test_an_installed_file_that_was_changed_or_removed_is_found(
+    stops: selftest.KnownStops,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    content: bytes | None,
+    status: str,
+) -> None:
+    own = installed(tmp_path, b"1 s")
+    file = tmp_path / "uictest" / "limits.yaml"
+    file.unlink()
+    if content is not None:
+        file.write_bytes(content)
+    monkeypatch.setattr(environment, "distribution", lambda name: own)
+    assert status_of(stops, "installed-files") == status

@@ -1,0 +1,112 @@
+"""Sweeps of one scenario in a folder of their own, and a rig whose stops are a formula."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from uictest import rig
+from uictest.controllers import HEADER, Controller
+from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.model.friction_law import FRICTIONS
+from uictest.sweeps import ChunkRunner, Plan, load_sweep
+from uictest.sweeps.running.case_blocks import BlockAssembler
+
+SCENARIO = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 30 km/h
+rail: {condition: wet, friction: 0.1}
+"""
+HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
+GRID = """\
+grid:
+  rail.friction: [0.08, 0.10, 0.12]
+  brake.command: [80 %, 100 %]
+"""
+SLIP_BAND = Path(__file__).parent / "controllers"
+"""A controller from outside with the commands of the built-in slip-band."""
+Load = Callable[..., Plan]
+
+
+@pytest.fixture
+def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
+    """The plan of a sweep whose file says the given text after its head."""
+    monkeypatch.chdir(tmp_path)
+    Path("stop.yaml").write_text(SCENARIO)
+
+    def write_and_load(
+        text: str = GRID, *overrides: str, scenario: str = "stop.yaml", **options: Any
+    ) -> Plan:
+        Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + text)
+        return load_sweep(Path("study.sweep.yaml"), overrides, **options)
+
+    return write_and_load
+
+
+def formula(
+    parameters: NDArray[Any],
+    wheelset_parameters: NDArray[Any],
+    rail: NDArray[np.float64],
+    controllers: Sequence[Controller],
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
+    measures = np.zeros(parameters.size, STOP_MEASURES)
+    wheelsets = np.zeros((parameters.size, 4), WHEELSET_MEASURES)
+    speed, friction = parameters["initial_speed"], rail[:, FRICTIONS, 0]
+    for name in STOP_MEASURES.names or ():
+        measures[name] = np.nan
+    measures["initial_speed"], measures["stopped"] = speed, 1.0
+    measures["braking_time"] = measures["end_time"] = speed / (9.81 * friction)
+    measures["braking_distance"] = measures["end_distance"] = speed**2 / (2.0 * 9.81 * friction)
+    for name in (
+        "build_up_time",  # the brake is there at once
+        "build_up_distance",
+        "end_speed",
+        "energy_residual",
+        "air_residual",
+        "air_energy_residual",
+        "air_consumed",
+        "reservoir_minimum_pressure",
+        "reservoir_margin",
+        "deceleration_bogie_1",
+        "deceleration_bogie_2",
+    ):
+        measures[name] = 0.0
+    # Wheels lock at high pressure on slippery rail: the only thing that a stop can fail by.
+    wheelsets["longest_lock"] = (parameters["commanded_pressure"] * 1e-5 / 3.8 - 9.0 * friction)[
+        :, None
+    ] * 5.0
+    return measures, wheelsets
+
+
+@pytest.fixture
+def made_up() -> Callable[[Plan], ChunkRunner]:
+    """A runner whose stops are the formula."""
+    return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> str:
+    """The controller slip-band as a shared library beside the sweep, as a scenario names it."""
+    compiler = shutil.which(os.environ.get("CC", "gcc"))
+    if compiler is None:
+        pytest.skip("no C compiler")
+    options = ["-O2", "-ffp-contract=off", "-fPIC", "-shared", f"-I{HEADER.parent}"]
+    subprocess.run([compiler, *options, "-o", tmp_path / "libband.so", SLIP_BAND / "slip_band.c"], check=True)
+    return "libband.so"
+
+
+@pytest.fixture
+def python_file(tmp_path: Path) -> str:
+    """The controller slip-band as a class in a file beside the sweep, as a scenario names it."""
+    shutil.copy(SLIP_BAND / "slip_band.py", tmp_path)
+    return "slip_band.py, class: SlipBand"

@@ -1,0 +1,282 @@
+"""What a sweep file may say, and what is said of one that is wrong."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.scenario import ScenarioErrors
+from uictest.sweeps import Plan, load_sweep
+from uictest.sweeps.plan.base_case import BaseCase
+
+from ..conftest import GRID, HEAD, Load
+
+SAMPLE = "sample: {method: sobol, size: 4, parameters: {rail.friction: {uniform: [0.05, 0.15]}}}\n"
+
+
+def values(plan: Plan, key: str) -> list[str]:
+    return plan.settings(np.arange(plan.size))[key].texts
+
+
+def test_every_combination_first_key_slowest(load: Load) -> None:
+    plan = load(GRID + "zip: {seed: [1, 2], rail.gradient: [0 permille, 5 permille]}\n")
+    assert plan.size == 12
+    assert values(plan, "rail.friction") == ["0.08"] * 4 + ["0.10"] * 4 + ["0.12"] * 4
+    assert values(plan, "seed") == ["1", "2"] * 6
+    assert values(plan, "rail.gradient") == ["0 permille", "5 permille"] * 6
+    assert plan.ids(np.array([3])) == ["study[friction=0.08,command=100,seed=2,gradient=5permille]"]
+
+
+def test_values_without_a_name_are_numbered_from_one(load: Load) -> None:
+    profiles = "{points: [{position: 0 m, friction: 0.1}]}, {points: [{position: 0 m, friction: 0.2}]}"
+    plan = load(f"grid: {{rail.friction: [{profiles}]}}\n")
+    assert plan.ids(np.arange(2)) == ["study[friction=value1]", "study[friction=value2]"]
+
+
+def test_ranges_by_step_and_count(load: Load) -> None:
+    plan = load(
+        "ranges:\n  rail.friction: {first: 0.08, last: 0.10, step: 0.01}\n"
+        "  initial_speed: {first: 20 km/h, last: 30 km/h, count: 3}\n"
+    )
+    assert values(plan, "rail.friction")[::3] == ["0.08", "0.09", "0.10"]
+    assert values(plan, "initial_speed")[:3] == ["20 km/h", "25 km/h", "30 km/h"]
+
+
+def test_a_sample_is_numbered_in_the_ids_and_goes_with_a_grid(load: Load) -> None:
+    plan = load(SAMPLE + "grid: {brake.command: [80 %, 100 %]}\n")
+    assert plan.ids(np.array([0, 5])) == ["study[command=80,sample=0]", "study[command=100,sample=1]"]
+    drawn = plan.settings(np.arange(8))["rail.friction"]
+    assert drawn.texts[:4] == drawn.texts[4:]
+    assert all(0.05 <= number <= 0.15 for number in drawn.numbers)
+
+
+def test_ids_are_unique_and_do_not_depend_on_how_many_are_asked_for(load: Load) -> None:
+    plan = load(SAMPLE + GRID.replace("rail.friction", "rail.condition.friction"))
+    ids = plan.ids(np.arange(plan.size))
+    assert len(set(ids)) == plan.size
+    assert plan.ids(np.array([7, 2])) == [ids[7], ids[2]]
+
+
+def test_the_command_line_fixes_a_key_or_sweeps_it(load: Load) -> None:
+    fixed = load(GRID, "rail.friction=0.2")
+    assert fixed.keys == ("brake.command",)
+    assert fixed.base.scenario.rail.friction == 0.2
+    swept = load(GRID, "rail.friction=0.2,0.3")
+    assert values(swept, "rail.friction") == ["0.2", "0.2", "0.3", "0.3"]
+    assert load(
+        SAMPLE + GRID.replace("rail.friction", "seed").replace("0.08, 0.10, 0.12", "1"), "rail.friction=0.2"
+    ).keys == (
+        "seed",
+        "brake.command",
+    )
+    assert load(GRID, seed=7).base.scenario.seed == 7
+
+
+def test_the_files_read_are_inputs(load: Load) -> None:
+    inputs = load(GRID + "zip: {rig.caliper: [six-inch], vehicle: [crh380a]}\n").inputs
+    assert {"stop.yaml", "study.sweep.yaml", "library:vehicles/crh380a.yaml"} <= set(inputs)
+
+
+def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
+    load()
+    Path("stop.yaml").write_text(Path("stop.yaml").read_text() + "matrix: {rig.compensation: [none, full]}\n")
+    wanted = HEAD + "case: stop[compensation=none]\n" + GRID
+    Path("study.sweep.yaml").write_text(wanted)
+    assert load_sweep(Path("study.sweep.yaml")).base.scenario.rig.compensation == "none"
+    with pytest.raises(ScenarioErrors, match="has 2 cases, a sweep starts from one"):
+        load(GRID)
+    with pytest.raises(ScenarioErrors, match=r"did you mean 'stop\[compensation=none\]'"):
+        load("case: stop[compensation=non]\n" + GRID)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("grid: {rail.frictoin: [0.1]}\n", "study.sweep.yaml:4:8: rail.frictoin: unknown key 'frictoin'"),
+        ("grid: {rail.frictoin: [0.1]}\n", "did you mean 'friction'?"),
+        ("grid: {rail.friction: [0.1, 5]}\n", "study.sweep.yaml:4:29: rail.friction: 5 is out of range"),
+        ("grid: {initial_speed: [30]}\n", "write `30 km/h` or"),
+        ("grid: {brake.position: [R, X]}\n", "unknown brake position 'X'"),
+        ("grid: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
+        ("grid: {rail.friction: [0.1, 0.1]}\n", "is there twice"),
+        ("grid: {name: [a, b]}\n", "cannot vary"),
+        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under `ranges`"),
+        ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
+        ("", "nothing varies"),
+        ("grid: {rail.friction: [0.1]}\nzip: {rail.friction: [0.2]}\n", "is under grid as well"),
+        ("zip: {rail.friction: [0.1, 0.2], seed: [1]}\n", "1 values where 'rail.friction' has 2"),
+        ("ranges: {rail.friction: {first: 0.1, last: 0.2}}\n", "give either 'step' or 'count'"),
+        ("ranges: {rail.friction: {first: 0.1, last: 0.2, step: -0.1}}\n", "do not lead from 0.1 to 0.2"),
+        ("ranges: {initial_speed: {first: 3 m/s, last: 20 km/h, count: 3}}\n", "different units"),
+        ("sample: {size: 3, parameters: {rail.friction: {uniform: [0.2, 0.1]}}}\n", "the values must rise"),
+        ("sample: {size: 3, parameters: {rail.friction: {uniform: [0.2, 9]}}}\n", "9 is out of range"),
+        ("sample: {size: 3, parameters: {rail.friction: {log-uniform: [0, 1]}}}\n", "0 has no logarithm"),
+        ("sample: {size: 3, parameters: {rail.friction: {}}}\n", "give exactly one distribution"),
+        ("sample: {size: 3, parameters: {seed: {uniform: [1, 5]}}}\n", "only a quantity can be drawn"),
+        ("sample: {size: 3, parameters: {rig.wsp: {choice: [active, off]}}}\n", "unknown value 'off'"),
+        (
+            "sample: {method: saltelli, size: 3, parameters: {rail.friction: {uniform: [0.1, 0.2]}}}\n",
+            "take a power of two: 2 or 4",
+        ),
+    ],
+)
+def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(text)
+    assert expected in str(caught.value)
+    assert str(caught.value).startswith("study.sweep.yaml:")
+
+
+@pytest.mark.parametrize(
+    ("distribution", "expected"),
+    [
+        ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is rejected"),
+        (
+            "{choice: [0.1, 5, 7]}",
+            "5 is out of range: it must be at most 1; 1 more of the 3 values is rejected",
+        ),
+        ("{uniform: [0.2]}", "expected two bounds, [lowest, highest], found 1"),
+        ("{log-uniform: [0.1, 0.2, 0.3]}", "expected two bounds, [lowest, highest], found 3"),
+        ("{uniform: 0.2}", "expected two bounds, [lowest, highest], found no list"),
+        ("{triangular: [0.1, 0.2]}", "expected three values, [lowest, likeliest, highest], found 2"),
+        (
+            "0.1",
+            "accepted: uniform, log-uniform, triangular, normal, choice; such as {uniform: [0.08, 0.16]}",
+        ),
+    ],
+)
+def test_what_a_distribution_expects(load: Load, distribution: str, expected: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(f"sample: {{size: 3, parameters: {{rail.friction: {distribution}}}}}\n")
+    (error,) = caught.value.diagnostics
+    assert (error.file, error.line) == ("study.sweep.yaml", 4)
+    assert expected in str(error)
+
+
+def test_choices_of_one_label_are_two_where_they_are_written_differently(load: Load) -> None:
+    load()
+    for folder in (Path("here"), Path("there")):
+        folder.mkdir()
+        (folder / "rail.yaml").write_text("schema: uictest/rail/1\nextends: wet\n")
+    parameters = "{rail.condition: {choice: [here/rail.yaml, there/rail.yaml]}}"
+    assert load(f"sample: {{size: 4, parameters: {parameters}}}\n", "rail.friction=null").size == 4
+
+
+@pytest.mark.parametrize("text", ["", "[1, 2]\n", "schema: uictest/sweep/2\nname: a\n", "name: a\n"])
+def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str) -> None:
+    load()
+    Path("other.sweep.yaml").write_text(text)
+    with pytest.raises(ScenarioErrors, match="a sweep starts with `schema: uictest/sweep/1`"):
+        load_sweep(Path("other.sweep.yaml"))
+
+
+@pytest.mark.parametrize(
+    ("normal", "expected"),
+    [
+        (
+            "{mean: 0.1, deviation: 1e-7, lower: 0.2, upper: 0.3}",
+            "lower: 0.2 lies more than 100000 deviations",
+        ),
+        (
+            "{mean: 0.3, deviation: 1e-7, lower: 0.1, upper: 0.2}",
+            "upper: 0.2 lies more than 100000 deviations",
+        ),
+    ],
+)
+def test_a_normal_without_spread_between_its_ends_is_rejected(load: Load, normal: str, expected: str) -> None:
+    with pytest.raises(ScenarioErrors, match=rf"rail\.friction\.normal\.{expected}"):
+        load(f"sample: {{size: 3, parameters: {{rail.friction: {{normal: {normal}}}}}}}\n")
+
+
+def test_all_errors_are_reported_at_once(load: Load) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
+    assert [error.line for error in caught.value.diagnostics] == [5, 6]
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "expected"),
+    [
+        ("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 29, "5 is out of range"),
+        ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 25, "1.1 is out of range"),
+        (
+            "ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}",
+            25,
+            "'0.001' is inconsistent with",
+        ),
+        ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 10, "unknown key 'frictoin'"),
+        ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 45, "0 is out of range"),
+        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 17, "'2' with '0.002' is inconsistent with"),
+        (
+            "sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}",
+            58,
+            "'0.001' is inconsistent with",
+        ),
+        ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 60, "no vehicle 'a'"),
+    ],
+)
+def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, expected: str) -> None:
+    with pytest.raises(ScenarioErrors) as caught:
+        load(text + "\n")
+    (error,) = caught.value.diagnostics
+    assert (error.file, error.line, error.column) == ("study.sweep.yaml", 4, column)
+    assert expected in error.message
+
+
+def test_the_error_of_an_axis_counts_the_values_that_are_rejected_too(load: Load) -> None:
+    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
+        load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
+    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
+        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
+    with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
+        load("grid: {rail.frictoin: [1, 2, 3]}\n")
+
+
+def test_only_the_first_rejected_value_is_read_as_a_scenario(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[object] = []
+    original = BaseCase.scenario_with
+    monkeypatch.setattr(BaseCase, "scenario_with", lambda *given: read.append(given) or original(*given))
+    with pytest.raises(ScenarioErrors):
+        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
+    assert len(read) == 1
+
+
+def test_what_a_value_does_to_an_option_is_reported_at_the_value(load: Load) -> None:
+    with pytest.raises(
+        ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' is inconsistent with initial_speed"
+    ):
+        load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
+
+
+def test_errors_inside_a_part_are_reported_in_its_file(load: Load) -> None:
+    load()
+    Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
+    with pytest.raises(ScenarioErrors) as caught:
+        load("grid: {rail.condition: [rail.yaml, wet]}\n", "rail.friction=null")
+    assert {error.file for error in caught.value.diagnostics} == {"rail.yaml"}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "grid: {rail.condition: [dry, wet]}\n",
+        "grid: {rail.condition.friction: [0.2, 0.3]}\n",
+        "sample: {size: 4, parameters: {rail.condition: {choice: [dry, wet]}}}\n",
+        "sample: {size: 4, parameters: {rail.condition.friction: {uniform: [0.2, 0.3]}}}\n",
+    ],
+)
+def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load: Load, text: str) -> None:
+    with pytest.raises(ScenarioErrors, match=r"but rail\.friction stays '0\.1'"):
+        load(text)
+    assert load(text + "zip: {rail.friction: [null, 0.2]}\n").size % 2 == 0
+
+
+def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load: Load) -> None:
+    load()
+    with pytest.raises(ScenarioErrors, match="a scenario is run with `uictest run`"):
+        load_sweep(Path("stop.yaml"))
+    Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", "study.sweep.yaml") + GRID)
+    with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):
+        load_sweep(Path("study.sweep.yaml"))

@@ -1,0 +1,224 @@
+"""A case of a sweep has the numbers that the scenario with its values has, to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.evaluation import JUDGED_KEYS
+from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, WHEELSET_ASSIGNMENTS, assemble, assigned, friction_laws
+from uictest.scenario import Case, Scenario, load as load_scenarios
+from uictest.scenario.yaml.model import Model
+from uictest.sweeps import Plan
+from uictest.sweeps.running.case_blocks import BlockAssembler
+from uictest.sweeps.running.scenario_function import ScenarioVariants
+
+from ..conftest import GRID, Load
+
+SWEEPS = {
+    "grid": GRID + "  initial_speed: [20 km/h, 8 m/s]\n",
+    "parts": """\
+grid:
+  vehicle: [intercity-180, crh380a]
+  vehicle.wheelset.radius: [0.43 m, 0.45 m]
+  controller: [threshold, slip-band]
+  rail.friction: [null, 0.2]
+  rail.condition: [dry, wet]
+""",
+    "laws": """\
+grid:
+  rail.friction:
+    - {points: [{position: 0 m, friction: 0.1}, {position: 5 m, friction: 0.3}], interpolation: steps}
+    - 0.07
+  rail.friction_over_time: [{points: [{time: 0 s, factor: 1}, {time: 3 s, factor: 0.5}]}, null]
+zip: {simulation.time_step: [0.5 ms, 0.25 ms], controller.cycle_time: [10 ms, 5 ms], seed: [3, 4]}
+""",
+    "pads": """\
+grid:
+  brake.pad: [constant, disc-pad, composite-block]
+  brake.disc_temperature: [null, modelled, constant]
+  brake.initial_disc_temperature: [null, 300 degC]
+  brake.system.disc.thermal.thickness: [15 mm, 25 mm]
+""",
+    "faults": """\
+grid:
+  faults:
+    - []
+    - [{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]
+    - - {at: 3 s, wheelset: 1, part: tank, kind: leak, value: 1e-8 m3/(s Pa)}
+      - {at: 2 m, part: controller, kind: silent}
+  simulation.time_step: [0.5 ms, 0.25 ms]
+""",
+    "sample": """\
+grid: {rig.compensation: [none, full]}
+sample:
+  method: sobol
+  size: 16
+  parameters:
+    rail.friction: {uniform: [0.05, 0.15]}
+    brake.command: {triangular: [80 %, 90 %, 100 %]}
+    brake.system.wsp_valve.vent_conductance: {log-uniform: [1e-8 m3/(s Pa), 2e-8 m3/(s Pa)]}
+    brake.system.air.temperature: {normal: {mean: 15 degC, deviation: 8 degC, lower: -5 degC, upper: 35 degC}}
+    rig.topology: {choice: [one-caliper, four-caliper]}
+""",
+    "numbers": """\
+grid: {controller: [threshold, slip-band]}
+sample:
+  method: random
+  size: 16
+  parameters:
+    rail.friction: {uniform: [0.08, 0.16]}
+    initial_speed: {uniform: [25 km/h, 85 km/h]}
+    brake.command: {uniform: [80 %, 100 %]}
+    rail.gradient: {uniform: [-5 permille, 5 permille]}
+    vehicle.body.mass: {uniform: [30 t, 36 t]}
+    vehicle.bogie.pitch_inertia: {uniform: [1500 kg m2, 2500 kg m2]}
+    vehicle.wheelset.radius: {uniform: [0.42 m, 0.46 m]}
+    brake.system.air.temperature: {uniform: [-10 degC, 30 degC]}
+    brake.system.tank.volume: {uniform: [10 L, 12 L]}
+    brake.system.wsp_valve.vent_conductance: {uniform: [1.0e-8 m3/(s Pa), 1.2e-8 m3/(s Pa)]}
+    brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
+""",
+    "wheelsets": """
+sample:
+  method: sobol
+  size: 16
+  parameters:
+    vehicle.wheelsets.2.wheel_radius: {uniform: [0.41 m, 0.44 m]}
+    vehicle.wheelsets.3.caliper.load_friction: {uniform: [1 %, 9 %]}
+    vehicle.wheelsets.4.brake_force: {choice: [80 %, 100 %, 120 %]}
+    vehicle.wheelset.radius: {uniform: [0.42 m, 0.43 m]}
+    brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
+    rig.sensors.pressure.offset: {uniform: [-0.01 bar, 0.01 bar]}
+""",
+}
+
+
+def written_out(plan: Plan, index: int, *overrides: str) -> Case:
+    """The case as `uictest run --set ...` would load it, with the id that it has in the sweep."""
+    settings = plan.settings(np.array([index]))
+    # A part first, then what lies inside it: an override of a part would take the inside with it.
+    keys = sorted(settings, key=lambda key: key.count("."))
+    texts = [f"{key}={settings[key][0].text}" for key in keys]
+    case = load_scenarios([Path("stop.yaml")], [*overrides, *texts])[0]
+    return replace(case, id=plan.ids(np.array([index]))[0])
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) -> None:
+    plan = load(SWEEPS[name])
+    block = BlockAssembler(plan).block(np.arange(plan.size))
+    assert block.rejections == [""] * plan.size
+    for place in range(plan.size):
+        record, own, rail, controller, *_ = assemble(written_out(plan, place))
+        assert block.controllers[place] is controller
+        assert record.tobytes() == block.parameters[place].tobytes()
+        assert own.tobytes() == block.wheelset_parameters[place].tobytes()
+        assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
+
+
+def test_keys_inside_a_fault_of_the_base_vary(load: Load) -> None:
+    fault = "faults=[{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]"
+    plan = load("grid:\n  faults.0.at: [3 s, 20 m]\n  faults.0.wheelset: [1, 4]\n", fault)
+    block = BlockAssembler(plan).block(np.arange(plan.size))
+    assert block.rejections == [""] * plan.size
+    for place in range(plan.size):
+        written = assemble(written_out(plan, place, fault)).parameters
+        assert written.tobytes() == block.parameters[place].tobytes()
+
+
+def test_cases_that_differ_in_numbers_are_assembled_together(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = load(SWEEPS["numbers"])
+    assembler = BlockAssembler(plan)
+    assembler.block(np.array([0, plan.size - 1]))  # what listed values give is kept
+
+    def at(variants: ScenarioVariants, place: int) -> Scenario:
+        raise AssertionError(tuple(variants.settings))
+
+    monkeypatch.setattr(ScenarioVariants, "at", at)
+    assert assembler.block(np.arange(plan.size)).rejections == [""] * plan.size
+
+
+def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:
+    plan = load(SWEEPS["sample"])
+    whole = BlockAssembler(plan).block(np.arange(plan.size))
+    assembler = BlockAssembler(plan)
+    for place in (31, 3, 17):
+        alone = assembler.block(np.array([place]))
+        assert alone.parameters.tobytes() == whole.parameters[[place]].tobytes()
+
+
+def test_impossible_combinations_are_rejected_case_by_case(load: Load) -> None:
+    plan = load(
+        "grid:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
+    )
+    rejections = BlockAssembler(plan).block(np.arange(6)).rejections
+    assert [bool(reason) for reason in rejections] == [False, False, False, True, False, False]
+    assert rejections[3] == "simulation.time_step: 0.4 ms does not divide the controller cycle of 5 ms"
+
+
+class Watched:
+    """A scenario that notes which keys are read."""
+
+    def __init__(self, model: Model, above: str, read: set[str]) -> None:
+        self.__dict__.update(_model=model, _above=above, _read=read)
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._model, name)
+        if name not in type(self._model).model_fields:
+            self._read.add(self._above.rstrip("."))  # a property may read anything of its model
+            return value
+        key = f"{self._above}{name}"
+        if key == "vehicle.wheelsets":
+            return {number: Watched(own, f"{key}.{number}.", self._read) for number, own in value.items()}
+        if isinstance(value, Model):
+            return Watched(value, f"{key}.", self._read)
+        self._read.add(key)
+        return value
+
+    def __iter__(self) -> Iterator[Any]:
+        self._read.add(self._above.rstrip("."))
+        return iter(self._model)
+
+
+def keys_read(function: Any, scenario: Scenario) -> set[str]:
+    read: set[str] = set()
+    function(Watched(scenario, "", read))
+    return read
+
+
+SHIPPED = load_scenarios([Path(__file__).parents[3] / "scenarios"])
+
+
+@pytest.mark.parametrize("case", SHIPPED, ids=lambda case: case.id)
+def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> None:
+    """What sets parameters, and what they are set to apart from all others."""
+    assignments = [*ASSIGNMENTS, *(each for wheelset in WHEELSET_ASSIGNMENTS for each in wheelset)]
+    setters = [(lambda scenario, each=each: assigned([each], scenario), each.keys) for each in assignments]
+    for setter, keys in (*setters, (friction_laws, FRICTION_KEYS)):
+        for read in keys_read(setter, case.scenario):
+            assert any(read == key or read.startswith(f"{key}.") for key in keys), (keys, read)
+
+
+@pytest.mark.parametrize("case", SHIPPED[:3], ids=lambda case: case.id)
+def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
+    from uictest.evaluation import evaluate
+
+    from ..conftest import formula
+
+    record, own, rail, controller, *_ = assemble(case)
+    measures, wheelsets = formula(np.array([record]), own[None], rail[None], [controller])
+    read: set[str] = set()
+    watched: Any = Watched(case.scenario, "", read)
+    for stopped in (1.0, 0.0):
+        measures["stopped"] = stopped
+        evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)
+    for key in read:
+        assert any(key == judged or key.startswith(f"{judged}.") for judged in JUDGED_KEYS), key

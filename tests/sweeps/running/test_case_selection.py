@@ -1,0 +1,62 @@
+"""Which cases are meant, and their chunks."""
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.campaign import ExpressionError
+from uictest.sweeps import CaseSelection, select_cases
+from uictest.sweeps.running.device import Device
+
+from ..conftest import Load
+
+
+def test_an_expression_selects_by_id(load: Load) -> None:
+    plan = load()
+    selection = select_cases(plan, "friction=0.10 and not command=80")
+    assert plan.ids(selection.indices(0, selection.size)) == ["study[friction=0.10,command=100]"]
+    assert select_cases(plan, "study.sweep").size == 6
+    assert select_cases(plan, "nothing").size == 0
+    with pytest.raises(ExpressionError):
+        select_cases(plan, "and")
+
+
+class Sized:
+    """A plan as far as its size goes."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+
+
+@given(st.integers(1, 3_000_000))
+def test_chunks_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
+    selection = CaseSelection(Sized(size))  # type: ignore[arg-type]
+    edges = [selection.chunk(0)[0], selection.chunk(selection.chunks - 1)[-1]]
+    assert edges == [0, size - 1]
+    assert selection.chunk(0).size <= selection.chunk_size <= 4096
+    assert (
+        sum(selection.chunk(number).size for number in (0, selection.chunks - 1)[: selection.chunks]) <= size
+    )
+
+
+@pytest.mark.parametrize(
+    ("size", "device", "chunk"),
+    [
+        (10, "cpu", 16),
+        (448, "cpu", 16),
+        (3000, "cpu", 93),
+        (50_000, "cpu", 1024),
+        (10**5, "cpu", 1562),
+        (10**6, "cpu", 4096),
+        (3000, "cuda", 375),
+        (10**6, "cuda", 65_536),
+    ],
+)
+def test_a_chunk_is_a_fraction_of_the_cases_between_bounds(size: int, device: Device, chunk: int) -> None:
+    assert CaseSelection(Sized(size), device=device).chunk_size == chunk  # type: ignore[arg-type]
+
+
+def test_chunks_of_a_selection(load: Load) -> None:
+    selection = CaseSelection(load(), np.array([5, 1, 3]))
+    assert (selection.size, selection.chunks) == (3, 1)
+    assert selection.chunk(0).tolist() == [5, 1, 3]

@@ -1,0 +1,77 @@
+"""A chunk holds the results of its cases run one by one, and every case has a row."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+
+from uictest.evaluation import evaluate
+from uictest.sweeps import ChunkRunner, Plan
+
+from ..conftest import Load, formula
+from .test_case_blocks import written_out
+
+MakeRunner = Callable[[Plan], ChunkRunner]
+
+
+def rows(content: bytes) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
+    return found
+
+
+def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> None:
+    plan = load()
+    runner = made_up(plan)
+    found = rows(runner.run(np.arange(plan.size)))
+    for index, row in enumerate(found):
+        block = runner.assembler.block(np.array([index]))
+        measures, wheelsets = formula(
+            block.parameters, block.wheelset_parameters, block.rail, block.controllers
+        )
+        result = evaluate(written_out(plan, index), measures[0], wheelsets[0])
+        assert (row["index"], row["id"]) == (index, result.id)
+        assert (row["outcome"], row["met"], row["reason"]) == (result.outcome, result.met, result.reason)
+        assert result.measures is not None
+        assert row["braking_distance_m"] == result.measures["braking_distance_m"]
+    assert [row["parameters.brake.command"] for row in found] == ["80 %", "100 %"] * 3
+    assert {row["outcome"] for row in found} == {"pass", "fail"}
+
+
+def test_a_measure_without_a_value_is_null(load: Load, made_up: MakeRunner) -> None:
+    row = rows(made_up(load()).run(np.array([0])))[0]
+    assert row["initial_adhesion_g"] is None
+    assert row["values.rail.friction"] == 0.08
+
+
+def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeRunner) -> None:
+    plan = load()
+    assert made_up(plan).run(np.arange(6)) == made_up(plan).run(np.arange(6))
+
+
+def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
+    def breaks(parameters: Any, own: Any, rail: Any, controllers: Any) -> Any:
+        if (rail[:, 1, 0] == 0.10).any():
+            raise ZeroDivisionError("no wheel load")
+        return formula(parameters, own, rail, controllers)
+
+    plan = load()
+    found = rows(replace(made_up(plan), simulate=breaks).run(np.arange(plan.size)))
+    assert [row["outcome"] == "error" for row in found] == [
+        row["values.rail.friction"] == 0.10 for row in found
+    ]
+    assert found[2]["reason"] == "ZeroDivisionError: no wheel load"
+    assert found[2]["braking_distance_m"] is None
+
+
+def test_a_rejected_combination_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
+    plan = load("grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
+    found = rows(made_up(plan).run(np.arange(4)))
+    assert [row["outcome"] for row in found].count("error") == 1
+    assert "does not divide the controller cycle" in found[3]["reason"]
+    assert not math.isnan(found[0]["braking_distance_m"])

@@ -1,0 +1,142 @@
+"""Controllers from outside in sweeps: lane by lane or one by one, with the bits of a stop alone."""
+
+from __future__ import annotations
+
+import io
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from uictest import rig
+from uictest.campaign import RecordingRequest, run_case
+from uictest.measures import STOP_COLUMNS
+from uictest.rig import run_in_process
+from uictest.sweeps import Plan, chunk_runner, programs_of
+from uictest.sweeps.running import cluster
+from uictest.sweeps.running.manifest import program_digest
+
+from ..conftest import Load
+from .test_case_blocks import written_out
+
+FRICTIONS = "  rail.friction: [0.06, 0.08, 0.10]\n"
+
+
+def rows(plan: Plan) -> list[dict[str, Any]]:
+    content = chunk_runner(plan, rig.run_block).run(np.arange(plan.size))
+    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
+    return found
+
+
+def without_names(row: dict[str, Any]) -> dict[str, Any]:
+    return {name: row[name] for name in (*STOP_COLUMNS, "outcome", "reason", "narrowest_margin")}
+
+
+def with_common_noise(found: list[dict[str, Any]], of: str) -> list[dict[str, Any]]:
+    return [without_names(row) for row in found if row["parameters.controller"].startswith(of)]
+
+
+def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(
+    load: Load, library: str, python_file: str
+) -> None:
+    kinds = f"[slip-band, {{library: {library}}}, threshold, {{python: {python_file}}}]"
+    found = rows(load(f"grid:\n  controller: {kinds}\n{FRICTIONS}"))
+    built_in = with_common_noise(found, "slip-band")
+    assert [row["outcome"] for row in built_in].count("error") == 0
+    assert with_common_noise(found, "{library") == built_in
+    assert with_common_noise(found, "{python") == built_in
+    assert with_common_noise(found, "threshold") != built_in
+    assert found[3]["id"] == "study[controller=libband,friction=0.06]"
+
+
+@pytest.mark.parametrize("kind", ["library", "python"])
+def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(
+    load: Load, kind: str, library: str, python_file: str
+) -> None:
+    written = {"library": library, "python": python_file}[kind]
+    swept = "grid:\n  controller.parameters.fails_at: [-1, 0, 150]\n" + FRICTIONS
+    controller = f"controller={{{kind}: {written}, parameters: {{}}}}"
+    plan = load(swept, controller)
+    found = rows(plan)
+    place = " (slip_band.py, line 20)" if kind == "python" else ""
+    error = "ValueError: told to" if kind == "python" else "told to"
+    for index, row in enumerate(found):
+        at = int(row["parameters.controller.parameters.fails_at"])
+        if at >= 0:
+            assert row["reason"] == f"controller: step failed: {error}{place} (cycle {at})"
+            assert (row["outcome"], row["braking_distance_m"]) == ("error", None)
+        else:
+            case = written_out(plan, index, controller)
+            alone = run_case(case, RecordingRequest("none"), run_in_process).result
+            assert alone.measures is not None
+            assert row["braking_distance_m"] == alone.measures["braking_distance_m"]
+            assert row["outcome"] == alone.outcome != "error"
+
+
+@pytest.mark.parametrize(
+    ("text", "texts"),
+    [
+        ("grid:\n  controller.parameters.upper_slide: [0.1, 0.3]\n", ["0.1", "0.3"]),
+        (
+            "ranges:\n  controller.parameters.upper_slide: {first: 0.1, last: 0.3, count: 3}\n",
+            ["0.1", "0.2", "0.3"],
+        ),
+        ("zip:\n  controller.parameters.upper_slide: [0.1, 0.3]\n  seed: [1, 2]\n", ["0.1", "0.3"]),
+        (
+            "sample:\n  size: 2\n  parameters:\n    controller.parameters.upper_slide: {choice: [0.3]}\n",
+            ["0.3", "0.3"],
+        ),
+    ],
+    ids=["grid", "ranges", "zip", "choice"],
+)
+def test_parameters_of_a_controller_are_swept(
+    load: Load, python_file: str, text: str, texts: list[str]
+) -> None:
+    found = rows(load(text, f"controller={{python: {python_file}}}"))
+    assert [row["parameters.controller.parameters.upper_slide"] for row in found] == texts
+    assert [row["values.controller.parameters.upper_slide"] for row in found] == [
+        float(each) for each in texts
+    ]
+
+
+@pytest.mark.parametrize(
+    "distribution",
+    [
+        "uniform: [0.1, 0.3]",
+        "log-uniform: [0.1, 0.3]",
+        "triangular: [0.1, 0.2, 0.3]",
+        "normal: {mean: 0.2, deviation: 0.1, lower: 0.1, upper: 0.3}",
+    ],
+)
+def test_parameters_of_a_controller_are_drawn_as_bare_numbers(
+    load: Load, python_file: str, distribution: str
+) -> None:
+    key = "controller.parameters.upper_slide"
+    plan = load(
+        f"sample:\n  size: 4\n  parameters:\n    {key}: {{{distribution}}}\n",
+        f"controller={{python: {python_file}}}",
+    )
+    values = plan.settings(np.arange(4))[key]
+    assert all(type(value.content) is float and 0.1 <= value.content <= 0.3 for value in values)
+    assert len({value.text for value in values}) == 4
+    assert {row["outcome"] for row in rows(plan)} <= {"pass", "fail", "invalid"}
+
+
+def test_a_plan_is_the_same_on_another_machine(load: Load, python_file: str) -> None:
+    plan = load(f"grid:\n  controller: [threshold, {{python: {python_file}}}]\n")
+    sent = pickle.loads(pickle.dumps(plan))
+    assert list(programs_of(sent)) == list(programs_of(plan)) != []
+    indices = np.arange(plan.size)
+    assert chunk_runner(sent, rig.run_block).run(indices) == chunk_runner(plan, rig.run_block).run(indices)
+
+
+def test_a_worker_without_the_file_of_a_controller_says_so(
+    load: Load, python_file: str, tmp_path: Path
+) -> None:
+    plan = load("grid: {rail.friction: [0.1]}\n", f"controller={{python: {python_file}}}")
+    (tmp_path / "slip_band.py").write_text("another one\n")
+    with pytest.raises(RuntimeError, match=r"the worker does not have .*slip_band\.py as it is here"):
+        cluster._run_chunk("token", program_digest(), plan, np.arange(1))

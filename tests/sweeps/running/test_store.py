@@ -1,0 +1,109 @@
+"""Chunks on disk: intact or absent, and only those of the same inputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyarrow as pa
+import pytest
+
+from uictest.sweeps import ChangedInputsError, ChunkStore, MissingChunksError
+from uictest.sweeps.running.chunk import parquet_bytes
+
+MANIFEST = {"schema": "x", "cases": 3, "inputs": {"a.yaml": "1", "b.yaml": "2"}, "program": "p"}
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> ChunkStore:
+    """A store with two chunks."""
+    store = ChunkStore(tmp_path / "study")
+    store.open(MANIFEST, restart=False)
+    for number in (0, 2):
+        store.write(number, parquet_bytes(pa.table({"index": [number]})))
+    return store
+
+
+def chunk(store: ChunkStore, number: int) -> Path:
+    return next((store.folder / "chunks").glob(f"{number:06d}-*"))
+
+
+def test_what_is_finished_is_found_again(store: ChunkStore) -> None:
+    again = ChunkStore(store.folder)
+    again.open(MANIFEST, restart=False)
+    assert again.finished() == ({0, 2}, [])
+    assert [table.column("index").to_pylist() for table in again.tables([2, 0])] == [[2], [0]]
+
+
+@pytest.mark.parametrize("damage", [lambda b: b[:-1], lambda b: b"", lambda b: bytes([b[0] ^ 1]) + b[1:]])
+def test_a_damaged_chunk_is_found_and_removed(store: ChunkStore, damage) -> None:  # type: ignore[no-untyped-def]
+    path = chunk(store, 2)
+    path.write_bytes(damage(path.read_bytes()))
+    assert store.finished() == ({0}, [path])
+    assert not path.exists()
+
+
+def test_changed_inputs_are_rejected_by_name(store: ChunkStore) -> None:
+    changed = {**MANIFEST, "inputs": {"a.yaml": "1", "b.yaml": "3"}, "program": "q"}
+    with pytest.raises(ChangedInputsError, match=r"^inputs: b\.yaml; the program itself$"):
+        store.open(changed, restart=False)
+    assert store.finished()[0] == {0, 2}
+    store.open(changed, restart=True)
+    assert store.finished()[0] == set()
+    assert store.manifest() == changed
+
+
+def test_requests_of_the_summary_change_the_manifest_and_keep_the_chunks(tmp_path: Path) -> None:
+    study = ChunkStore(tmp_path / "study")
+    before = {"file": "a/b.sweep.yaml", "cases_sha256": "c", "inputs": {"b.sweep.yaml": "1", "x.yaml": "2"}}
+    study.open(before, restart=False)
+    study.write(0, b"chunk")
+    after = {**before, "inputs": {"b.sweep.yaml": "9", "x.yaml": "2"}}
+    study.open(after, restart=False)
+    assert (study.has_chunks(), study.manifest()) == (True, after)
+    with pytest.raises(ChangedInputsError, match=r"^inputs: x\.yaml$"):
+        study.open({**before, "inputs": {"b.sweep.yaml": "1", "x.yaml": "3"}}, restart=False)
+
+
+def test_inputs_may_change_before_the_first_chunk(tmp_path: Path) -> None:
+    store = ChunkStore(tmp_path / "study")
+    store.open(MANIFEST, restart=False)
+    store.open({**MANIFEST, "device": "cuda"}, restart=False)
+    assert store.manifest() == {**MANIFEST, "device": "cuda"}
+
+
+def test_chunks_without_a_manifest_are_not_trusted(store: ChunkStore) -> None:
+    (store.folder / "manifest.json").write_text("{")
+    store.open(MANIFEST, restart=False)
+    assert store.finished()[0] == set()
+
+
+def test_a_missing_chunk_is_reported(store: ChunkStore) -> None:
+    with pytest.raises(MissingChunksError, match="1 chunks are missing: 1"):
+        list(store.tables([0, 1]))
+
+
+def test_shards_are_merged_and_damaged_chunks_skipped(store: ChunkStore, tmp_path: Path) -> None:
+    whole = ChunkStore(tmp_path / "whole")
+    whole.open(MANIFEST, restart=False)
+    damaged = chunk(store, 0)
+    damaged.write_bytes(b"")
+    assert whole.merge(store) == (1, [damaged])
+    assert whole.finished() == ({2}, [])
+    other = ChunkStore(tmp_path / "other")
+    other.open({**MANIFEST, "cases": 4}, restart=False)
+    with pytest.raises(ChangedInputsError, match="cases: 3 in this sweep, 4 in the shard"):
+        whole.merge(other)
+
+
+def test_the_name_of_the_sweep_file_is_no_difference(store: ChunkStore, tmp_path: Path) -> None:
+    elsewhere = ChunkStore(tmp_path / "elsewhere")
+    elsewhere.open({**MANIFEST, "file": "../study.sweep.yaml"}, restart=False)
+    assert elsewhere.merge(store) == (2, [])
+    store.open({**MANIFEST, "file": "study.sweep.yaml"}, restart=False)
+    assert store.finished()[0] == {0, 2}
+
+
+def test_what_interrupted_writers_left_is_removed(store: ChunkStore) -> None:
+    (store.folder / "chunks" / ".partial-1.parquet").touch()
+    store.remove_partial_files()
+    assert len(list((store.folder / "chunks").iterdir())) == 2

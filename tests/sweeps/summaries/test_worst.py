@@ -1,0 +1,74 @@
+"""Which cases of a sweep are worth looking at, and that they are the cases of its rows."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest import rig
+from uictest.campaign import RecordingRequest, run_cases
+from uictest.sweeps.running.chunk import chunk_runner
+from uictest.sweeps.summaries.worst import MOST, WorstCases, full_cases
+
+from ..conftest import Load
+
+margins = st.one_of(st.none(), st.floats(-2.0, 2.0))
+rows = st.lists(
+    st.tuples(st.booleans(), margins, st.sampled_from(["pass", "fail", "error", "skipped"])), max_size=40
+)
+
+
+def table(found: list[tuple[bool, float | None, str]], first: int = 0) -> pa.Table:
+    met, margin, outcome = zip(*found, strict=True) if found else ((), (), ())
+    columns = {
+        "index": pa.array(range(first, first + len(found)), pa.int64()),
+        "met": pa.array(met, pa.bool_()),
+        "narrowest_margin": pa.array(margin, pa.float64()),
+        "outcome": pa.array(outcome, pa.string()),
+    }
+    return pa.table(columns)
+
+
+@given(rows, st.integers(0, 40))
+def test_those_not_met_come_first_then_the_narrowest(
+    found: list[tuple[bool, float | None, str]], cut: int
+) -> None:
+    worst = WorstCases()
+    worst.add(table(found[:cut]))
+    worst.add(table(found[cut:], min(cut, len(found))))
+    seen = [
+        (met, 9.0 if margin is None else margin, place)
+        for place, (met, margin, outcome) in enumerate(found)
+        if outcome not in ("error", "skipped")
+    ]
+    assert worst.indices() == [place for _, _, place in sorted(seen)][:MOST]
+
+
+def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
+    """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
+    plan = load("grid:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
+    runner = chunk_runner(plan, rig.run_block)
+    indices = [3, 0]
+    block = runner.assembler.block(np.array(indices))
+    by_lanes = runner.results(block)
+    alone = run_cases(full_cases(plan, indices), recording=RecordingRequest("all"))
+    for place, result in enumerate(alone.results):
+        assert block.ids[place] == result.id
+        assert by_lanes.outcomes[place] == result.outcome
+        assert result.measures is not None
+        for name, numbers in by_lanes.measures.items():
+            assert np.array_equal(numbers[place], result.measures[name], equal_nan=True)
+        for name, numbers in by_lanes.wheelsets.items():
+            own = [wheelset[name] for wheelset in result.wheelsets]
+            assert np.array_equal(numbers[place], own, equal_nan=True)
+
+
+@pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])
+def test_rows_name_the_narrowest_margin(load: Load, column: str) -> None:
+    rows = pq.read_table(io.BytesIO(chunk_runner(load(), rig.run_block).run(np.arange(2))))
+    assert all(value is not None for value in rows.column(column).to_pylist())

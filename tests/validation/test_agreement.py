@@ -1,0 +1,81 @@
+"""Bias and spread of a figure against known differences and SciPy."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+from scipy import stats
+
+from uictest.validation import agreement_of
+
+RECORDED = [450.0, 460.0, 470.0, 455.0]
+NAN = math.nan
+distances = st.lists(st.floats(100.0, 1000.0), min_size=2, max_size=8)
+
+
+def test_a_known_bias_and_spread_are_found() -> None:
+    """Differences of 1, 3, 5 and 3 m: mean 3, standard deviation sqrt(8 / 3)."""
+    agreement = agreement_of("d", "m", RECORDED, [451.0, 463.0, 475.0, 458.0])
+    assert agreement is not None
+    assert (agreement.stops, agreement.recorded_mean) == (4, 458.75)
+    found, spread = agreement.absolute, math.sqrt(8.0 / 3.0)
+    assert (found.bias, found.deviation) == pytest.approx((3.0, spread))
+    interval = stats.t.interval(0.95, 3, 3.0, spread / 2.0)
+    limits = stats.t.interval(0.95, 3, 3.0, spread * math.sqrt(1.25))
+    assert (found.bias_low, found.bias_high) == pytest.approx(interval, rel=1e-12)
+    assert (found.limits_low, found.limits_high) == pytest.approx(limits, rel=1e-12)
+
+
+def test_relative_differences_are_shares_of_what_was_recorded() -> None:
+    agreement = agreement_of("d", "m", [100.0, 400.0], [110.0, 400.0])
+    assert agreement is not None
+    assert agreement.relative is not None
+    assert agreement.relative.bias == pytest.approx(0.05)
+    assert agreement.relative.deviation == pytest.approx(0.1 / math.sqrt(2.0))
+
+
+def test_one_stop_shows_a_difference_and_no_spread() -> None:
+    agreement = agreement_of("d", "m", [450.0], [459.0])
+    assert agreement is not None
+    assert (agreement.absolute.bias, agreement.stops) == (9.0, 1)
+    spread = agreement.absolute
+    shown = (spread.deviation, spread.bias_low, spread.bias_high, spread.limits_low, spread.limits_high)
+    assert all(map(math.isnan, shown))
+
+
+def test_stops_in_which_one_side_is_unknown_do_not_count() -> None:
+    agreement = agreement_of("d", "m", [450.0, NAN, 470.0, 100.0], [451.0, 460.0, 473.0, NAN])
+    assert agreement is not None
+    assert (agreement.stops, agreement.absolute.bias) == (2, 2.0)
+    assert agreement_of("d", "m", [NAN, 1.0], [1.0, NAN]) is None
+
+
+@pytest.mark.parametrize("recorded", [[0.0, 3.0], [-1.0, 3.0]])
+def test_there_is_no_share_of_what_is_not_positive(recorded: list[float]) -> None:
+    agreement = agreement_of("vents", "1", recorded, [1.0, 4.0])
+    assert agreement is not None
+    assert agreement.relative is None
+
+
+@given(distances, st.floats(-50.0, 50.0))
+def test_a_constant_error_is_all_bias(recorded: list[float], error: float) -> None:
+    agreement = agreement_of("d", "m", recorded, [each + error for each in recorded])
+    assert agreement is not None
+    assert agreement.absolute.bias == pytest.approx(error, abs=1e-9)
+    assert agreement.absolute.deviation == pytest.approx(0.0, abs=1e-9)
+
+
+@given(distances)
+def test_the_order_of_stops_makes_no_difference_and_the_sign_is_simulated_minus_recorded(
+    recorded: list[float],
+) -> None:
+    simulated = list(np.linspace(100.0, 900.0, len(recorded)))
+    one = agreement_of("d", "m", recorded, simulated)
+    other = agreement_of("d", "m", simulated[::-1], recorded[::-1])
+    assert one is not None
+    assert other is not None
+    assert one.absolute.bias == pytest.approx(-other.absolute.bias, abs=1e-9)
+    assert one.absolute.limits_low == pytest.approx(-other.absolute.limits_high, abs=1e-6)

@@ -1,0 +1,95 @@
+"""What a validation file may say, and where its errors are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest import series
+from uictest.scenario import ScenarioErrors
+from uictest.validation import load_validation, plan_of_series
+
+Write = Callable[[str, str], Path]
+STOP = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 100 km/h\nrail: {{condition: {rail}}}\n"
+BEGIN = "schema: uictest/validation/1\nname: my-train\nstops:\n"
+
+
+@pytest.fixture
+def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+    """Write a file into the working folder, which holds two scenarios and two recordings."""
+    monkeypatch.chdir(tmp_path)
+
+    def to(name: str, text: str) -> Path:
+        Path(name).write_text(text, "utf-8")
+        return Path(name)
+
+    for name, rail in (("dry", "dry"), ("wet", "wet")):
+        to(f"{name}.yaml", STOP.format(name=name, rail=rail))
+    for name in ("one", "two"):
+        to(f"{name}.csv", "time\n")
+    return to
+
+
+def test_every_entry_is_one_case_with_its_recordings(write: Write) -> None:
+    text = """
+  - {scenario: dry.yaml, recordings: [one.csv], repeat: 5, set: {brake.command: 80 %}}
+  - {scenario: wet.yaml, recordings: [two.csv], map: common-names, tuned: true}
+speed_tolerance: 5 km/h
+"""
+    plan = load_validation(write("v.yaml", BEGIN + text), ["rail.gradient=1 permille"])
+    first, second = plan.comparisons
+    assert first.case.id.startswith("my-train.dry[")
+    assert (first.case.scenario.repeat, float(first.case.scenario.brake.command)) == (5, 0.8)
+    assert {float(each.case.scenario.rail.gradient) for each in plan.comparisons} == {0.001}
+    assert [each.recorded.files[0].name for each in plan.comparisons] == ["one.csv", "two.csv"]
+    assert (first.recorded.channel_map, second.recorded.channel_map) == ("uictest", "common-names")
+    assert (first.tuned, second.tuned) == (False, True)
+    assert (plan.speed_tolerance, plan.confidence) == (pytest.approx(5 / 3.6), 0.95)
+    assert {"v.yaml", "dry.yaml", "wet.yaml"} <= set(plan.inputs)
+
+
+@pytest.mark.parametrize(
+    ("stops", "message"),
+    [
+        ("  - {scenario: dry.yaml, recordings: [three.csv]}\n", "no such file: 'three.csv'"),
+        ("  - {scenario: dry.yaml}\n", "missing key 'recordings'"),
+        ("  - {scenario: dry.yaml, recordings: []}\n", "recordings"),
+        (
+            "".join(f"  - {{scenario: {each}.yaml, recordings: [one.csv]}}\n" for each in ("dry", "wet")),
+            "'one.csv' is named twice",
+        ),
+        (
+            "  - {scenario: dry.yaml, recordings: [one.csv], set: {brake.command: [80 %, 90 %]}}\n",
+            "recordings belong to one stop, the scenario has 2 cases",
+        ),
+        ("  []\n", "an empty list"),
+        ("  - {scenario: dry.yaml, recordings: [one.csv], tune: true}\n", "did you mean"),
+        ("  - {scenario: ../dry.yaml, recordings: [one.csv]}\n", "dry.yaml"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused_at_its_place(write: Write, stops: str, message: str) -> None:
+    with pytest.raises(ScenarioErrors) as errors:
+        load_validation(write("v.yaml", BEGIN + stops))
+    assert message in str(errors.value)
+    assert "v.yaml:" in str(errors.value)
+
+
+@pytest.mark.parametrize("schema", ["", "schema: uictest/scenario/1\n"])
+def test_another_kind_of_file_is_refused(write: Write, schema: str) -> None:
+    with pytest.raises(ScenarioErrors, match="a validation starts with `schema: uictest/validation/1`"):
+        load_validation(write("v.yaml", f"{schema}name: v\nstops: []\n"))
+
+
+def test_a_series_is_validated_by_those_of_its_stops_that_name_recordings(write: Write) -> None:
+    text = """schema: uictest/series/1
+name: campaign
+dry: {scenario: dry.yaml, recordings: [one.csv]}
+wet: wet.yaml
+speed_tolerance: 2 km/h
+"""
+    [planned] = series.load_series(write("campaign.series.yaml", text))
+    plan = plan_of_series(planned)
+    assert [(each.case.id, each.tuned) for each in plan.comparisons] == [("campaign.dry", False)]
+    assert plan.speed_tolerance == pytest.approx(2 / 3.6)
