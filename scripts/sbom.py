@@ -1,6 +1,6 @@
 """Write the bill of materials of a released wheel, as CycloneDX in JSON.
 
-    python scripts/sbom.py dist/uictest-0.1.0-py3-none-any.whl
+    python scripts/sbom.py dist/uictest-0.2.0-py3-none-any.whl
 
 The wheel is installed without extras into an environment of its own, and `cyclonedx-py` lists what is there.
 Needs `cyclonedx-bom`, which no user of uictest does: pip install cyclonedx-bom

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.ensemble import EnsembleOfRecords, Places, by_way, ensemble
+from uictest.ensemble import EnsembleOfRecords, Places, alike, by_way, ensemble, ensembles_of
 
 finite = st.floats(-1e9, 1e9)
 
@@ -105,3 +105,34 @@ def test_a_table_has_its_entries_first() -> None:
     assert together.speed.tolist() == [0.0, 0.0]
     with pytest.raises(AttributeError):
         _ = together.distance
+
+
+@pytest.mark.parametrize("exponent", [2, 0.5, 3, -1, 1.5])
+def test_powers_have_the_bits_of_python(exponent: float) -> None:
+    numbers = np.exp(np.random.default_rng(3).uniform(-60.0, 60.0, 20_000))
+    assert (ensemble(numbers) ** exponent).tolist() == [number**exponent for number in numbers.tolist()]
+
+
+@given(st.lists(st.tuples(*(st.integers(0, 3) for _ in range(3))), max_size=30))
+def test_cases_are_alike_where_all_their_numbers_are(rows: list[tuple[int, int, int]]) -> None:
+    columns = np.array(rows, np.int8).reshape(-1, 3).T
+    groups = [places.tolist() for places in alike(columns, len(rows))]
+    assert sorted(place for group in groups for place in group) == list(range(len(rows)))
+    assert all(
+        group == [k for k, row in enumerate(rows) if row == rows[group[0]]] for group in groups if group
+    )
+
+
+def test_code_that_reads_a_field_cannot_change_it_for_the_next() -> None:
+    records = np.array([(1.0,), (2.0,)], [("speed", "f8")])
+    at = ensembles_of(records)
+
+    def increased(places: Places) -> float:
+        speed: float = at(places).speed
+        speed += 1.0
+        return speed
+
+    for _ in range(2):
+        results = by_way(increased, lambda place: float(records["speed"][place]) + 1.0, np.arange(2))
+        assert [np.asarray(speed).item() for _, speed in results] == [2.0, 3.0]
+    assert records["speed"].tolist() == [1.0, 2.0]

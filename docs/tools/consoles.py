@@ -60,6 +60,12 @@ def executed(block: Block, folder: Path) -> str:
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
+def coloured(command: str, folder: Path) -> str:
+    """Return what a command writes to a terminal that shows colours."""
+    colours = {name: text for name, text in _environment().items() if name != "NO_COLOR"}
+    return _on_terminal(command, folder, {**colours, "TERM": "xterm-256color"})
+
+
 def commands_in(block: Block) -> list[str]:
     """Return the commands of a console block."""
     return [line.removeprefix(_PROMPT) for line in block.text.splitlines() if line.startswith(_PROMPT)]

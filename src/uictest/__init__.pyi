@@ -1,6 +1,7 @@
 from .api import (
     Results as Results,
     SweepResults as SweepResults,
+    Validation as Validation,
     evaluate as evaluate,
     load as load,
     read_recording as read_recording,
@@ -8,6 +9,7 @@ from .api import (
     run as run,
     simulate as simulate,
     sweep as sweep,
+    validate as validate,
 )
 from .evaluation import CaseResult as CaseResult
 from .recording import Recording as Recording

@@ -7,7 +7,7 @@ Code that asks for the number of one case, to print it or to round it, is run ca
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
 import numpy as np
@@ -21,6 +21,18 @@ Result = TypeVar("Result")
 def rows_at(rows: NDArray[Any], places: Places) -> NDArray[Any]:
     """Return the rows at some places; all of them without a copy."""
     return rows if np.array_equal(places, np.arange(len(rows))) else rows[places]
+
+
+def alike(columns: Iterable[NDArray[Any]], count: int) -> list[Places]:
+    """Return the places of cases that have the same number in every column; numbers are not negative."""
+    parting = [column for column in columns if (column != column[:1]).any()]
+    if not parting:
+        return [np.arange(count)]
+    group_of = np.zeros(count, np.int64)
+    for column in parting:
+        _, group_of = np.unique(group_of * (int(column.max()) + 1) + column, return_inverse=True)
+    order, sizes = np.argsort(group_of, kind="stable"), np.bincount(group_of)
+    return np.split(order, np.cumsum(sizes)[:-1])
 
 
 class DivergingCasesError(Exception):
@@ -46,9 +58,9 @@ class Ensemble(np.ndarray[Any, Any]):
             raise DivergingCasesError(holds)
         return False
 
-    # numpy squares by a product, which may differ from the power of Python in the last bit.
+    # As Python does, `float_power` asks the C library; `**` of numpy may differ from it in the last bit.
     def __pow__(self, exponent: float) -> Ensemble:  # type: ignore[override]
-        return ensemble(np.array([number**exponent for number in self.tolist()]))
+        return ensemble(np.float_power(self, exponent))
 
     def __round__(self) -> Ensemble:
         return ensemble(np.rint(self))
@@ -67,7 +79,7 @@ def ensemble(numbers: NDArray[Any]) -> Ensemble:
 class EnsembleOfRecords:
     """The records at some places, each field an ensemble; tables have their entries first."""
 
-    def __init__(self, records: NDArray[Any], places: Places) -> None:
+    def __init__(self, records: NDArray[Any], places: Places | slice) -> None:
         self._records = records
         self._places = places
 
@@ -75,7 +87,16 @@ class EnsembleOfRecords:
         """Return a field."""
         if name not in (self._records.dtype.names or ()):
             raise AttributeError(name)
-        return ensemble(np.asarray(self._records[name])[self._places].T)
+        field = ensemble(np.array(self._records[name][self._places].T, order="C"))
+        field.flags.writeable = False  # whoever reads it again reads the same
+        self.__dict__[name] = field
+        return field
+
+
+def ensembles_of(records: NDArray[Any]) -> Callable[[Places], EnsembleOfRecords]:
+    """Return a function that returns the records at some places; those at all places it makes once."""
+    whole = EnsembleOfRecords(records, slice(None))
+    return lambda places: whole if places.size == len(records) else EnsembleOfRecords(records, places)
 
 
 def by_way(

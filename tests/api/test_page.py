@@ -15,7 +15,7 @@ import uictest
 REPOSITORY = Path(__file__).parents[2]
 PAGE = (REPOSITORY / "docs" / "python.md").read_text("utf-8")
 FUNCTIONS = [name for name in uictest.__all__ if name.islower()]
-CLASSES = {"Results": uictest.Results, "SweepResults": uictest.SweepResults, "Recording": uictest.Recording}
+CLASSES = {name: getattr(uictest, name) for name in ("Results", "SweepResults", "Validation", "Recording")}
 MISUSE = """import uictest
 
 cases: int = uictest.load("stop.yaml")

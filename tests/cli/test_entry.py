@@ -57,6 +57,12 @@ def test_a_process_has_no_threads_for_matrices_unless_told_to(given: dict[str, s
     assert done.stdout.splitlines()[-1] == kept
 
 
+def test_the_program_can_be_run_as_a_module(process: Call) -> None:
+    command = [sys.executable, "-m", "uictest", "--version"]
+    as_module = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert as_module.stdout == process("--version").out
+
+
 def test_met_0_and_missed_1_with_a_recording(process: Call, scenario: Write) -> None:
     scenario("stop")
     answer = process("run")
@@ -143,10 +149,10 @@ def test_a_reader_that_leaves_is_no_error(process: Call, scenario: Write) -> Non
 def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Write) -> None:
     scenario("stop", "rail: {condition: wet}\n")
     # More lines than a pipe holds: the run cannot end before somebody reads on.
-    values = ["--set", "rail.friction=range(0.1,0.3,0.00005)"]
+    values = ["--set", "rail.friction=range(0.1,0.3,0.0001)"]
     running = start("run", "-n1", *values, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert running.stdout is not None
-    assert running.stdout.readline().startswith("pass stop[friction=0.10000]")
+    assert running.stdout.readline().startswith("pass stop[friction=0.1000]")
     running.send_signal(signal.SIGINT)
     # communicate() would miss the lines that readline() has buffered.
     assert running.stderr is not None
@@ -156,7 +162,7 @@ def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Wri
     document = json.loads(Path("reports/latest/results.json").read_text())
     assert document["complete"] is False
     # The signal may come between keeping a result and showing it: nothing that was shown is missing.
-    shown = ["stop[friction=0.10000]", *(line.split()[1] for line in out.splitlines())]
+    shown = ["stop[friction=0.1000]", *(line.split()[1] for line in out.splitlines())]
     assert shown == [case["id"] for case in document["cases"]][: len(shown)]
     assert len(document["cases"]) < len(shown) + 2
     assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []

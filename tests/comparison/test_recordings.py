@@ -80,8 +80,8 @@ def test_quantities_are_compared_and_drawn_in_the_units_of_the_page(make_recordi
     first = Recording({n: s for n, (s, _) in channels.items()}, {n: u for n, (_, u) in channels.items()})
     (overlay,) = compare_recordings(first, first, NAMES, DEFAULT, ["*"]).overlays
     ends = {
-        panel.title: (overlay.trace.curves[lines[0].series].y[-1], panel.unit)
-        for panel, lines in overlay.panels
+        each.channel: (overlay.trace.curves[f"first {each.channel}"].y[-1], each.unit)
+        for each in overlay.channels
     }
     assert ends == {
         "speed": (pytest.approx(72.0), "km/h"),
@@ -96,8 +96,7 @@ def test_quantities_are_compared_and_drawn_in_the_units_of_the_page(make_recordi
 def test_each_side_is_drawn_to_its_own_end(make_recording: MakeRecording, ends: tuple[float, float]) -> None:
     first, second = (make_recording(end=end) for end in ends)
     (overlay,) = compare_recordings(first, second, NAMES, DEFAULT).overlays
-    _, lines = overlay.panels[0]
-    times = [overlay.trace.curves[line.series].x for line in lines]
+    times = [overlay.trace.curves[f"{side} speed"].x for side in ("first", "second")]
     assert [(float(time[0]), float(time[-1])) for time in times] == [(0.0, ends[0]), (0.0, ends[1])]
     assert (overlay.trace.start, overlay.trace.end) == (0.0, 10.0)
 
@@ -106,7 +105,7 @@ def test_any_common_channel_can_be_chosen_and_the_others_are_named(make_recordin
     many = {f"channel_{n}": np.zeros(101) for n in range(30)}
     recording = make_recording(**many)
     (overlay,) = compare_recordings(recording, recording, NAMES, DEFAULT, ["slide_1", "channel_2*"]).overlays
-    titles = [panel.title for panel, _ in overlay.panels]
+    titles = [each.channel for each in overlay.channels]
     assert titles == ["slide_1", "channel_2", *(f"channel_2{n}" for n in range(10))]
     assert len(overlay.not_drawn) == 32 - len(titles)
 
@@ -133,5 +132,24 @@ def test_the_overlay_draws_the_speed_and_what_differs_as_far_as_there_is_room(
     moved = {name: samples + 1.0 for name, samples in many.items()}
     found = compare_recordings(make_recording(**many), make_recording(**moved), NAMES, DEFAULT)
     (overlay,) = found.overlays
-    assert [panel.title for panel, _ in overlay.panels][:2] == ["speed", "channel_0"]
-    assert (len(overlay.panels), len(overlay.not_drawn)) == (DRAWN, 32 - DRAWN)
+    assert [each.channel for each in overlay.channels][:2] == ["speed", "channel_0"]
+    assert (len(overlay.channels), len(overlay.not_drawn)) == (DRAWN, 32 - DRAWN)
+
+
+def test_recordings_that_share_no_time_do_not_agree(make_recording: MakeRecording) -> None:
+    first, late = make_recording(end=1.0), make_recording(end=1.0)
+    later = Recording({**late.channels, "time": late["time"] + 5.0}, late.units)
+    found = compare_recordings(first, later, NAMES, DEFAULT)
+    assert {each.quantity: each.remark for each in found.beyond} == {
+        "duration": "",
+        "speed": "the two share no time",
+        "slide_1": "the two share no time",
+    }
+
+
+def test_samples_that_one_side_lacks_are_counted(make_recording: MakeRecording) -> None:
+    gap = np.where((np.arange(101) >= 40) & (np.arange(101) < 50), np.nan, 1.0)
+    (found,) = compare_recordings(
+        make_recording(x=gap), make_recording(x=np.ones(101)), NAMES, DEFAULT
+    ).beyond
+    assert found.remark == "only one side has a value at 10 of 101 instants, first at 4 s"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from xml.etree import ElementTree
 
 import pytest
 
@@ -14,12 +15,14 @@ from uictest.comparison import (
     PairedComparison,
     Scope,
     Tolerances,
+    accepted_document,
     compare_runs,
     compare_variants,
     comparison_lines,
 )
 from uictest.evaluation import CaseResult, Verdict
-from uictest.report import RunContent
+from uictest.report import RunContent, junit_xml, missing_annotations, missing_lines
+from uictest.report.document import baseline_form, read_baseline_comparison
 from uictest.series_measures import SeriesValue, mean_of
 
 MakeCase = Callable[..., CaseResult]
@@ -146,13 +149,83 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series: MakeSe
     assert distance.mean.value == -10.0
 
 
-def test_a_baseline_says_that_it_compares_no_series(make_series: MakeSeries, make_repeated: MakeCase) -> None:
-    with_series = RunContent("run", [], series=[make_series([500.0, 510.0])])
-    without = RunContent("run", [make_repeated({1: 500.0})])
-    note = "series are not compared with the baseline"
-    pairs = {(True, False): True, (False, True): True, (False, False): False}
-    for sides, noted in pairs.items():
-        accepted, run = (with_series if side else without for side in sides)
-        results = {each.id: each for each in accepted.results}
-        baseline = Baseline("kept", "", accepted, results, {}, Scope(frozenset()), Tolerances())
-        assert (note in baseline.compare(run).notes) is noted
+MakeBaseline = Callable[..., Baseline]
+
+
+@pytest.fixture
+def make_baseline() -> MakeBaseline:
+    """A baseline of series, and which of them a later run selects."""
+
+    def make(
+        accepted: Sequence[series.SeriesResult], selected: Sequence[str] = (), searched: Sequence[str] = ()
+    ) -> Baseline:
+        run = RunContent("run", [], series=accepted)
+        scope = Scope(frozenset(selected), searched)
+        document = {"cases": [], "manifest": {}, "series": series.series_document(accepted)}
+        return Baseline("kept", "", run, {}, document, scope, Tolerances())
+
+    return make
+
+
+def test_a_baseline_compares_verdicts_and_measures_of_series(
+    make_series: MakeSeries, make_baseline: MakeBaseline
+) -> None:
+    before = make_series([500.0, 510.0])
+    baseline = make_baseline([before], ["acceptance"])
+    same = baseline.compare(RunContent("run", [], series=[before]))
+    assert (same.agrees, same.compared, same.within, dict(same.series)) == (True, 6, 0, {})
+    found = baseline.compare(RunContent("run", [], series=[make_series([500.0, 530.0], "fail")]))
+    shown = [(each.case, each.quantity, each.first, each.second) for each in found.all_differences]
+    assert shown == [
+        ("acceptance", "criterion k-wet", "pass", "fail"),
+        ("acceptance", "deceleration_distance_extension", 45.0, 55.0),
+    ]
+    assert found.series == {"acceptance": "acceptance.series.yaml"}
+
+
+def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(
+    make_series: MakeSeries, make_baseline: MakeBaseline
+) -> None:
+    new, old = make_series([500.0], name="new"), make_series([500.0], name="old")
+    baseline = make_baseline([old], ["new"], ["acceptance.series.yaml"])
+    found = baseline.compare(RunContent("run", [], series=[new]))
+    shown = [(each.case, each.quantity, each.first, each.second) for each in found.all_differences]
+    assert shown == [("new", "series", "missing", "pass"), ("old", "series", "pass", "missing")]
+    assert (sorted(found.series), found.series_not_compared, found.compared) == (["new", "old"], [], 2)
+
+
+def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted(
+    make_series: MakeSeries, make_baseline: MakeBaseline
+) -> None:
+    old, new = make_series([500.0], name="old"), make_series([500.0], name="new")
+    baseline = make_baseline([old], ["new"])
+    found = baseline.compare(RunContent("run", [], series=[]))
+    assert (found.agrees, found.series_not_compared) == (True, ["old"])
+    run = {"cases": [], "manifest": {}, "series": series.series_document([new])}
+    kept = accepted_document(run, baseline)
+    results = series.series_results_of(kept["series"])
+    assert [(each.id, [stop.case.id for stop in each.cases]) for each in results] == [
+        (each.id, [stop.case.id for stop in each.cases]) for each in (old, new)
+    ]
+    assert kept["manifest"]["cases"] == len(old.cases) + len(new.cases)
+    dropping = make_baseline([old], ["new"], ["acceptance.series.yaml"])
+    assert [each["id"] for each in accepted_document(run, dropping)["series"]["series"]] == ["new"]
+
+
+def test_a_series_that_differs_is_in_every_report_for_machines(
+    make_series: MakeSeries, make_baseline: MakeBaseline
+) -> None:
+    found = make_baseline([make_series([500.0])]).compare(
+        RunContent("run", [], series=[make_series([500.0], "fail")])
+    )
+    sentence = "baseline: criterion k-wet was pass, is fail"
+    failure = ElementTree.fromstring(junit_xml([], found)).find(".//testcase[@name='acceptance']/failure")
+    assert failure is not None
+    assert (failure.get("type"), failure.text) == ("baseline", sentence)
+    assert list(missing_lines(found)) == [f"differs acceptance reason={sentence}"]
+    assert list(missing_annotations(found)) == [
+        f"::error file=acceptance.series.yaml,title=differs acceptance::{sentence}"
+    ]
+    content = RunContent("run", [], series=[make_series([500.0], "fail")], baseline=found)
+    assert content.tally.endswith("; 1 series different from the baseline")
+    assert read_baseline_comparison({"baseline": baseline_form(found)}) == found

@@ -51,6 +51,11 @@ def test_a_verdict_that_hangs_on_a_definition_has_no_margin() -> None:
     assert relative_margin(verdict(sensitivity=(FLIPPING,))) == 0.0
 
 
+def test_a_missed_bound_counts_over_it_also_where_the_verdict_hangs_on_a_definition() -> None:
+    missed = verdict(margin=-25.0, status="fail", sensitivity=(FLIPPING,))
+    assert relative_margin(missed) == pytest.approx(-0.05)
+
+
 def test_what_only_says_yes_or_no_has_none() -> None:
     standstill = verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
     assert relative_margin(standstill) is None

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest import lanes
+from uictest import lanes, physics
 from uictest.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
-from uictest.physics import arithmetic
+from uictest.physics import arithmetic, mass_flow, orifice_law
 from uictest.rig.backends.compiled import translate
 
 WIDTH = 8
@@ -149,6 +149,33 @@ def fused(request: pytest.FixtureRequest) -> tuple[Callable[..., Any], Callable[
         return np.array(block["result"][0])
 
     return in_lanes, of_numbers
+
+
+NAMES = ("fma", "maximum", "minimum", "select", "sqrt")
+IN_LANES = {getattr(physics, name): getattr(lanes, name) for name in NAMES}
+
+
+@pytest.mark.parametrize("width", [2, 4, 8, 16])
+def test_a_law_of_the_rig_gives_the_bits_of_plain_python_at_any_width(width: int) -> None:
+    """Flow through an orifice: choked, subsonic, nearly none, and none, either way."""
+    law = translate(mass_flow, numba.njit(error_model="numpy"), dict(IN_LANES))
+    orifice = (1.0, 1.0, 1e-8, *orifice_law(0.35, 0.995))
+
+    @numba.njit(error_model="numpy")
+    def apply(block: Any) -> None:
+        records = vectors(block)
+        for i in range(16):
+            record = records[i]
+            record.result = law(record.a, record.b, *orifice)
+
+    block = lanes.block(PAIR, width, 16)
+    pressures = np.geomspace(1e5, 9e5, 16 * width)
+    ratios = np.resize([0.1, 0.34, 0.36, 0.8, 0.994, 0.996, 1.0, 1.2, 4.0], 16 * width)
+    block["a"], block["b"] = (values.reshape(16, width) for values in (pressures, pressures * ratios))
+    apply(block)
+    plain = [mass_flow(a, b, *orifice) for a, b in zip(block["a"].flat, block["b"].flat, strict=True)]
+    assert len(set(plain)) > 14 * width
+    assert same_bits(block["result"].reshape(-1), np.array(plain))
 
 
 def test_a_sum_is_not_reordered() -> None:

@@ -22,10 +22,16 @@ ARGUMENTS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--no-first-run",
+    "--force-prefers-reduced-motion",
     "--window-size=1400,1000",
 )
 
-PLOTTED = "return document.querySelectorAll('.panels-plot .scatterlayer .trace').length"
+PLOTTED = """
+const plots = document.querySelector('details.stop[open] .plots');
+if (plots && !plots.dataset.drawn) plots.scrollIntoView({block: 'nearest', behavior: 'instant'});
+return document.querySelectorAll('.panels-plot .scatterlayer .trace').length;
+"""
+"""How many lines the plots of the open stop have: they are drawn once they are near the window."""
 
 
 def started() -> Any:

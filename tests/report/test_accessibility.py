@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
@@ -10,13 +11,15 @@ from typing import Any
 import pytest
 
 from uictest import comparison
-from uictest.evaluation import CaseResult
+from uictest.evaluation import CaseResult, RepeatedStop, Repeats
 from uictest.recording import Recording
+from uictest.report import RunContent, RunManifest
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.content import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .chromium import PLOTTED, emulate, resize, run, wait
+from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
 _CHECK = """
 const done = arguments[arguments.length - 1];
@@ -26,6 +29,12 @@ axe.run({exclude: [['svg.main-svg']]}, {resultTypes: ['violations'], preload: fa
   (error) => done([String(error)]));
 """
 """What plotly draws is no text of ours; its values are read at the cursor and from the tables."""
+
+_ALL_PLOTTED = """
+const missing = document.querySelector('details.stop .plots:not([data-ready])');
+missing?.scrollIntoView({block: 'nearest', behavior: 'instant'});
+return !missing;
+"""
 
 
 def violations(browser: Any) -> list[str]:
@@ -52,7 +61,7 @@ def test_the_page_of_a_run(browser: Any, page: Path, scheme: str, width: int) ->
     run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
     wait(browser, "return document.querySelectorAll('.compared-plot .scatterlayer .trace').length")
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
-    wait(browser, "return document.querySelectorAll('.plots[data-ready]').length === 3")
+    wait(browser, _ALL_PLOTTED)
     assert violations(browser) == []
 
 
@@ -76,6 +85,24 @@ def test_the_page_of_a_sweep(
 
 
 @appearances
+def test_the_maps_points_and_sensitivities_of_a_sweep(
+    browser: Any, tmp_path: Path, scheme: str, width: int
+) -> None:
+    """With the values of the maps unfolded."""
+    write_rows(tmp_path, drawn_rows(60, failing=(7, 8, 9)))
+    index = {"value": 0.5, "low": 0.4, "high": 0.6}
+    parts = {"measure": "met", "circumstances": {}, "first": index, "total": index}
+    sensitivities = [{**parts, "key": key} for key in DRAWN]
+    result = sweep_result(DRAWN, 60, logarithmic=["gain"], sensitivities=sensitivities)
+    page = tmp_path / "index.html"
+    page.write_text(sweep_page_html(SweepContent(tmp_path, result, {})), encoding="utf-8")
+    _shown(browser, page, scheme, width)
+    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+    wait(browser, "return document.querySelectorAll('.panels-of-points svg').length")
+    assert violations(browser) == []
+
+
+@appearances
 def test_the_page_of_a_comparison(
     browser: Any,
     tmp_path: Path,
@@ -83,11 +110,57 @@ def test_the_page_of_a_comparison(
     scheme: str,
     width: int,
 ) -> None:
-    first, second = make_recording(), make_recording()
+    """With a band, a channel that only one side has, other rates, and over distance."""
+    first, second = make_recording(), make_recording(1701)
     second["speed"][:] *= 1.1
-    compared = comparison.compare_recordings(first, second, ("a", "b"), comparison.Tolerances())
+    fewer = {name: samples for name, samples in second.channels.items() if name != "adhesion_4"}
+    units = {name: second.units[name] for name in fewer}
+    tolerances = comparison.Tolerances.read(["speed=2"])
+    compared = comparison.compare_recordings(first, Recording(fewer, units), ("a", "b"), tolerances)
     page = tmp_path / "comparison.html"
     page.write_text(comparison.comparison_html(compared), encoding="utf-8")
     _shown(browser, page, scheme, width)
-    wait(browser, PLOTTED)
+    browser.get(page.as_uri() + "#case-Recordings")
+    wait(browser, "return document.querySelector('.laid-over[data-ready]') !== null")
+    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     assert violations(browser) == []
+    run(
+        browser,
+        "const choice = document.querySelector('[data-choice=across]'); choice.value = 'distance';"
+        "choice.dispatchEvent(new Event('change'))",
+    )
+    assert violations(browser) == []
+
+
+@appearances
+def test_the_pages_of_paired_stops(
+    browser: Any, tmp_path: Path, make_result: Callable[..., CaseResult], scheme: str, width: int
+) -> None:
+    """Two runs that differ in everything a page lists, and two variants of one run."""
+    sides = [
+        RunContent(name, [_repeated(make_result, distance, name)], RunManifest(seed=seed))
+        for seed, (name, distance) in enumerate((("one", 465.0), ("other", 470.0)))
+    ]
+    compared = comparison.compare_runs(*sides, comparison.Tolerances())
+    both = RunContent("both", [case for side in sides for case in side.results])
+    variants = comparison.compare_variants(both, ["controller"])
+    for text in (comparison.comparison_html(compared), comparison.variants_html("both", variants)):
+        assert "Stops under the same noise" in text
+        page = tmp_path / "comparison.html"
+        page.write_text(text, encoding="utf-8")
+        _shown(browser, page, scheme, width)
+        assert violations(browser) == []
+
+
+def _repeated(make_result: Callable[..., CaseResult], distance: float, controller: str) -> CaseResult:
+    result = make_result(id="slip", parameters={"controller": controller})
+    assert result.measures is not None
+    stops = tuple(
+        RepeatedStop(
+            seed, "pass", "", (), {**result.measures, "braking_distance_m": distance + seed}, result.wheelsets
+        )
+        for seed in (1, 2, 3)
+    )
+    return dataclasses.replace(
+        result, id=f"slip[controller={controller}]", noise_key="00c0ffee", repeats=Repeats("all", stops)
+    )

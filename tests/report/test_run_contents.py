@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -7,7 +8,15 @@ import pytest
 
 from uictest.evaluation import CaseResult, cases_document
 from uictest.recording import Recording
-from uictest.report import CaseDescription, RunContent, RunManifest, read_run, write_recording, write_reports
+from uictest.report import (
+    CaseDescription,
+    RunContent,
+    RunManifest,
+    read_run,
+    recording_path,
+    write_recording,
+    write_reports,
+)
 
 MakeResult = Callable[..., CaseResult]
 
@@ -45,6 +54,32 @@ def test_what_is_no_run_is_rejected_with_its_file(tmp_path: Path, text: str, rea
     (tmp_path / "results.json").write_text(text)
     with pytest.raises(ValueError, match=rf"results\.json: not the results of a run: .*{reason}"):
         read_run(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "case_id", ["../escaped", "/etc/passwd", "a/b", "..", "", ".", r"..\escaped", r"C:\a", "C:a", "a\0b"]
+)
+def test_an_id_that_leads_out_of_the_folder_is_refused(
+    tmp_path: Path, make_result: MakeResult, make_recording: Callable[..., Recording], case_id: str
+) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    write_reports(folder, RunContent("a-run", [make_result(id="fine")], RunManifest()))
+    results = folder / "results.json"
+    written = results.read_text("utf-8")
+    assert '"id": "fine"' in written
+    results.write_text(written.replace('"id": "fine"', f'"id": {json.dumps(case_id)}'), "utf-8")
+    with pytest.raises(ValueError, match=r"results\.json.*is not the name of a file"):
+        read_run(folder)
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        write_recording(folder, case_id, make_recording())
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        recording_path(folder, case_id)
+
+
+@pytest.mark.parametrize("case_id", ["slip-120[friction=0.10,command=90]", "my.train run (2)", "..a"])
+def test_ids_of_cases_and_names_of_recorded_files_are_names(tmp_path: Path, case_id: str) -> None:
+    assert recording_path(tmp_path, case_id) == tmp_path / "recordings" / f"{case_id}.parquet"
 
 
 def test_complete_is_true_or_false(tmp_path: Path, make_result: MakeResult) -> None:

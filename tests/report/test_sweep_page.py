@@ -10,10 +10,9 @@ from pydantic import TypeAdapter
 
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
-from uictest.report import Frontier, MeasureHistogram, OutcomeCount, SweepMap, Trend, WrittenValue
+from uictest.report import Frontier, MeasureHistogram, OutcomeCount, Trend, WrittenValue
 from uictest.report.page import sweep_page_html
 from uictest.report.page.sweep.frontier_plot import frontier_plot
-from uictest.report.page.sweep.heat import heat_map
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
@@ -36,7 +35,7 @@ def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
     for heading in (
         "4 cases: 3 pass, 1 fail; 1 not as expected",
         "Cases met",
-        "Mean braking distance, m",
+        "Braking distance, m",
         "Frontier along 90 %",
         "Cases met by parameter",
         "Measures by parameter",
@@ -84,27 +83,7 @@ def test_a_map_of_a_million_cells_is_bundled(make_sweep: MakeSweep) -> None:
     axes = {name: {"parameter": name, "values": values} for name in ("rows", "columns")}
     html = sweep_page_html(make_sweep(maps=[{"measure": "met", **axes, **cells}]))
     assert len(html) < 1_000_000
-    assert "map-met.csv has each" in html
-
-
-def cells(**changes: Any) -> SweepMap:
-    axes = {"rows": {"parameter": "a", "values": ["1"]}, "columns": {"parameter": "b", "values": ["x", "y"]}}
-    counts = {"means": [[0.5, None]], "met": [[1, 0]], "cases": [[2, 0]]}
-    return of_json(SweepMap, {"measure": "met", **axes, **counts, **changes})
-
-
-def test_cells_say_their_share_and_lead_to_a_drawn_case() -> None:
-    ((label, (first, second)),) = heat_map(cells(), {("1", "x"): "case-3"}).rows
-    assert (label, first.text, first.detail, first.tone, first.missed) == ("1", "50 %", "1 of 2", 50, True)
-    assert (first.key, second.key, second.tone) == ("case-3", "", 0)
-
-
-@pytest.mark.parametrize(("mean", "tone"), [(10.0, 0), (15.0, 50), (20.0, 100)])
-def test_cells_of_a_figure_are_toned_between_its_ends(mean: float, tone: int) -> None:
-    columns = {"columns": {"parameter": "b", "values": ["x", "y", "z"]}}
-    counts = {"met": [[1, 1, 1]], "cases": [[1, 1, 1]]}
-    found = cells(measure="braking_distance_m", means=[[10.0, 20.0, mean]], **columns, **counts)
-    assert heat_map(found, {}).rows[0][1][2].tone == tone
+    assert "Folded: neighbours of 1000 values of rows share 59 cells." in html
 
 
 def test_bars_stack_to_the_cases_of_their_bin() -> None:

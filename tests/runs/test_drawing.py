@@ -11,7 +11,7 @@ from uictest import campaign
 from uictest.campaign import BatchResult, CaseRun, RecordingRequest
 from uictest.evaluation import CaseResult
 from uictest.recording import Recording
-from uictest.report.page import DRAWN
+from uictest.report import DRAWN
 from uictest.runs.drawing import TraceCollection
 
 RECORDING = Recording(
@@ -62,6 +62,14 @@ def test_of_a_large_batch_the_worst_are_simulated_again(replayed: list[str]) -> 
     assert len(drawing.finish(BatchResult(results), jobs=1)) == DRAWN
     assert {f"case-{DRAWN + n}" for n in range(4)} <= set(replayed)
     assert f"case-{DRAWN + 4}" not in replayed
+
+
+def test_chosen_cases_of_a_large_batch_are_simulated_again(replayed: list[str]) -> None:
+    cases = _cases(2 * DRAWN)
+    chosen = {case.id for case in cases[DRAWN - 2 :]}
+    drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True, chosen=chosen)
+    results = [_result(case.id, "fail" if case.id not in chosen else "pass") for case in cases]
+    assert drawing.finish(BatchResult(results), jobs=1).keys() == chosen == set(replayed)
 
 
 def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(

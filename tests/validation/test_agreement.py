@@ -68,6 +68,20 @@ def test_a_constant_error_is_all_bias(recorded: list[float], error: float) -> No
     assert agreement.absolute.deviation == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("stops", [2, 5])
+def test_equal_differences_have_a_bias_and_no_intervals(stops: int) -> None:
+    """Student's t would put the mean of all such stops into an interval without width."""
+    recorded = [400.0 + 8.0 * place for place in range(stops)]
+    agreement = agreement_of("d", "m", recorded, [each + 4.0 for each in recorded])
+    assert agreement is not None
+    found = agreement.absolute
+    assert (found.bias, found.deviation) == (4.0, 0.0)
+    shown = (found.bias_low, found.bias_high, found.limits_low, found.limits_high)
+    assert all(map(math.isnan, shown))
+    assert agreement.relative is not None
+    assert agreement.relative.bias_low < agreement.relative.bias < agreement.relative.bias_high
+
+
 @given(distances)
 def test_the_order_of_stops_makes_no_difference_and_the_sign_is_simulated_minus_recorded(
     recorded: list[float],

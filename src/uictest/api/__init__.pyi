@@ -6,3 +6,5 @@ from .running import run as run
 from .simulating import simulate as simulate
 from .sweep_results import SweepResults as SweepResults
 from .sweeping import sweep as sweep
+from .validating import validate as validate
+from .validation_results import Validation as Validation

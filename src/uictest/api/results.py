@@ -129,7 +129,7 @@ class Results(Sequence[evaluation.CaseResult]):
         if known in self._recordings:
             return self._recordings[known]
         if self.folder is not None:
-            path = self.folder / report.RECORDINGS / f"{known}.parquet"
+            path = report.recording_path(self.folder, known)
             if path.is_file():
                 return read_parquet(path)
         raise KeyError(f"{known} was not recorded: run it with record='all', or call uictest.simulate")

@@ -41,6 +41,7 @@ def run(
     jobs: int | Literal["auto"] = "auto",
     record: Record = "failed",
     rate: float = DEFAULT_RATE,
+    validated: PathName | None = None,
     output: PathName | None = None,
 ) -> Results:
     """Simulate and judge cases: the same digits as `uictest run`.
@@ -60,6 +61,8 @@ def run(
         jobs: number of threads, `auto`: one for each processor.
         record: cases to record: `failed` (not as expected), `all` or `none`.
         rate: samples per second of a recording.
+        validated: validation.json of a validation: results outside of it are flagged, in place of what the
+            scenarios name under `validated`.
         output: folder for reports; the run gets a folder in it, as with `-o`.
 
     Raises:
@@ -80,10 +83,12 @@ def run(
         "--trust": folders,
         "--record": None if record == "failed" else record,
         "--record-rate": None if rate == DEFAULT_RATE else rate,
+        "--validated": validated,
         "-o": output,
     }
     arguments = command_words(found.words, options)
-    batch = runs.batch_of(chosen, of_series, arguments, seed)
+    reference = None if validated is None else runs.read_reference(Path(validated))
+    batch = runs.with_domains(runs.batch_of(chosen, of_series, arguments, seed), reference)
     batch = replace(batch, recording=request, jobs=min(threads, batch.stops))
     return _in_memory(batch) if output is None else _published(batch, Path(output))
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Literal
 
-from uictest import runs, sweeps
+from uictest import history, runs, sweeps
 from uictest.api.arguments import (
     PathName,
     Trusted,
@@ -31,6 +31,7 @@ def sweep(
     measures: str | Sequence[str] = ("braking_distance_m",),
     frontier: str | None = None,
     tolerance: str | None = None,
+    validated: PathName | None = None,
     trust: Trusted = (),
     jobs: int | Literal["auto"] = "auto",
     output: PathName | None = None,
@@ -50,6 +51,8 @@ def sweep(
         frontier: parameter along which to find where the verdict flips.
         tolerance: accuracy of the frontier, such as `0.001` or `0.5 km/h` [default: 1/64 of the smallest
             step].
+        validated: validation.json of a validation: cases outside of it are counted and named in the column
+            `outside`; in place of what the scenario names under `validated`.
         trust: folders that scenarios may refer to, besides their own and the working folder.
         jobs: number of threads, `auto`: one for each processor.
         output: folder for results; the sweep gets a folder of its name in it, as with `-o`.
@@ -69,6 +72,9 @@ def sweep(
     if selection.size == 0:
         raise ValueError(f"nothing selected among {plan.size} cases")
 
+    option = None if validated is None else Path(validated)
+    reference = runs.reference_of(option, plan.base.scenario.validated)
+
     def run_in(folder: Path, formats: Sequence[str]) -> runs.SweepRun:
         return runs.SweepRun(
             selection=selection,
@@ -79,6 +85,7 @@ def sweep(
             pair=runs.first_pair(plan),
             measures=runs.measure_names([measures] if isinstance(measures, str) else measures),
             search=runs.frontier_search(plan, frontier, tolerance),
+            reference=reference,
             formats=formats,
         )
 
@@ -91,4 +98,6 @@ def sweep(
 def _finished(run: runs.SweepRun, *, keep: bool) -> SweepResults:
     finished = runs.run_sweep(run, runs.SweepObserver())
     assert finished is not None  # there is one shard
+    if keep:
+        history.refresh_index(run.folder.parent)
     return SweepResults.read(finished.result, run.folder, keep=keep)

@@ -19,6 +19,7 @@ from uictest.cli.commands.identify import identify
 from uictest.cli.commands.init import init
 from uictest.cli.commands.library import library
 from uictest.cli.commands.list import list_cases
+from uictest.cli.commands.open import open_page
 from uictest.cli.commands.report import report
 from uictest.cli.commands.reproduce import reproduce
 from uictest.cli.commands.run import run
@@ -57,6 +58,7 @@ for _name, _function in (
     ("bench", bench),
     ("reproduce", reproduce),
     ("report", report),
+    ("open", open_page),
     ("compare", compare),
     ("schema", schema),
     ("init", init),

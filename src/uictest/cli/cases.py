@@ -23,6 +23,17 @@ def select_by_options(
         return runs.select_cases(cases, tag=tag)
 
 
+def drawn_first(cases: Sequence[scenario.Case], expression: str | None) -> frozenset[str]:
+    """Return the ids of the cases that `--draw` chooses. Raises typer.BadParameter if it chooses none."""
+    if expression is None:
+        return frozenset()
+    with malformed("--draw", expression):
+        chosen = frozenset(case.id for case in runs.select_cases(cases, expression))
+    if not chosen:
+        raise typer.BadParameter(f"no selected case matches {expression!r}", param_hint="--draw")
+    return chosen
+
+
 @contextmanager
 def malformed(option: str, text: str | None) -> Iterator[None]:
     """Let a malformed expression be a typer.BadParameter of its option."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from uictest import comparison, recording, report, runs
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
 
@@ -18,7 +18,7 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
     try:
         compared = comparison.compare_variants(run, keys)
     except ValueError as error:
-        raise InvalidInputError(f"uictest: --over: {error}") from error
+        raise runs.InvalidInputError(f"--over: {error}") from error
     if shown is PlainFormat.JSON:
         data(comparison.variants_json(run.name, compared))
     else:
@@ -34,8 +34,8 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
 
 def _run(folder: Path) -> report.RunContent:
     if reason := runs.why_no_run(folder):
-        raise InvalidInputError(f"uictest: {reason}; --over takes the folder of a run")
+        raise runs.InvalidInputError(f"{reason}; --over takes the folder of a run")
     try:
         return report.read_run(folder)
     except (OSError, ValueError) as error:
-        raise InvalidInputError(f"uictest: cannot compare its variants: {error}") from error
+        raise runs.InvalidInputError(f"cannot compare its variants: {error}") from error

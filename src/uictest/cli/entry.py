@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Sequence
+from typing import Final
 
 import typer
 
 from uictest import runs, scenario
 from uictest.cli.app import app
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CommandLine
 from uictest.cli.output import lost_data, message, use_safe_encoding
 
 _TYPER_INTERRUPTED = 130
+_OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask", "device": "--device"}
+"""Argument that an error names -> the option that sets it."""
 
 
 def execute(arguments: Sequence[str]) -> ExitCode:
@@ -32,12 +35,12 @@ def _outcome(invocation: CommandLine) -> ExitCode:
     except typer.TyperException as error:
         message(f"uictest: {error.format_message()}\nTry 'uictest --help', or 'uictest COMMAND --help'.")
         return ExitCode.USAGE
-    except (InvalidInputError, scenario.ScenarioErrors) as error:
+    except scenario.ScenarioErrors as error:
         message(str(error))
         return ExitCode.USAGE
     except runs.InvalidInputError as error:
         for text in error.messages:
-            message(f"uictest: {text}")
+            message(f"uictest: {text}{_options(error.arguments)}")
         return ExitCode.USAGE
     except KeyboardInterrupt:
         message("uictest: interrupted")
@@ -49,6 +52,11 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         return _failed(_reason(error), invocation)
     except Exception as error:
         return _failed(f"internal error: {type(error).__name__}: {error}", invocation)
+
+
+def _options(arguments: Sequence[str]) -> str:
+    """Return the options that set some arguments in parentheses; nothing for none."""
+    return f" ({', '.join(_OPTIONS[name] for name in arguments)})" if arguments else ""
 
 
 def _call(invocation: CommandLine) -> ExitCode:

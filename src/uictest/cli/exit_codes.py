@@ -1,4 +1,4 @@
-"""Exit codes, and the error for invalid input. A crash never exits with 1, and no exit code is a count."""
+"""Exit codes. A crash never exits with 1, and no exit code is a count."""
 
 from __future__ import annotations
 
@@ -16,13 +16,6 @@ class ExitCode(IntEnum):
     ERROR = 3
     USAGE = 4
     NOTHING_SELECTED = 5
-
-
-class InvalidInputError(Exception):
-    """Options or files that cannot be used: the command ends with `ExitCode.USAGE`.
-
-    The message is complete, and may have several lines.
-    """
 
 
 def of_run(run: runs.Published) -> ExitCode:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from uictest.cli.exit_codes import InvalidInputError
+from uictest import runs
 
 Recording = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
@@ -86,7 +86,5 @@ def interval(text: str) -> tuple[float, float]:
     except ValueError:
         begin, end = 1.0, 0.0
     if not dots or not -math.inf < begin < end < math.inf:
-        raise InvalidInputError(
-            f"uictest: --wsp {text!r}: write the first and the last time in s, such as 4..12"
-        )
+        raise runs.InvalidInputError(f"--wsp {text!r}: write the first and the last time in s, such as 4..12")
     return begin, end

@@ -80,6 +80,14 @@ Expression = Annotated[
         help="Select cases whose id, file name or tag contains EXPR; combine words with and, or, not, ( ).",
     ),
 ]
+Draw = Annotated[
+    str | None,
+    typer.Option(
+        "--draw",
+        metavar="EXPR",
+        help="Draw the cases that match in index.html, as with -k, up to 60 of them; then others, up to 18.",
+    ),
+]
 Tag = Annotated[
     str | None,
     typer.Option(
@@ -122,6 +130,15 @@ Trusted = Annotated[
         " folder. May be repeated.",
     ),
 ]
+Validated = Annotated[
+    Path | None,
+    typer.Option(
+        "--validated",
+        metavar="FILE",
+        help="Flag the cases outside of what was validated: validation.json of 'uictest validate'; in place"
+        " of what scenarios name.",
+    ),
+]
 Verbosity = Annotated[
     int,
     typer.Option(
@@ -137,6 +154,15 @@ Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only cases that
 Output = Annotated[
     Path,
     typer.Option("-o", "--output", metavar="DIR", help="Folder for reports; each run gets a folder in it."),
+]
+KeptRuns = Annotated[
+    int | None,
+    typer.Option(
+        "--keep",
+        metavar="N",
+        min=1,
+        help="Afterwards remove older folders of this command beyond the N newest; names each.",
+    ),
 ]
 ExitFirst = Annotated[bool, typer.Option("-x", help="Stop at the first case that is not as expected.")]
 MaxFail = Annotated[

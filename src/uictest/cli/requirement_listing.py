@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from uictest import campaign, scenario, series
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
 from uictest.report import TableColumn, aligned, columns_not_shown, counted, counted_in, fitted, printable
-from uictest.scenario import yaml
 
 Status = Literal["covered", "uncovered", "unknown"]
 """unknown: a scenario, series or criterion names it and the list of requirements does not."""
@@ -51,10 +50,7 @@ def list_requirements(
 
 
 def _listed(file: Path | None) -> frozenset[str] | None:
-    try:
-        return None if file is None else frozenset(scenario.read_requirement_list(file))
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    return None if file is None else frozenset(scenario.read_requirement_list(file))
 
 
 def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | None) -> Status:

@@ -1,9 +1,5 @@
-from .baseline import (
-    Baseline as Baseline,
-    Scope as Scope,
-    accepted_document as accepted_document,
-    read_baseline as read_baseline,
-)
+from .accepted import accepted_document as accepted_document
+from .baseline import Baseline as Baseline, read_baseline as read_baseline
 from .difference import Comparison as Comparison
 from .folders import compare_run_folders as compare_run_folders, with_overlays as with_overlays
 from .page import comparison_html as comparison_html, variants_html as variants_html
@@ -20,6 +16,7 @@ from .paired.wording import variants_lines as variants_lines
 from .parameters import ParameterChange as ParameterChange, ParameterOfRun as ParameterOfRun
 from .recordings import compare_recordings as compare_recordings
 from .runs import compare_runs as compare_runs
+from .scope import Scope as Scope
 from .tolerance import Tolerance as Tolerance, Tolerances as Tolerances
 from .wording import (
     comparison_json as comparison_json,

@@ -5,40 +5,18 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 from uictest import evaluation, report
+from uictest.comparison.accepted_series import compare_accepted_series
 from uictest.comparison.parameters import parameter_changes, parameter_lines
-from uictest.comparison.runs import case_differences, run_notes, unknown_parameters
+from uictest.comparison.runs import case_differences, run_notes, stops_of_series, unknown_parameters
+from uictest.comparison.scope import Scope
 from uictest.comparison.tolerance import Tolerances
 from uictest.report import BaselineComparison, Difference, without_machine
-
-_TABLES = ("subjects", "parts")
-"""Mappings by id or name in a results document, besides its cases."""
-
-
-@dataclass(frozen=True, slots=True)
-class Scope:
-    """The cases that a run selects.
-
-    Args:
-        selected: ids of the cases to be run.
-        searched: scenario files and folders of which every case was selected; none where an expression, a tag
-            or the last failures chose among them.
-
-    """
-
-    selected: frozenset[str]
-    searched: Sequence[str] = ()
-
-    def misses(self, case_id: str, scenario: str) -> bool:
-        """Return whether the files searched should contain a case and do not."""
-        path = PurePosixPath(scenario)
-        places = (path, *path.parents)
-        return case_id not in self.selected and any(PurePosixPath(name) in places for name in self.searched)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,28 +32,29 @@ class Baseline:
     tolerances: Tolerances
 
     def compare(self, run: report.RunContent) -> BaselineComparison:
-        """Compare every result of a run, and list the cases of the baseline that were not compared."""
+        """Compare every case and series of a run, and list those of the baseline that were not compared."""
         quantities = {result.id: list(self._quantities(result)) for result in run.results}
-        all_differences = [
-            difference for of_case in quantities.values() for difference in of_case if difference
-        ]
         missing, other_ids = self._not_compared(quantities)
-        beyond = {case_id: _beyond(of_case) for case_id, of_case in quantities.items()}
+        of_series = compare_accepted_series(self.run.series, run.series, self.scope, self.tolerances)
+        compared = [*quantities.values(), *of_series.quantities.values()]
+        beyond = {
+            own_id: _beyond(each)
+            for side in (quantities, of_series.quantities)
+            for own_id, each in side.items()
+        }
         beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
         return BaselineComparison(
             without_machine(self.folder),
             self.sha256,
-            compared=sum(map(len, quantities.values())) + len(missing),
-            within=sum(difference.within for difference in all_differences),
-            differences={case_id: of_case for case_id, of_case in beyond.items() if of_case},
+            compared=sum(map(len, compared)) + len(missing),
+            within=sum(each.within for of_one in compared for each in of_one if each),
+            differences={own_id: each for own_id, each in beyond.items() if each},
             missing=missing,
+            series={own_id: file for own_id, file in of_series.files.items() if beyond[own_id]},
             not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
             not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
-            notes=[
-                *(["series are not compared with the baseline"] if run.series or self.run.series else []),
-                *self._parameters_changed(run),
-                *run_notes(self._inputs_limited(run), run),
-            ],
+            series_not_compared=of_series.not_compared,
+            notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
         )
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:
@@ -102,7 +81,7 @@ class Baseline:
     def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
         """Yield the parameters that have changed since the cases were accepted."""
         both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
-        yield from parameter_lines(parameter_changes(both))
+        yield from parameter_lines(parameter_changes([*both, *stops_of_series(self.run, run)]))
         yield from unknown_parameters(both, ("baseline", "run"))
 
     def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
@@ -123,32 +102,15 @@ def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baselin
         raise ValueError(f"{path}: not the results of a run: {error}") from error
     results = {result.id: result for result in run.results}
     sha256 = hashlib.sha256(content).hexdigest()
-    return Baseline(str(folder), sha256, run, results, document, scope, tolerances)
+    return Baseline(str(_named(folder)), sha256, run, results, document, scope, tolerances)
 
 
-def accepted_document(run: Mapping[str, Any], baseline: Baseline | None) -> dict[str, Any]:
-    """Return the results of a run as a baseline: the cases that it did not select stay as they are.
-
-    `run` is the results document. Cases that the scenario files no longer have are dropped.
-    """
-    cases = {case["id"]: case for case in run["cases"]}
-    if baseline is None:
-        return dict(run)
-    accepted = baseline.document
-    kept = [case for case in accepted["cases"] if _stays(case, cases, baseline.scope)]
-    if not kept:
-        return dict(run)
-    order = [case["id"] for case in accepted["cases"]]
-    cases |= {case["id"]: case for case in kept}
-    ids = sorted(cases, key=lambda case_id: order.index(case_id) if case_id in order else len(order))
-    inputs = {**baseline.run.manifest.inputs, **run["manifest"].get("inputs", {})}
-    tables = {name: {**accepted.get(name, {}), **run[name]} for name in _TABLES if name in run}
-    manifest = {**run["manifest"], "inputs": inputs, "cases": len(ids)}
-    return {**run, **tables, "manifest": manifest, "cases": [cases[case_id] for case_id in ids]}
-
-
-def _stays(case: Mapping[str, Any], run: Mapping[str, Any], scope: Scope) -> bool:
-    return case["id"] not in run and not scope.misses(case["id"], case["scenario"])
+def _named(folder: Path) -> Path:
+    """Return the run that `latest` names now: after this run it names another."""
+    if folder.name != "latest" or not folder.is_symlink():
+        return folder
+    run = folder.parent / folder.readlink()
+    return run if run.is_dir() else folder
 
 
 def _beyond(quantities: Iterable[Difference | None]) -> list[Difference]:

@@ -4,25 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
-from types import MappingProxyType
-from typing import Final
 
 from uictest import recording
-from uictest.report import PLOT_QUANTITIES, channel_names
+from uictest.report import shown_unit
 from uictest.scenario.yaml import nearest
 from uictest.units import CELSIUS_ZERO, SIZES
-
-_SHOWN: Final = MappingProxyType({"m/s": "km/h", "Pa": "bar", "N": "kN", "K": "degC"})
-"""Unit of a recording -> unit that every page shows it in."""
-_PER_CENT: Final = frozenset(
-    name for key, quantity in PLOT_QUANTITIES.items() if quantity.unit == "%" for name in channel_names(key)
-)
-"""Channels that every page shows in per cent."""
 
 
 def in_shown_units(record: recording.Recording) -> recording.Recording:
     """Return a recording in the units of the page: km/h, bar, kN, degC, slides in %."""
-    units = {name: _shown_unit(name, unit) for name, unit in record.units.items()}
+    units = {name: shown_unit(name, unit) for name, unit in record.units.items()}
     channels = {
         name: samples if units[name] == record.units[name] else _in_unit(samples, units[name])
         for name, samples in record.channels.items()
@@ -32,12 +23,6 @@ def in_shown_units(record: recording.Recording) -> recording.Recording:
 
 def _in_unit(samples: recording.Samples, unit: str) -> recording.Samples:
     return samples - CELSIUS_ZERO if unit == "degC" else samples / SIZES[unit]
-
-
-def _shown_unit(channel: str, unit: str) -> str:
-    if unit == "1" and channel in _PER_CENT:
-        return "%"
-    return _SHOWN.get(unit, unit)
 
 
 def common_channels(first: Mapping[str, str], second: Mapping[str, str]) -> list[str]:

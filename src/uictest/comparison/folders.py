@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from uictest import recording, report
+from uictest.comparison.channel_difference import allowed_of, channel_difference
 from uictest.comparison.channels import common_channels, in_shown_units, select_channels
 from uictest.comparison.difference import Comparison
 from uictest.comparison.overlay import FIRST_DRAWN, Overlay, default_channels, overlay_of
@@ -25,13 +26,16 @@ def compare_run_folders(first: Path, second: Path, tolerances: Tolerances) -> Co
     return compare_runs(report.read_run(first), report.read_run(second), tolerances)
 
 
-def with_overlays(compared: Comparison, first: Path, second: Path, channels: Sequence[str]) -> Comparison:
+def with_overlays(
+    compared: Comparison, first: Path, second: Path, channels: Sequence[str], tolerances: Tolerances
+) -> Comparison:
     """Return the comparison of two run folders with the stops that differ drawn over each other.
 
     Args:
         compared: the results compared.
         first, second: the folders.
         channels: patterns of the channels to draw; a choice of the program where there are none.
+        tolerances: a channel that one of them names is drawn with it; the others were given for figures.
 
     Raises:
         OSError, ValueError: a recording cannot be read, or a pattern matches no channel of any stop.
@@ -39,43 +43,44 @@ def with_overlays(compared: Comparison, first: Path, second: Path, channels: Seq
     """
     cases = list(dict.fromkeys(difference.case for difference in compared.differences))
     pairs = {case_id: pair for case_id in cases[:DRAWN] if (pair := _recordings(case_id, first, second))}
-    names = (compared.first, compared.second)
     known = [name for pair in pairs.values() for name in _common(pair)]
     chosen = select_channels(channels, known) if channels and pairs else None
-    overlays = [_overlay(case_id, pair, names, chosen) for case_id, pair in pairs.items()]
+    overlays = [_overlay(case_id, pair, chosen, tolerances) for case_id, pair in pairs.items()]
     remarks = list(_undrawn(cases, pairs, first, second))
     return dataclasses.replace(compared, overlays=overlays, undrawn=remarks)
 
 
 def _recordings(case_id: str, first: Path, second: Path) -> Pair | None:
-    paths = [_place(folder, case_id) for folder in (first, second)]
+    paths = [report.recording_path(folder, case_id) for folder in (first, second)]
     if not all(path.is_file() for path in paths):
         return None
     return in_shown_units(recording.read_parquet(paths[0])), in_shown_units(recording.read_parquet(paths[1]))
-
-
-def _place(folder: Path, case_id: str) -> Path:
-    return folder / report.RECORDINGS / f"{case_id}.parquet"
 
 
 def _common(pair: Pair) -> list[str]:
     return common_channels(pair[0].units, pair[1].units)
 
 
-def _overlay(case_id: str, pair: Pair, names: tuple[str, str], chosen: Sequence[str] | None) -> Overlay:
+def _overlay(case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances: Tolerances) -> Overlay:
     common = _common(pair)
-    if chosen is None:
-        drawn = default_channels(FIRST_DRAWN, common)
-    else:
-        drawn = [name for name in chosen if name in common]
-    return overlay_of(case_id, *pair, names, drawn)
+    names = default_channels(FIRST_DRAWN, common) if chosen is None else chosen
+    allowed = {name: allowed_of(name, pair[0], tolerances) for name in common if tolerances.names(name)}
+    return overlay_of(
+        case_id,
+        *pair,
+        [channel_difference(name, *pair, allowed.get(name)) for name in names if name in common],
+    )
 
 
 def _undrawn(cases: Sequence[str], pairs: dict[str, Pair], first: Path, second: Path) -> Iterator[str]:
     """Yield which stops that differ are not drawn, and why."""
     for case_id in cases[:DRAWN]:
         if case_id not in pairs:
-            recorded = [each.resolve().name for each in (first, second) if _place(each, case_id).is_file()]
+            recorded = [
+                each.resolve().name
+                for each in (first, second)
+                if report.recording_path(each, case_id).is_file()
+            ]
             side = f"only {recorded[0]} has" if recorded else "neither run has"
             yield f"{case_id}: {side} a recording; run both with --record all"
     if len(cases) > DRAWN:

@@ -1,13 +1,15 @@
-"""Two recordings drawn over each other."""
+"""Two recordings drawn over each other, and beneath each channel the difference of both."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from uictest import recording
+from uictest.comparison.channel_difference import ChannelDifference
 from uictest.comparison.channels import common_channels, only_in
-from uictest.report import Curve, Panel, PlotLine, PlotTrace, curve_of, interval_of, printable
+from uictest.comparison.overlay_curves import OverDistance, curves_over_time, over_common_distance
+from uictest.report import PlotTrace, interval_of, number
 
 DRAWN = 12
 """Largest number of channels drawn where none are chosen."""
@@ -15,20 +17,35 @@ DRAWN = 12
 FIRST_DRAWN = ("speed", *(f"slide_{n}" for n in (1, 2, 3, 4)), "tank_pressure_1", "clamping_force_1")
 """The most informative channels of a stop: they come first where none are chosen."""
 
+_SAME = 1e-9
+"""Of a time or an interval: what differs by less is rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """Panels with a line for each side.
+    """Both sides of some channels, and their differences.
 
-    `not_drawn` are channels of both sides without a panel; `only_first` and `only_second` those of one side.
+    Args:
+        title: what was recorded: the id of a case.
+        channels: those that are drawn.
+        intervals: mean time between two samples of each side, s.
+        trace: their curves over time, named by `overlay_curves.curve_name`.
+        over_distance: the same over distance.
+        not_drawn: channels of both sides that are not drawn.
+        only_first, only_second: channels of one side.
+        remarks: what was not compared, and how samples at other instants were.
+
     """
 
     title: str
+    channels: Sequence[ChannelDifference]
+    intervals: tuple[float, float]
     trace: PlotTrace
-    panels: Sequence[tuple[Panel, Sequence[PlotLine]]]
+    over_distance: OverDistance
     not_drawn: Sequence[str] = ()
     only_first: Sequence[str] = ()
     only_second: Sequence[str] = ()
+    remarks: Sequence[str] = ()
 
 
 def default_channels(remarkable: Sequence[str], common: Sequence[str]) -> list[str]:
@@ -41,35 +58,53 @@ def overlay_of(
     title: str,
     first: recording.Recording,
     second: recording.Recording,
-    names: tuple[str, str],
-    channels: Sequence[str],
+    differences: Sequence[ChannelDifference],
 ) -> Overlay:
-    """Return channels that both recordings have, drawn over each other, each to its own end."""
-    curves = {}
-    panels = []
-    for name in channels:
-        curves[f"first {name}"] = curve_of(first["time"], first[name])
-        curves[f"second {name}"] = curve_of(second["time"], second[name])
-        lines = (
-            PlotLine(f"first {name}", names[0], "train"),
-            PlotLine(f"second {name}", names[1], "wheelset-3", dotted=True),
-        )
-        shown = printable(name)
-        panels.append((Panel(shown, shown, printable(first.units[name]), (name,), include=()), lines))
+    """Return the channels that differ so, each side drawn to its own end."""
+    channels = [each.channel for each in differences]
     common = common_channels(first.units, second.units)
     return Overlay(
         title,
-        _trace(first, second, curves),
-        panels,
+        differences,
+        (interval_of(first[recording.TIME]), interval_of(second[recording.TIME])),
+        _trace(first, second, differences),
+        over_common_distance(first, second, channels),
         [name for name in common if name not in channels],
         only_in(first.units, second.units),
         only_in(second.units, first.units),
+        list(sampling_remarks(first, second)),
     )
 
 
-def _trace(first: recording.Recording, second: recording.Recording, curves: Mapping[str, Curve]) -> PlotTrace:
-    times = first["time"], second["time"]
+def sampling_remarks(first: recording.Recording, second: recording.Recording) -> Iterator[str]:
+    """Yield how samples at different instants were compared, and which time was not; A is the first side."""
+    times = first[recording.TIME], second[recording.TIME]
+    start, end = max(time[0] for time in times), min(time[-1] for time in times)
+    if start > end:
+        yield "A and B share no time: nothing of their channels is compared"
+        return
+    steps = [interval_of(time) for time in times]
+    if abs(steps[0] - steps[1]) > _SAME * max(steps):
+        sides = ("A", "B") if steps[0] > steps[1] else ("B", "A")
+        every = [f"{1e3 * step:.4g} ms" for step in sorted(steps, reverse=True)]
+        yield (
+            f"compared at the instants of {sides[0]}, every {every[0]}; {sides[1]} has a sample every"
+            f" {every[1]} and is read off straight lines between its samples"
+        )
+    for side, time in zip("AB", times, strict=True):
+        if start - time[0] > _SAME * max(1.0, abs(start)):
+            yield f"{side} begins {number(float(start - time[0]))} s earlier: not compared"
+        if time[-1] - end > _SAME * max(1.0, abs(end)):
+            later = number(float(time[-1] - end))
+            yield f"{side} goes on for {later} s, from {number(float(end))} s: not compared"
+
+
+def _trace(
+    first: recording.Recording, second: recording.Recording, differences: Sequence[ChannelDifference]
+) -> PlotTrace:
+    times = first[recording.TIME], second[recording.TIME]
     intervals = {interval_of(time) for time in times}
     start, end = (float(pick(time[place] for time in times)) for pick, place in ((min, 0), (max, -1)))
     # Times of another interval than the other side's would be rounded to it.
-    return PlotTrace(start, end, intervals.pop() if len(intervals) == 1 else 0.0, curves)
+    interval = intervals.pop() if len(intervals) == 1 else 0.0
+    return PlotTrace(start, end, interval, curves_over_time(first, second, differences))

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import recording
+from uictest.comparison.channel_difference import ChannelDifference, allowed_of, channel_difference
 from uictest.comparison.channels import common_channels, in_shown_units, select_channels
 from uictest.comparison.difference import Comparison
 from uictest.comparison.overlay import default_channels, overlay_of
 from uictest.comparison.tolerance import Tolerances, compare_numbers
 from uictest.report import Difference, number
-
-Samples = NDArray[np.float64]
 
 
 def compare_recordings(
@@ -26,8 +26,8 @@ def compare_recordings(
 ) -> Comparison:
     """Compare two recordings in the units of the page.
 
-    Samples are compared at the times of the first recording as far as the second reaches; where their times
-    differ the second is read off straight lines between its samples.
+    Samples are compared over the time that both cover, at the instants of the recording that is sampled more
+    coarsely; the other one is read off straight lines between its samples, and states at their last sample.
 
     Args:
         first, second: the recordings.
@@ -40,13 +40,16 @@ def compare_recordings(
 
     """
     first, second = in_shown_units(first), in_shown_units(second)
-    quantities = [_durations(first, second, tolerances), *_channels(first, second, tolerances)]
+    common = {
+        name: channel_difference(name, first, second, allowed_of(name, first, tolerances))
+        for name in common_channels(first.units, second.units)
+    }
+    quantities = [_durations(first, second, tolerances), *_channels(first, second, common)]
     differences = [difference for difference in quantities if difference is not None]
-    common = common_channels(first.units, second.units)
     remarkable = [difference.quantity for difference in differences if not difference.within]
-    drawn = select_channels(channels, common) if channels else default_channels(remarkable, common)
-    overlay = overlay_of("Recordings", first, second, names, drawn)
-    return Comparison(*names, len(quantities), differences, overlays=[overlay])
+    drawn = select_channels(channels, common) if channels else default_channels(remarkable, list(common))
+    overlay = overlay_of("Recordings", first, second, [common[name] for name in drawn])
+    return Comparison(*names, len(quantities), differences, overlay.remarks, [overlay])
 
 
 def _durations(
@@ -57,52 +60,51 @@ def _durations(
 
 
 def _channels(
-    first: recording.Recording, second: recording.Recording, tolerances: Tolerances
+    first: recording.Recording, second: recording.Recording, common: Mapping[str, ChannelDifference]
 ) -> Iterator[Difference | None]:
     """Yield one item per channel compared: None where both sides are the same."""
     for name in dict.fromkeys([*first.channels, *second.channels]):
-        if name == "time":
+        if name == recording.TIME:
             continue
-        ours, theirs = (record.units.get(name, "none") for record in (first, second))
-        if ours != theirs:
+        if name in common:
+            yield _channel(common[name])
+        else:
+            ours, theirs = (record.units.get(name, "none") for record in (first, second))
             remark = "different units" if "none" not in (ours, theirs) else "only one side has the channel"
             yield Difference("", name, ours, theirs, within=False, remark=remark)
-        else:
-            yield _channel(name, ours, first, second, tolerances)
 
 
-def _channel(
-    name: str, unit: str, first: recording.Recording, second: recording.Recording, tolerances: Tolerances
-) -> Difference | None:
-    time, ours, theirs = common_samples(name, first, second)
-    apart = np.abs(theirs - ours)
-    apart[np.isnan(ours) & np.isnan(theirs)] = 0.0
-    if not len(apart) or not np.any(apart != 0.0):
+def _channel(channel: ChannelDifference) -> Difference | None:
+    """Return how a channel differs; None where all common samples are the same."""
+    both = channel.samples
+    lacking = np.isnan(both.first) != np.isnan(both.second)
+    if lacking.any() or not len(both.at):
+        return _incomparable(channel, np.flatnonzero(lacking))
+    worst = channel.worst
+    if worst is None or worst.first == worst.second:
         return None
-    worst = int(np.argmax(np.where(np.isnan(apart), np.inf, apart)))
-    deviation = float(apart[worst])
-    known = ours[np.isfinite(ours)]
-    allowed = tolerances.of(name).allowed(float(np.ptp(known)) if len(known) else 0.0)
     return Difference(
         "",
-        name,
-        float(ours[worst]),
-        float(theirs[worst]),
-        within=deviation <= allowed,
-        unit=unit,
-        deviation=None if np.isnan(deviation) else deviation,
-        allowed=allowed,
-        remark=f"largest at {number(float(time[worst]))} s",
+        channel.channel,
+        worst.first,
+        worst.second,
+        within=bool(channel.within),
+        unit=channel.unit,
+        deviation=abs(worst.second - worst.first),
+        allowed=channel.allowed,
+        remark=f"largest at {number(worst.at)} s",
     )
 
 
-def common_samples(
-    name: str, first: recording.Recording, second: recording.Recording
-) -> tuple[Samples, Samples, Samples]:
-    """Return the common times and the samples of a channel of both recordings at these."""
-    time, other = first["time"], second["time"]
-    common = (time >= other[0]) & (time <= other[-1])
-    ours = np.asarray(first[name], dtype=np.float64)[common]
-    if np.array_equal(time[common], other):
-        return time[common], ours, np.asarray(second[name], dtype=np.float64)
-    return time[common], ours, np.interp(time[common], other, np.asarray(second[name], dtype=np.float64))
+def _incomparable(channel: ChannelDifference, lacking: NDArray[np.intp]) -> Difference:
+    """Return the difference of a channel that one side lacks at some instants, or that shares none."""
+    both = channel.samples
+    sides, remark = (math.nan, math.nan), "the two share no time"
+    if len(lacking):
+        at = lacking[0]
+        sides = float(both.first[at]), float(both.second[at])
+        remark = f"only one side has a value at {len(lacking)} of {len(both.at)} instants"
+        remark += f", first at {number(float(both.at[at]))} s"
+    return Difference(
+        "", channel.channel, *sides, within=False, unit=channel.unit, allowed=channel.allowed, remark=remark
+    )

@@ -35,12 +35,12 @@ def compare_runs(first: report.RunContent, second: report.RunContent, tolerances
         len(quantities),
         [difference for difference in quantities if difference is not None],
         [*run_notes(first, second), *unknown_parameters(both, ("first run", "second run"))],
-        parameters=parameter_changes([*both, *_stops_of_series(first, second)]),
+        parameters=parameter_changes([*both, *stops_of_series(first, second)]),
         paired=compare_paired_runs(first, second),
     )
 
 
-def _stops_of_series(first: report.RunContent, second: report.RunContent) -> Iterator[Pair]:
+def stops_of_series(first: report.RunContent, second: report.RunContent) -> Iterator[Pair]:
     """Yield the cases of series that are on both sides."""
     theirs = {each.case.id: each.case for result in second.series for each in result.cases}
     for case in (each.case for result in first.series for each in result.cases):
@@ -113,7 +113,7 @@ def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[s
     yield from _changes(ours.versions, theirs.versions, "versions: ")
     yield from _changes(ours.inputs, theirs.inputs, "inputs: ")
     # Where results hold their parts, each changed parameter has its own line.
-    with_parts = {result.id for run in (first, second) for result in run.results if result.parts}
+    with_parts = {result.id for run in (first, second) for result in run.all_results if result.parts}
     for case_id, description in first.subjects.items():
         if case_id in second.subjects and case_id not in with_parts:
             yield from _changes(description.settings, second.subjects[case_id].settings, f"{case_id}: ")

@@ -21,16 +21,17 @@ def series_differences(
     ours, theirs = ({result.id: result for result in side} for side in (first, second))
     for name in dict.fromkeys([*ours, *theirs]):
         if name in ours and name in theirs:
-            yield from _differences(ours[name], theirs[name], tolerances)
+            yield from differences_of_series(ours[name], theirs[name], tolerances)
         else:
             before, after = (side[name].outcome if name in side else "missing" for side in (ours, theirs))
             remark = "the series is on one side only"
             yield Difference(name, "series", before, after, within=False, remark=remark)
 
 
-def _differences(
+def differences_of_series(
     first: SeriesResult, second: SeriesResult, tolerances: Tolerances
 ) -> Iterator[Difference | None]:
+    """Yield one item per quantity of a series compared: None where both sides are the same."""
     texts, others = _texts(first), _texts(second)
     for quantity in dict.fromkeys([*texts, *others]):
         sides = texts.get(quantity, "none"), others.get(quantity, "none")

@@ -44,6 +44,10 @@ class Tolerances:
         matching = (tolerance for name, tolerance in reversed(self.special) if fnmatchcase(quantity, name))
         return next(matching, self.general)
 
+    def names(self, quantity: str) -> bool:
+        """Return whether a tolerance was given for a quantity by its name, not only for everything."""
+        return any(fnmatchcase(quantity, name) for name, _ in self.special)
+
     @classmethod
     def read(cls, texts: Iterable[str]) -> Tolerances:
         """Return the tolerances that texts like `0.5 %`, `braking_*=2` and `slide_1=0.01` stand for.

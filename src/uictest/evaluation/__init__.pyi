@@ -59,7 +59,7 @@ from .result import (
     narrowest_margin as narrowest_margin,
     outcome_of as outcome_of,
 )
-from .result_columns import ResultColumns as ResultColumns, result_columns as result_columns
+from .result_columns import ResultColumns as ResultColumns, joined as joined, result_columns as result_columns
 from .verdict import (
     AppliedDefinition as AppliedDefinition,
     OverStops as OverStops,

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import scenario
-from uictest.ensemble import EnsembleOfRecords, Places, by_way, rows_at
+from uictest.ensemble import Places, alike, by_way, ensembles_of, rows_at
 from uictest.evaluation.block_verdicts import STATUSES, WHEELSET_COUNT, BlockVerdicts, Seen, block_verdicts
 from uictest.evaluation.case import (
     FINITE_IN_STOPS,
@@ -60,8 +61,17 @@ class StopBlock:
 
     def together(self, places: Places) -> Seen:
         """Return scenario and stop of several cases."""
-        wheelsets = [_ensembles(self.wheelset_measures[:, k], places) for k in range(WHEELSET_COUNT)]
-        return self.scenario_of(places), ObservedStop(_ensembles(self.measures, places), wheelsets)
+        wheelsets = [wheelsets_at(places) for wheelsets_at in self._wheelsets_at]
+        return self.scenario_of(places), ObservedStop(self.stops_at(places), wheelsets)
+
+    @cached_property
+    def stops_at(self) -> Callable[[Places], Any]:
+        """Measures of the stops at several places, with ensembles."""
+        return ensembles_of(self.measures)
+
+    @cached_property
+    def _wheelsets_at(self) -> list[Callable[[Places], Any]]:
+        return [ensembles_of(self.wheelset_measures[:, k]) for k in range(WHEELSET_COUNT)]
 
     def alone(self, place: int) -> Seen:
         """Return scenario and stop of one case."""
@@ -160,17 +170,10 @@ def _outcomes(
     verdicts: Sequence[BlockVerdicts], count: int
 ) -> Iterator[tuple[Places, Outcome, list[BlockVerdicts]]]:
     """Yield the places of stops with the same statuses, their outcome and the verdicts that decide it."""
-    if not verdicts:
-        yield np.arange(count), deciding_verdicts([])[0], []
-        return
-    statuses = np.column_stack([each.statuses for each in verdicts])
-    patterns, pattern_of = np.unique(statuses, axis=0, return_inverse=True)
-    for number, pattern in enumerate(patterns.tolist()):
+    for places in alike([each.statuses for each in verdicts], count):
         outcome, deciding = deciding_verdicts(
-            _Decided(each.layer, STATUSES[status], each)
-            for each, status in zip(verdicts, pattern, strict=True)
+            _Decided(each.layer, STATUSES[each.statuses[places[0]]], each) for each in verdicts
         )
-        places = np.flatnonzero(pattern_of.ravel() == number)
         yield places, outcome, [each.verdicts for each in deciding]
 
 
@@ -191,7 +194,7 @@ def _stop_columns(
     for name, column in STOP_COLUMNS.items():
         numbers = np.full(stops.measures.size, np.nan)
         for places, found in by_way(
-            lambda places, column=column: column.read(_ensembles(stops.measures, places), definition),  # type: ignore[misc]
+            lambda places, column=column: column.read(stops.stops_at(places), definition),  # type: ignore[misc]
             lambda place, column=column: column.read(stops.records(place)[0], definition),  # type: ignore[misc]
             np.arange(stops.measures.size),
         ):
@@ -201,10 +204,11 @@ def _stop_columns(
 
 def _wheelset_columns(stops: StopBlock) -> Iterator[tuple[str, NDArray[np.float64]]]:
     wheelsets = stops.wheelset_measures.reshape(-1)
+    wheelsets_at = ensembles_of(wheelsets)
     for name, column in WHEELSET_COLUMNS.items():
         numbers = np.full(wheelsets.size, np.nan)
         for places, found in by_way(
-            lambda places, column=column: column.read(_ensembles(wheelsets, places)),  # type: ignore[misc]
+            lambda places, column=column: column.read(wheelsets_at(places)),  # type: ignore[misc]
             lambda place, column=column: column.read(_Wheelset(*wheelsets[place].tolist())),  # type: ignore[misc]
             np.arange(wheelsets.size),
         ):
@@ -215,7 +219,3 @@ def _wheelset_columns(stops: StopBlock) -> Iterator[tuple[str, NDArray[np.float6
 def _in_unit_of(column: StopColumn | WheelsetColumn, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
     values: Any = in_unit(numbers, column.unit)  # type: ignore[arg-type]
     return np.asarray(np.trunc(values) if column.whole else values)
-
-
-def _ensembles(records: NDArray[Any], places: Places) -> Any:
-    return EnsembleOfRecords(records, places)

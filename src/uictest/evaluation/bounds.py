@@ -26,8 +26,7 @@ class Bounds:
 
     def hold(self, value: float) -> bool:
         """Return whether a value keeps its bounds. NaN and infinity never do."""
-        margin = self.margin(value)
-        return math.isfinite(value) and (margin > 0.0 if self.strict else margin >= 0.0)
+        return math.isfinite(value) and self._above(value) and self._below(value)
 
     def hold_throughout(self, low: float, high: float) -> bool | None:
         """Return whether a value that lies somewhere from `low` to `high` keeps the bounds; None: open."""

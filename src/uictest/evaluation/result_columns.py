@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,6 +60,16 @@ class ResultColumns:
         for name in ("measures", "wheelsets"):
             for column, numbers in getattr(columns, name).items():
                 getattr(self, name)[column][places] = numbers
+
+
+def joined(parts: Sequence[tuple[Places, ResultColumns]], count: int) -> ResultColumns:
+    """Return the results of n cases from those of the cases at some places each."""
+    if len(parts) == 1 and parts[0][0].size == count:
+        return parts[0][1]
+    columns = result_columns(count)
+    for places, part in parts:
+        columns.put_block(places, part)
+    return columns
 
 
 def result_columns(count: int) -> ResultColumns:

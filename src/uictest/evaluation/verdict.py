@@ -174,4 +174,5 @@ def relative_margin(verdict: Verdict) -> float | None:
     if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm):
         return None
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
-    return verdict.margin / bound if verdict.firm and bound else min(verdict.margin, 0.0)
+    share = verdict.margin / bound if bound else min(verdict.margin, 0.0)
+    return share if verdict.firm else min(share, 0.0)

@@ -6,13 +6,18 @@ They are annotated here, since numba's own annotations are incomplete.
 from collections.abc import Callable
 from typing import Any
 
+from numba import njit
 from numba.core import cgutils, imputils
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 from numba.core.typing import templates
 from numba.extending import intrinsic
 
 CompiledDefinition = Callable[..., Any]
 Decorator = Callable[[CompiledDefinition], CompiledDefinition]
 
+compiled: Callable[..., Any] = njit
+"""Compile a function when it is first called, for the types of its arguments."""
 in_compiled_code: Decorator = intrinsic
 """Make a definition a function of compiled code; from the types of arguments it gives signature and code."""
 typing_of: Callable[[Any], Callable[[type], type]] = templates.infer_global
@@ -31,3 +36,7 @@ member_of_record: Callable[..., Any] = cgutils.get_record_member
 """Address of a field of an ordinary record."""
 local_variable: Callable[..., Any] = cgutils.alloca_once
 """Address of a variable on the stack of the function being compiled."""
+Library: Any = JITCodeLibrary
+"""Code of one compiled function and of all that is linked into it."""
+Pipeline: Any = Compiler
+"""Steps from a Python function to its code."""

@@ -84,4 +84,4 @@ def held_rest() -> float:
 
     The sum of all is 1/3.
     """
-    return 1.0 / 3.0 - sum(held_mode(number) for number in range(1, MODES + 1))
+    return 1.0 / 3.0 - math.fsum(held_mode(number) for number in range(1, MODES + 1))

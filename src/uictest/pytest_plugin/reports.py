@@ -83,14 +83,14 @@ class Reports:
     def _write(self, *, complete: bool) -> Path:
         """Write the reports; return the folder of the run. Raises as :meth:`_load`, and OSError."""
         cases, planned = self._load()
-        batch = runs.batch_of(cases, planned, self._command(), self.changes.seed)
+        batch = runs.with_domains(runs.batch_of(cases, planned, self._command(), self.changes.seed))
         content = report.RunContent(
             "",
-            [replace(self._results[case.id], parts=batch.parts[case.id]) for case in cases],
+            [_with_parts(self._results[case.id], batch) for case in cases],
             batch.manifest,
             complete=complete,
             subjects=campaign.descriptions_of(batch.all_cases),
-            series=[_with_parts(self._series[each.id], batch.parts) for each in planned],
+            series=[_series_with_parts(self._series[each.id], batch) for each in planned],
         )
         recordings = _recordings_of_missed(cases, content)
         content = runs.with_traces(content, batch.all_cases, recordings, batch.recording.every)
@@ -124,8 +124,12 @@ class Reports:
         return ["run", *map(str, sorted(self._files)), *options]
 
 
-def _with_parts(judged: series.SeriesResult, parts: campaign.PartsOfCases) -> series.SeriesResult:
-    cases = [replace(each, case=replace(each.case, parts=parts[each.case.id])) for each in judged.cases]
+def _with_parts(result: evaluation.CaseResult, batch: runs.Batch) -> evaluation.CaseResult:
+    return replace(result, parts=batch.parts[result.id], domain_of_validity=batch.domains.get(result.id))
+
+
+def _series_with_parts(judged: series.SeriesResult, batch: runs.Batch) -> series.SeriesResult:
+    cases = [replace(each, case=_with_parts(each.case, batch)) for each in judged.cases]
     return replace(judged, cases=tuple(cases))
 
 

@@ -8,6 +8,10 @@ from .content import CaseDescription as CaseDescription, RunContent as RunConten
 from .csv_text import Cell as Cell, Table as Table, csv_text as csv_text
 from .difference import (
     Difference as Difference,
+    Value as Value,
+    percent_text as percent_text,
+    relative_percent as relative_percent,
+    relative_text as relative_text,
     side_text as side_text,
     wheelset_quantity as wheelset_quantity,
     worst_of_wheelsets as worst_of_wheelsets,
@@ -19,6 +23,7 @@ from .domain_wording import (
     domain_notices as domain_notices,
     interval_text as interval_text,
 )
+from .drawn_cases import DRAWN as DRAWN, MOST_DRAWN as MOST_DRAWN, drawn_cases as drawn_cases
 from .escaping import (
     csv_cell as csv_cell,
     no_command as no_command,
@@ -42,18 +47,25 @@ from .github import (
 from .junit_properties import test_properties as test_properties
 from .manifest import (
     CASES_IN_PYTHON as CASES_IN_PYTHON,
+    RUN_MANIFEST_SCHEMA as RUN_MANIFEST_SCHEMA,
     RunManifest as RunManifest,
     named_parts as named_parts,
+    read_manifest as read_manifest,
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
 from .markdown_table import prose as prose
+from .own_page import may_replace as may_replace
+from .recording_path import RECORDINGS as RECORDINGS, recording_path as recording_path
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
-from .run_contents import read_run as read_run, run_content as run_content
+from .run_contents import (
+    read_run as read_run,
+    run_content as run_content,
+    with_recorded_traces as with_recorded_traces,
+)
 from .run_folder import RunFolder as RunFolder, latest_run as latest_run, point_latest as point_latest
 from .run_report import (
-    RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
     run_name as run_name,
     write_recording as write_recording,
@@ -70,16 +82,27 @@ from .series.wording import (
     series_verdict_sentence as series_verdict_sentence,
     series_word as series_word,
 )
+from .sheet_columns import sheet_column as sheet_column
 from .sweep.content import SweepContent as SweepContent
+from .sweep.domain import (
+    OutsideCount as OutsideCount,
+    SweepDomain as SweepDomain,
+    domain_notes as domain_notes,
+)
 from .sweep.format_registry import write_sweep_formats as write_sweep_formats
 from .sweep.formats import sweep_format_names as sweep_format_names
 from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.github import sweep_annotations as sweep_annotations
 from .sweep.junit import sweep_junit_xml as sweep_junit_xml
 from .sweep.map_text import map_lines as map_lines
-from .sweep.reading import SWEEP_RESULTS as SWEEP_RESULTS, read_sweep as read_sweep
+from .sweep.reading import (
+    SWEEP_MANIFEST_SCHEMA as SWEEP_MANIFEST_SCHEMA,
+    SWEEP_RESULTS as SWEEP_RESULTS,
+    read_sweep as read_sweep,
+)
 from .sweep.result import (
     MET as MET,
+    SWEEP_SCHEMA as SWEEP_SCHEMA,
     Flip as Flip,
     Frontier as Frontier,
     FrontierScan as FrontierScan,
@@ -130,17 +153,16 @@ from .terminal.fitted_columns import (
     wrapped_name as wrapped_name,
 )
 from .terminal.verdict_table import explanation_text as explanation_text, verdict_table as verdict_table
+from .traces.extremes import thinned as thinned
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
-    PLOT_QUANTITIES as PLOT_QUANTITIES,
     Panel as Panel,
     PlotLine as PlotLine,
-    channel_names as channel_names,
 )
+from .traces.shown_channels import channel_title as channel_title, shown_unit as shown_unit
 from .traces.trace import (
     Curve as Curve,
     PlotTrace as PlotTrace,
-    curve_of as curve_of,
     interval_of as interval_of,
     trace_of as trace_of,
 )
@@ -149,6 +171,7 @@ from .wording import (
     DIFFERS as DIFFERS,
     counted as counted,
     counted_in as counted_in,
+    counts_text as counts_text,
     explanation as explanation,
     line_word as line_word,
     listed as listed,

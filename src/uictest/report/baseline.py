@@ -24,10 +24,13 @@ class BaselineComparison:
         sha256: digest of the baseline's results.json.
         compared: how many quantities were compared.
         within: how many of them differ within their tolerance.
-        differences: quantities out of tolerance by case id; `first` is the baseline, `second` the run.
+        differences: quantities out of tolerance by the id of a case or series; `first` is the baseline,
+            `second` the run.
         missing: cases that the scenario files no longer have, id -> file; `differences` has them as well.
+        series: files of the series in `differences`, by id.
         not_run: ids of cases of the baseline that were selected and not run.
         not_selected: ids of cases of the baseline that were not selected.
+        series_not_compared: ids of series of the baseline that were not run or not selected.
         notes: inputs that differ.
 
     """
@@ -38,14 +41,21 @@ class BaselineComparison:
     within: int = 0
     differences: Mapping[str, Sequence[Difference]] = field(default_factory=dict)
     missing: Mapping[str, str] = field(default_factory=dict)
+    series: Mapping[str, str] = field(default_factory=dict)
     not_run: Sequence[str] = ()
     not_selected: Sequence[str] = ()
+    series_not_compared: Sequence[str] = ()
     notes: Sequence[str] = ()
 
     @property
     def agrees(self) -> bool:
         """Whether everything that was compared is within tolerance."""
         return not self.differences
+
+    @property
+    def beside_cases(self) -> Mapping[str, str]:
+        """What differs and is no case of the run: missing cases, and series; id -> file."""
+        return {**self.missing, **self.series}
 
     @property
     def all_differences(self) -> list[Difference]:
@@ -88,7 +98,9 @@ def baseline_summary(baseline: BaselineComparison) -> str:
 
 
 def not_compared_sentences(baseline: BaselineComparison) -> Iterator[str]:
-    """Yield which cases of the baseline were not compared, and why."""
+    """Yield which cases and series of the baseline were not compared, and why."""
     for ids, reason in ((baseline.not_run, "not run"), (baseline.not_selected, "not selected")):
         if ids:
             yield f"not compared with the baseline: {counted(len(ids), 'case')} {reason} ({listed(ids)})"
+    if ids := baseline.series_not_compared:
+        yield f"not compared with the baseline: {len(ids)} series not run or not selected ({listed(ids)})"

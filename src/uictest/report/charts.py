@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
@@ -22,17 +23,27 @@ _FONT: Final = {"name_font": {"size": 9, "bold": False}, "num_font": {"size": 8}
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """Cells below each other in one column of a sheet; rows and columns are counted from 0."""
+    """Cells below each other in one column of a sheet; rows and columns are counted from 0.
+
+    `shown` is what they hold, for programs that draw a chart without computing the sheet; of a sheet that is
+    streamed the library cannot read it back.
+    """
 
     sheet: str
     column: int
     first: int
     last: int
+    shown: Sequence[Cell] | None = None
 
     @property
     def reference(self) -> list[str | int]:
         """The cells as the library names them."""
         return [self.sheet, self.first, self.column, self.last, self.column]
+
+    @property
+    def cached(self) -> list[Cell] | None:
+        """What the cells hold as the library takes it: nothing is an empty text."""
+        return None if self.shown is None else [_cached(each) for each in self.shown]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +101,9 @@ def _series(categories: Cells, plotted: Plotted) -> dict[str, Any]:
     return {
         "name": _no_reference(plotted.name),
         "categories": categories.reference,
+        "categories_data": categories.cached,
         "values": plotted.values.reference,
+        "values_data": plotted.values.cached,
         "fill": {"color": _COLOURS[plotted.tone]},
     }
 
@@ -103,6 +116,12 @@ def _finish(chart: Chart, title: str, *, legend: bool) -> Chart:
     chart.show_blanks_as("gap")
     chart.set_size({"width": _WIDTH, "height": _HEIGHT})
     return chart
+
+
+def _cached(cell: Cell) -> Cell:
+    if isinstance(cell, str):
+        return printable(cell)
+    return cell if cell is not None and abs(cell) < float("inf") else ""
 
 
 def _no_reference(text: str) -> str:

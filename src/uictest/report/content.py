@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -44,6 +44,7 @@ class RunContent:
         traces: what the plots are drawn from, by id.
         baseline: the comparison with the baseline; None without one.
         series: every series, with the results of its own cases, which are not among `results`.
+        drawn_first: ids of the cases that are to be drawn before all others.
 
     """
 
@@ -55,6 +56,7 @@ class RunContent:
     traces: Mapping[str, PlotTrace] = field(default_factory=dict)
     baseline: BaselineComparison | None = None
     series: Sequence[SeriesResult] = ()
+    drawn_first: Collection[str] = ()
 
     def subject(self, case_id: str) -> CaseDescription:
         """Return the description of a case; an empty one where there is none."""
@@ -80,7 +82,10 @@ class RunContent:
     def tally(self) -> str:
         """The counts of the run."""
         of_cases = [run_tally(self.results, self.baseline)] if self.results or not self.series else []
-        return "; ".join([*of_cases, *([series_tally(self.series)] if self.series else [])])
+        differing = len(self.baseline.series) if self.baseline else 0
+        of_series = [series_tally(self.series)] if self.series else []
+        beyond = [f"{differing} series different from the baseline"] if differing else []
+        return "; ".join([*of_cases, *of_series, *beyond])
 
     @property
     def all_results(self) -> list[evaluation.CaseResult]:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.report.charts import Cells, Plotted, bar_chart, height_of_bars
 from uictest.report.content import RunContent
 from uictest.report.domain_wording import domain_notices
 from uictest.report.series.wording import series_word
-from uictest.report.sheet import Row, Styles, columns_of, heading_rows, print_on_a4, write_cell
+from uictest.report.sheet import Row, Styles, heading_rows, print_on_a4, write_cell
 from uictest.report.wording import CASE_WORDS, counted, tone
 
 if TYPE_CHECKING:
@@ -59,20 +60,23 @@ def write_cover(sheet: Worksheet, content: RunContent, sheets: Sequence[str], st
     sheet.fit_to_pages(1, 0)
 
 
-def insert_charts(workbook: Workbook, cover: Worksheet, cases: Sequence[Row]) -> None:
+def insert_charts(workbook: Workbook, cover: Worksheet, columns: Sequence[str], cases: Iterable[Row]) -> None:
     """Draw distance and narrowest margin of every case beside the cover's text; nothing without cases.
 
-    `cases` are the rows of the sheet of cases, which the charts refer to.
+    The charts refer to the sheet of cases: `columns` are its columns, `cases` its rows.
     """
-    places = {name: place for place, name in enumerate(columns_of(cases))}
-    top = heading_rows(places)
+    drawn = ("case", *(column for column, _, _ in _CHARTS))
+    rows = [[row.get(name) for name in drawn] for row in cases]
+    cells = dict(zip(drawn, zip(*rows, strict=True), strict=True)) if rows else {}
+    top = heading_rows(columns)
     for number, (column, title, axis) in enumerate(_CHARTS):
-        if any(row.get(column) is not None for row in cases):
+        if any(cell is not None for cell in cells.get(column, ())):
             names, values = (
-                Cells("Cases", places[name], top, top + len(cases) - 1) for name in ("case", column)
+                Cells("Cases", columns.index(name), top, top + len(rows) - 1, cells[name])
+                for name in ("case", column)
             )
             chart = bar_chart(workbook, title, names, Plotted(title, values), axis)
-            below = number * height_of_bars(len(cases))
+            below = number * height_of_bars(len(rows))
             cover.insert_chart(1, _CHART_COLUMN, chart, {"y_offset": below + _GAP * number})
 
 
@@ -113,7 +117,7 @@ def _missed(content: RunContent) -> Iterator[Line]:
 def _provenance(content: RunContent) -> Iterator[Line]:
     manifest = content.manifest
     yield "uictest", manifest.versions.get("uictest", "")
-    yield "command", " ".join(manifest.command)
+    yield "command", shlex.join(manifest.command)
     yield "seed", "of each scenario" if manifest.seed is None else str(manifest.seed)
     yield "complete", "yes" if content.complete else "no: some selected cases did not run"
 

@@ -6,11 +6,16 @@ import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from uictest import measures
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity
+
+CELSIUS: Final = "degC"
+_LARGEST_PERCENT: Final = 1000
+"""A relative figure that is still written out; chosen."""
 
 Value = int | float | str
 """A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
@@ -38,6 +43,36 @@ class Difference:
 def side_text(value: Value) -> str:
     """Return one side of a difference without its unit."""
     return value if isinstance(value, str) else number(value)
+
+
+def relative_percent(first: Value, second: Value, unit: str = "") -> float | None:
+    """Return by how many per cent of the first side's size the second exceeds it.
+
+    None where a side is no finite number, where the first is 0, and in degC, whose zero is arbitrary.
+    """
+    if isinstance(first, str) or isinstance(second, str) or unit == CELSIUS or not first:
+        return None
+    percent = 100.0 * (second - first) / abs(first)
+    return percent if math.isfinite(percent) else None
+
+
+def relative_text(first: Value, second: Value, unit: str = "") -> str:
+    """Return this as text; `A is 0` where the first side is 0, else `-` where there is none."""
+    if first == 0.0 and not isinstance(second, str):
+        return "A is 0"
+    return percent_text(relative_percent(first, second, unit))
+
+
+def percent_text(percent: float | None) -> str:
+    """Return a relative figure with its sign and three digits, `-` where there is none.
+
+    A multiple beyond ten is written `> 1000`: it says only that its base is nearly 0.
+    """
+    if percent is None:
+        return "-"
+    if abs(percent) < _LARGEST_PERCENT:
+        return f"{percent:+.3g}"
+    return f"> {_LARGEST_PERCENT}" if percent > 0 else f"< -{_LARGEST_PERCENT}"
 
 
 def difference_sentence(difference: Difference) -> str:

@@ -15,7 +15,7 @@ _NOT_XML = re.compile("[^\t\n\r\u0020-\u007e\u0085\u00a0-\ud7ff\ue000-\ufffd\U00
 
 def printable(text: str) -> str:
     """Return the text on one line with every control, format and unassigned character spelled out."""
-    return "".join(_spelled_out(character) for character in text)
+    return text if text.isprintable() else "".join(map(_spelled_out, text))
 
 
 def _spelled_out(character: str) -> str:

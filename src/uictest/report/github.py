@@ -36,10 +36,10 @@ def case_annotations(result: evaluation.CaseResult, differences: Sequence[Differ
 
 
 def missing_annotations(baseline: BaselineComparison) -> Iterator[str]:
-    """Yield an `::error` command for each case of the baseline that is missing."""
-    for case_id, scenario in baseline.missing.items():
-        lines = difference_sentences(baseline.differences[case_id])
-        yield annotation(scenario, f"{DIFFERS} {case_id}", "\n".join(lines))
+    """Yield an `::error` command for each missing case of the baseline and each series that differs."""
+    for own_id, file in baseline.beside_cases.items():
+        lines = difference_sentences(baseline.differences[own_id])
+        yield annotation(file, f"{DIFFERS} {own_id}", "\n".join(lines))
 
 
 def annotation(

@@ -16,7 +16,7 @@ from pydantic import ConfigDict, TypeAdapter
 from uictest import evaluation
 from uictest.report.part_wording import part_sentence
 
-SCHEMA = "uictest/manifest/1"
+RUN_MANIFEST_SCHEMA: Final = "uictest/manifest/1"
 CASES_IN_PYTHON: Final = "(cases loaded in Python)"
 """In a command, behind `run`: a program gave the cases, and no files of their own name them."""
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
@@ -39,7 +39,7 @@ class RunManifest:
 
     __pydantic_config__: ClassVar = ConfigDict(defer_build=True)
 
-    schema: str = SCHEMA
+    schema: str = RUN_MANIFEST_SCHEMA
     command: tuple[str, ...] = ("uictest",)
     seed: int | None = None
     cases: int = 0

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
 from uictest import evaluation, recording
 from uictest.report.content import RunContent
 from uictest.report.document import read_baseline_comparison, read_subjects
+from uictest.report.drawn_cases import drawn_cases
 from uictest.report.manifest import read_manifest
-from uictest.report.run_report import RECORDINGS, RESULTS
+from uictest.report.recording_path import recording_path, require_names
+from uictest.report.run_report import RESULTS
 from uictest.report.traces.trace import PlotTrace, trace_of
 from uictest.series import series_results_of
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:
-    """Return what a run folder holds; with `traces`, what there is to draw from its recordings, too.
+    """Return what a run folder holds; with `traces`, what a page draws from its recordings, too.
 
     Raises:
         OSError: results.json or a recording cannot be read.
@@ -29,8 +31,17 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
         content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
     except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
         raise ValueError(f"{path}: not the results of a run: {error}") from error
-    drawn = read_traces(folder, content.all_results) if traces else {}
-    return dataclasses.replace(content, traces=drawn)
+    return with_recorded_traces(content, folder) if traces else content
+
+
+def with_recorded_traces(content: RunContent, folder: Path, chosen: Collection[str] = ()) -> RunContent:
+    """Return a run with what a page draws from the recordings in its folder; `chosen` cases first, by id.
+
+    Raises OSError, and ValueError where a recording is none.
+    """
+    recorded = [result for result in content.all_results if recording_path(folder, result.id).is_file()]
+    traces = read_traces(folder, drawn_cases(recorded, chosen))
+    return dataclasses.replace(content, traces=traces, drawn_first=chosen)
 
 
 def run_content(document: object, name: str) -> RunContent:
@@ -48,7 +59,9 @@ def run_content(document: object, name: str) -> RunContent:
     complete = document.get("complete", True)
     if not isinstance(complete, bool):
         raise ValueError(f"'complete' must be true or false, found {complete!r}")
-    return RunContent(name, results, manifest, complete, subjects, baseline=baseline, series=series)
+    content = RunContent(name, results, manifest, complete, subjects, baseline=baseline, series=series)
+    require_names(result.id for result in content.all_results)
+    return content
 
 
 def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, PlotTrace]:
@@ -59,5 +72,5 @@ def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[
     return {
         result.id: trace_of(recording.read_parquet(path), result.drawn_stop.criteria)
         for result in results
-        if (path := folder / RECORDINGS / f"{result.id}.parquet").is_file()
+        if (path := recording_path(folder, result.id)).is_file()
     }

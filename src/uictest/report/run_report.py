@@ -11,9 +11,9 @@ from uictest.report.content import RunContent
 from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats
 from uictest.report.manifest import RunManifest, manifest_digest, manifest_form
+from uictest.report.recording_path import recording_path
 
 RESULTS = "results.json"
-RECORDINGS = "recordings"
 
 
 def run_name(started: datetime, manifest: RunManifest) -> str:
@@ -60,7 +60,7 @@ def write_recording(folder: Path, case_id: str, samples: recording.Recording) ->
 
     Raises OSError.
     """
-    path = folder / RECORDINGS / f"{case_id}.parquet"
+    path = recording_path(folder, case_id)
     path.parent.mkdir(exist_ok=True)
     recording.write_parquet(samples, path)
     return path

@@ -6,7 +6,8 @@ import contextlib
 import io
 import itertools
 import tempfile
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
@@ -40,6 +41,18 @@ _HEADING: Final = {"bold": True, "text_wrap": True, "valign": "top"}
 _MEASURED = 200  # rows that decide how wide a column is
 
 Row = dict[str, Cell]
+
+
+@dataclass(frozen=True, slots=True)
+class RowsMadeAnew:
+    """Rows that are made each time they are read, so that they are never all there at once."""
+
+    make: Callable[[], Iterable[Row]]
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self.make())
+
+
 Styles = Mapping[str, "Format"]
 
 

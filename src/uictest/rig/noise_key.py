@@ -12,6 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.ensemble import alike, rows_at
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
 
 _OF_STOP: Final = ("initial_speed", "commanded_pressure", "static_wheel_load")
@@ -37,13 +38,14 @@ def noise_keys(
     columns = [parameters[name][:, None] for name in _OF_STOP]
     columns += [wheelset_parameters[name] for name in _OF_WHEELSETS]
     values = np.concatenate(columns, axis=1)
-    points = np.column_stack([parameters["friction_points"], parameters["friction_times"]])
+    lengths = parameters["friction_points"], parameters["friction_times"]
     keys = np.zeros(len(values), np.int64)
-    for places, times in np.unique(points, axis=0).tolist():
-        alike = np.flatnonzero((points == (places, times)).all(axis=1))
-        along, over_time = rail[alike, _ALONG_TRACK, :places], rail[alike, _OVER_TIME, :times]
-        laws = [law.reshape(alike.size, -1) for law in (along, over_time)]
-        keys[alike] = _crc32_of_rows(np.concatenate([values[alike], *laws], axis=1))
+    for stops in alike(lengths, len(values)):
+        points, times = (int(length[stops[0]]) for length in lengths)
+        of_law = rows_at(rail, stops)
+        laws = of_law[:, _ALONG_TRACK, :points], of_law[:, _OVER_TIME, :times]
+        rows = [rows_at(values, stops), *(law.reshape(stops.size, -1) for law in laws)]
+        keys[stops] = _crc32_of_rows(np.concatenate(rows, axis=1))
     return keys
 
 

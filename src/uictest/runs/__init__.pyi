@@ -4,7 +4,7 @@ from .batch import (
     Keep as Keep,
     batch_of as batch_of,
     run_batch as run_batch,
-    validated_by as validated_by,
+    with_domains as with_domains,
 )
 from .drawing import with_traces as with_traces
 from .invalid_input import InvalidInputError as InvalidInputError
@@ -44,6 +44,7 @@ from .scenario_files import (
 from .selection import (
     nothing_selected as nothing_selected,
     only_case as only_case,
+    result_ids as result_ids,
     select_cases as select_cases,
     select_series as select_series,
 )
@@ -62,3 +63,13 @@ from .sweep.run import (
     reason_missed as reason_missed,
 )
 from .sweep.whole import run_sweep as run_sweep
+from .validation.plans import (
+    load_validations as load_validations,
+    read_reference as read_reference,
+    reference_of as reference_of,
+)
+from .validation.run import (
+    ValidationRun as ValidationRun,
+    publish_validation as publish_validation,
+    run_validation as run_validation,
+)

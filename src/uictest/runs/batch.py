@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from uictest import campaign, comparison, evaluation, recording, report, scenario, series, validation
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
 from uictest.runs.series_runs import SeriesBatch, run_series
+from uictest.runs.validation.plans import read_reference
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
@@ -30,7 +32,8 @@ class Batch:
         in_process: whether controllers from outside run in this process.
         real_time: whether their cycles are paced by the clock.
         baseline: to compare with, if any.
-        domains: whether each case, by id, lies in the domain of a validation; None where nobody asked.
+        domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
+        drawn_first: ids of the cases whose stops a page draws before all others.
 
     """
 
@@ -44,7 +47,8 @@ class Batch:
     in_process: bool = False
     real_time: bool = False
     baseline: comparison.Baseline | None = None
-    domains: Mapping[str, evaluation.DomainOfValidity] | None = None
+    domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
+    drawn_first: Collection[str] = ()
 
     @property
     def all_cases(self) -> list[scenario.Case]:
@@ -72,11 +76,27 @@ def batch_of(
     return Batch(cases, manifest, parts, planned)
 
 
-def validated_by(batch: Batch, reference: validation.ValidationReference) -> Batch:
-    """Return a batch whose results say whether each case lies in the domain of a validation."""
-    inputs = {**batch.manifest.inputs, reference.file: reference.sha256}
-    manifest = replace(batch.manifest, inputs=inputs)
-    return replace(batch, manifest=manifest, domains=reference.domains_of(batch.parts))
+def with_domains(batch: Batch, reference: validation.ValidationReference | None = None) -> Batch:
+    """Return a batch whose results say whether each case lies in the domain of a validation.
+
+    Args:
+        batch: of cases, of which each may name a validation.
+        reference: takes the place of those that the cases name.
+
+    Raises InvalidInputError where a validation that a case names cannot be read.
+    """
+    references = _references(batch) if reference is None else {case.id: reference for case in batch.all_cases}
+    domains = {case_id: each.domain_of(batch.parts[case_id]) for case_id, each in references.items()}
+    read = {each.file: each.sha256 for each in references.values()}
+    manifest = replace(batch.manifest, inputs={**batch.manifest.inputs, **read})
+    return replace(batch, manifest=manifest, domains=domains)
+
+
+def _references(batch: Batch) -> dict[str, validation.ValidationReference]:
+    """Return the validation of each case that names one, by its id; each file is read once."""
+    named = {case.id: case.scenario.validated for case in batch.all_cases}
+    read = {path: read_reference(Path(path)) for path in dict.fromkeys(named.values()) if path is not None}
+    return {case_id: read[path] for case_id, path in named.items() if path is not None}
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +119,7 @@ def run_batch(
         draws_stops: whether a report will draw stops.
         keep: takes the recordings of cases.
     """
-    drawing = TraceCollection.of(batch.all_cases, batch.recording, needed=draws_stops)
+    drawing = TraceCollection.of(batch.all_cases, batch.recording, batch.drawn_first, needed=draws_stops)
     simulation = _Simulation(batch, observer, drawing, keep)
     done = simulation.run(batch.cases, observer.case, batch.maxfail)
     judged = _run_series(batch, done, simulation)
@@ -110,6 +130,7 @@ def run_batch(
         complete=(len(done.results), len(judged.results)) == (len(batch.cases), len(batch.series)),
         subjects=campaign.descriptions_of(batch.all_cases),
         series=judged.results,
+        drawn_first=batch.drawn_first,
     )
     interrupted = done.interrupted or judged.interrupted
     everything = campaign.BatchResult(content.all_results, interrupted)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from uictest import campaign, evaluation, recording, report, scenario
-from uictest.report import page
 from uictest.runs.processors import available_processors
 
 
@@ -17,21 +16,27 @@ class TraceCollection:
     A small batch is recorded while it runs. The cases to draw of a large batch are known only at its end:
     they are simulated again, which is cheap compared with the batch. So are those of a batch whose recordings
     are too coarse for the valves, because a page shows every command. Stops with controllers from outside are
-    not `repeatable`: all are recorded while they run, and the traces of the worst are kept.
+    not `repeatable`: all are recorded while they run, and the traces of those drawn are kept.
     """
 
     cases: Sequence[scenario.Case]
     request: campaign.RecordingRequest
     needed: bool
     repeatable: bool = True
+    chosen: Collection[str] = ()
     traces: dict[str, report.PlotTrace] = field(default_factory=dict)
 
     @classmethod
     def of(
-        cls, cases: Sequence[scenario.Case], request: campaign.RecordingRequest, *, needed: bool
+        cls,
+        cases: Sequence[scenario.Case],
+        request: campaign.RecordingRequest,
+        chosen: Collection[str] = (),
+        *,
+        needed: bool,
     ) -> TraceCollection:
-        """Return the collection for some cases."""
-        return cls(cases, request, needed, are_repeatable(cases))
+        """Return the collection for some cases; those `chosen`, by id, are drawn before others."""
+        return cls(cases, request, needed, are_repeatable(cases), chosen)
 
     @property
     def recording(self) -> campaign.RecordingRequest:
@@ -46,17 +51,17 @@ class TraceCollection:
             )
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
-        """Return the traces; simulate the worst cases of a large batch again."""
-        worst = _worst(done.results)
+        """Return the traces; simulate the drawn cases of a large batch again."""
+        drawn = _drawn(done.results, self.chosen)
         if not self.repeatable:
-            self.traces = {name: trace for name, trace in self.traces.items() if name in worst}
+            self.traces = {name: trace for name, trace in self.traces.items() if name in drawn}
         if self.needed and not self._while_running and not done.interrupted:
-            self.traces |= _simulated_again(self.cases, worst, self._interval, jobs)
+            self.traces |= _simulated_again(self.cases, drawn, self._interval, jobs)
         return self.traces
 
     @property
     def _while_running(self) -> bool:
-        small_and_fine = len(self.cases) <= page.DRAWN and self.request.every <= self._interval
+        small_and_fine = len(self.cases) <= report.DRAWN and self.request.every <= self._interval
         return self.needed and (small_and_fine or not self.repeatable)
 
     @property
@@ -70,7 +75,7 @@ def with_traces(
     recordings: Mapping[str, recording.Recording],
     every: float,
 ) -> report.RunContent:
-    """Return a finished run with what a page draws of it: the worst stops, simulated again.
+    """Return a finished run with what a page draws of it: some of its stops, simulated again.
 
     Of stops that are not repeatable, and without `cases`, it draws those that were recorded.
 
@@ -80,13 +85,13 @@ def with_traces(
         recordings: of some of them, by id.
         every: the interval of these, s.
     """
-    worst = _worst(content.all_results)
+    drawn = _drawn(content.all_results, content.drawn_first)
     if cases and are_repeatable(cases):
-        traces = _simulated_again(cases, worst, _interval(cases, every), available_processors())
+        traces = _simulated_again(cases, drawn, _interval(cases, every), available_processors())
     else:
         traces = {
             name: report.trace_of(recordings[name], result.drawn_stop.criteria)
-            for name, result in worst.items()
+            for name, result in drawn.items()
             if name in recordings
         }
     return replace(content, traces=traces)
@@ -97,10 +102,12 @@ def are_repeatable(cases: Sequence[scenario.Case]) -> bool:
     return all(case.scenario.controller.program is None for case in cases)
 
 
-def _worst(results: Sequence[evaluation.CaseResult]) -> dict[str, evaluation.CaseResult]:
+def _drawn(
+    results: Sequence[evaluation.CaseResult], chosen: Collection[str]
+) -> dict[str, evaluation.CaseResult]:
     """Return the cases that a page draws, by id."""
-    ranked = [result for result in page.worst_first(results) if result.outcome != "error"]
-    return {result.id: result for result in ranked[: page.DRAWN]}
+    stopped = [result for result in results if result.outcome != "error"]
+    return {result.id: result for result in report.drawn_cases(stopped, chosen)}
 
 
 def _interval(cases: Sequence[scenario.Case], every: float) -> float:

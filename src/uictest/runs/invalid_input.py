@@ -1,11 +1,19 @@
 """The error for arguments and files that cannot be used."""
 
+from collections.abc import Sequence
+
 
 class InvalidInputError(ValueError):
-    """Arguments or files that cannot be used; each message says what is wrong and what to write instead."""
+    """Arguments or files that cannot be used; each message says what is wrong and what to do instead.
 
-    def __init__(self, *messages: str) -> None:
+    Args:
+        messages: complete, in the words of any caller.
+        arguments: those that the caller can change, by name; a command shows the options that set them.
+    """
+
+    def __init__(self, *messages: str, arguments: Sequence[str] = ()) -> None:
         self.messages = messages
+        self.arguments = tuple(arguments)
         super().__init__(*messages)
 
     def __str__(self) -> str:

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-from uictest import recording, report
+from uictest import history, recording, report
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
 
@@ -22,6 +22,7 @@ class Published:
         content: what the reports show.
         document: the text of results.json.
         interrupted: whether an interrupt ended the run.
+        index_problem: why the index of all runs was not written; empty if it was.
 
     """
 
@@ -29,6 +30,7 @@ class Published:
     content: report.RunContent
     document: str
     interrupted: bool = False
+    index_problem: str = ""
 
 
 def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: Observer) -> Published | None:
@@ -51,7 +53,7 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
         document = _write(folder.path, run.content, formats)
         place = folder.publish()
     report.point_latest(place)
-    return Published(place, run.content, document, run.interrupted)
+    return Published(place, run.content, document, run.interrupted, history.refresh_index(output))
 
 
 def publish_run(
@@ -68,7 +70,7 @@ def publish_run(
         document = _write(folder.path, named, formats)
         place = folder.publish()
     report.point_latest(place)
-    return Published(place, named, document)
+    return Published(place, named, document, index_problem=history.refresh_index(output))
 
 
 def _folder(output: Path, manifest: report.RunManifest) -> report.RunFolder:
@@ -77,5 +79,6 @@ def _folder(output: Path, manifest: report.RunManifest) -> report.RunFolder:
 
 def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> str:
     document = report.write_reports(folder, content)
+    history.write_entry(folder, content)
     report.write_formats(folder, content, [each for each in formats if each not in report.IN_EVERY_RUN])
     return document

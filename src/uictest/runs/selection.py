@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from uictest import campaign, scenario, series
-from uictest.report import counted
+from uictest.report import RunContent, counted
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.scenario_files import load_cases
 
@@ -36,8 +36,25 @@ def select_series(
 def _matcher(each: series.Series, *, whole: bool) -> campaign.Matches:
     if whole:
         return frozenset(each.file.tags).__contains__
-    names = [name.casefold() for name in (each.id, each.path.stem, *each.file.tags)]
-    return lambda word: any(word.casefold() in name for name in names)
+    return _mentioned_in([each.id, each.path.stem, *each.file.tags])
+
+
+def _mentioned_in(names: Sequence[str]) -> campaign.Matches:
+    folded = [name.casefold() for name in names]
+    return lambda word: any(word.casefold() in name for name in folded)
+
+
+def result_ids(content: RunContent, expression: str) -> frozenset[str]:
+    """Return the ids of the cases of a finished run that an expression (`-k`) selects.
+
+    Raises ExpressionError.
+    """
+    holds = campaign.parse(expression)
+    names = {
+        each.id: [each.id, Path(each.scenario).stem, *content.subject(each.id).tags]
+        for each in content.all_results
+    }
+    return frozenset(name for name, own in names.items() if holds(_mentioned_in(own)))
 
 
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:

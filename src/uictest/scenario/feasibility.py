@@ -9,6 +9,7 @@ from uictest.scenario.parts.brake import Disc
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.compensation import Compensation
 from uictest.scenario.parts.vehicle import Vehicle
+from uictest.scenario.total import total
 from uictest.units import STANDARD_GRAVITY
 
 
@@ -41,7 +42,7 @@ def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressur
 def braking_force(disc: Disc, wheelsets: Iterable[BrakedWheelset], clamping_force: float) -> float:
     """Return the force at the rims of all wheelsets, N, with ``clamping_force`` N at every caliper."""
     calipers, pads, radius = disc.calipers_per_wheelset, disc.pads_per_caliper, disc.mean_radius
-    return sum(
+    return total(
         each.brake_force
         * physics.torque(clamping_force, calipers, pads, each.pad_friction, radius)
         / each.wheel_radius

@@ -74,6 +74,10 @@ class Scenario(Model):
     extends: str | None = Field(
         default=None, description="Relative path of the parent scenario; maps merge, lists replace."
     )
+    validated: str | None = Field(
+        default=None,
+        description="Relative path of the validation.json of a validation: cases outside of it are flagged.",
+    )
     vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = Field(
         description="The vehicle: a library name, a relative path or an inline mapping."
     )

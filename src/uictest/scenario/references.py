@@ -57,7 +57,7 @@ class Parts:
     """Resolves references to parts; a part that is referred to again is not read again."""
 
     def __init__(self, files: Files) -> None:
-        self._files = files
+        self.files = files
         self._by_name: dict[tuple[str, str], ResolvedPart] = {}
         # Keyed by identity; keeping the node keeps its identity unique.
         self._inline: dict[int, tuple[Node, ResolvedPart]] = {}
@@ -100,7 +100,7 @@ class Parts:
         """The part that a tree describes, and the files of the programs that it names."""
         if folder_of(model) != "controllers":
             return validated(model, plain(tree), tree, key), ()
-        programs = program_files(tree, self._files, dotted(key))
+        programs = program_files(tree, self.files, dotted(key))
         version = version_stated_for(tree, programs.values())
         stated = {"version": version} if version else {}
         part = validated(model, {**stated, **plain(tree), **programs}, tree, key)
@@ -131,12 +131,12 @@ class Parts:
     def _fetch(self, reference: Scalar, model: Any, full_key: str) -> Map:
         folder = folder_of(model)
         if is_path(reference.text):
-            tree = self._files.beside(reference, full_key)
+            tree = self.files.beside(reference, full_key)
         elif _is_registered(reference.text, folder):
             return _registered(reference)
         else:
             _require_known_name(reference, folder, full_key)
-            tree = self._files.in_library(folder, reference.text)
+            tree = self.files.in_library(folder, reference.text)
         _require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
         return tree
 

@@ -6,6 +6,7 @@ from typing import Any
 from uictest.scenario.model import Scenario
 from uictest.scenario.part_keys import PART_KEYS, part_nodes
 from uictest.scenario.references import Parts, ResolvedPart
+from uictest.scenario.validated_file import with_validated_file
 from uictest.scenario.yaml import (
     Diagnostic,
     Document,
@@ -37,6 +38,10 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
             diagnostics.extend(errors.diagnostics)
             failed.add(dotted(key))
             _remove(data, key)
+    try:
+        with_validated_file(data, tree, parts.files)
+    except ScenarioErrors as errors:
+        diagnostics.extend(errors.diagnostics)
     try:
         scenario = validated(Scenario, data, tree)
     except ScenarioErrors as errors:

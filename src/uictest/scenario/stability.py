@@ -8,6 +8,7 @@ from uictest.physics import REFERENCE_DENSITY, orifice_law
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.parts.vehicle import Vehicle
+from uictest.scenario.total import total
 
 _PRIMARIES, _SECONDARIES = 2.0, 2.0
 """Axle boxes of a wheelset, sides of a bogie."""
@@ -92,7 +93,7 @@ def _vessels(
         ),
         (
             system.brake_line.volume,
-            (sum(valve.fill for valve in valves) + line_leak) * steepest + through_relay,
+            (total(valve.fill for valve in valves) + line_leak) * steepest + through_relay,
             "the air in the brake line",
             "brake_line.volume, relay_valve and wsp_valve.fill_conductance",
         ),
@@ -171,4 +172,4 @@ def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
 
 
 def _sum(*parts: tuple[float, _Coupling]) -> _Coupling:
-    return sum(share * k for share, (k, _) in parts), sum(share * c for share, (_, c) in parts)
+    return total(share * k for share, (k, _) in parts), total(share * c for share, (_, c) in parts)

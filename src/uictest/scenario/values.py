@@ -14,11 +14,11 @@ DESCRIPTIVE: Final = frozenset(
     {
         *("schema_id", "id", "name", "title", "description", "tags", "extends"),
         *("sources", "source", "clause", "scope", "provenance"),
-        *("requirements", "test_case"),
+        *("requirements", "test_case", "validated"),
         *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats"),
     }
 )
-"""Fields that a stop cannot depend on: names, sources, expectations and repeats."""
+"""Fields that a stop cannot depend on: names, sources, expectations, repeats and references to results."""
 
 
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:

@@ -9,6 +9,7 @@ from uictest.selftest.environment import environment_checks
 from uictest.selftest.friction import FRICTION_CHECKS
 from uictest.selftest.judging import judging_checks
 from uictest.selftest.known_stops import KnownStops
+from uictest.selftest.package_data import data_checks
 
 
 def all_checks(stops: KnownStops) -> tuple[Check, ...]:
@@ -21,5 +22,6 @@ def all_checks(stops: KnownStops) -> tuple[Check, ...]:
         *FRICTION_CHECKS,
         *judging_checks(),
         *controller_checks(),
+        *data_checks(),
         *environment_checks(),
     )

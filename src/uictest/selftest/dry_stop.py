@@ -4,6 +4,7 @@ The equivalent build-up time te comes from the recorded clamping forces; the clo
 constant mass under that force.
 """
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -40,7 +41,9 @@ def _distance(stops: KnownStops) -> Answer:
     recording = rig.simulate(case, record_every=1e-3).recording
     assert recording is not None
     vehicle = case.scenario.vehicle
-    turning = sum(float(vehicle.wheelset.rotational_inertia) / radius**2 for radius in vehicle.wheel_radii)
+    turning = math.fsum(
+        float(vehicle.wheelset.rotational_inertia) / radius**2 for radius in vehicle.wheel_radii
+    )
     inputs = float(case.scenario.initial_speed), vehicle.total_mass + turning
     expected = dry_stop_distance(_brake_force(case, recording), recording[TIME], *inputs)
     return Answer(expected, float(stops.stop(_STOP).measures.braking_distance))

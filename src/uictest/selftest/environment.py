@@ -76,7 +76,9 @@ def _version_of(name: str) -> str:
 def _installed_files(stops: KnownStops) -> Answer:
     files = [each for each in distribution("uictest").files or () if each.parts[0] == "uictest" and each.hash]
     if not files:
-        raise NotCheckedError("installed from a working tree, which has no list of files")
+        raise NotCheckedError(
+            "installed from a working tree, which has no list of files: shipped-data compares its data"
+        )
     differ = [str(each) for each in files if not _unchanged(each)]
     return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_NAMED]))
 

@@ -1,5 +1,6 @@
 """Known answers of the brake's friction: the loops of the play and of the caliper, and a textbook stop."""
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Final
@@ -41,7 +42,7 @@ def _held_forces(pressures: Sequence[float], slope: float, apart: float) -> Iter
 
 def _area(corners: Sequence[tuple[float, float]]) -> float:
     """Return the area of a polygon."""
-    doubled = sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in pairwise([*corners, corners[0]]))
+    doubled = math.fsum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in pairwise([*corners, corners[0]]))
     return abs(doubled) / 2.0
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from uictest import __version__
+from uictest.selftest.data_digests import data_digests
 from uictest.selftest.known_stops import (
     KnownStops,
     Numbers,
@@ -18,6 +19,7 @@ from uictest.selftest.template_stops import python_stop
 SCHEMA: Final = "uictest/known-stops/1"
 REFERENCE: Final = Path(__file__).parent / "reference.json"
 _OUTSIDE: Final = "controller-from-outside"
+_DATA: Final = "data"
 
 
 @cache
@@ -50,6 +52,12 @@ def stored_numbers_from_outside() -> Numbers:
     return numbers
 
 
+def stored_data_digests() -> Mapping[str, str]:
+    """Return the SHA-256 of every shipped data file of this version, by its path in the package."""
+    digests: Mapping[str, str] = _stored()[_DATA]
+    return digests
+
+
 def computed_reference() -> str:
     """Return the content of the stored file as this installation computes it."""
     stops = KnownStops()
@@ -61,5 +69,6 @@ def computed_reference() -> str:
             for name, case in stops.cases.items()
         },
         _OUTSIDE: numbers_of_stop(python_stop()),
+        _DATA: data_digests(),
     }
     return json.dumps(content, indent=1) + "\n"

@@ -1,6 +1,7 @@
 from .catalogue import STUDIES as STUDIES
 from .comparison import lines as lines
 from .document import document as document
+from .page_writing import write_pages as write_pages
 from .quantity import StudyQuantity as StudyQuantity, StudyValue as StudyValue
 from .stop_runner import StopRunner as StopRunner
 from .study import (

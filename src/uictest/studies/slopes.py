@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -42,7 +43,7 @@ def slope_spread(stop_loops: Sequence[Loop]) -> float:
     for phase in TITLES:
         slopes = [loop.lines.lines[phase].slope for loop in stop_loops if phase in loop.lines.lines]
         if len(slopes) > 1:
-            spreads.append((max(slopes) - min(slopes)) * len(slopes) / sum(slopes))
+            spreads.append((max(slopes) - min(slopes)) * len(slopes) / math.fsum(slopes))
     return max(spreads, default=_NAN)
 
 

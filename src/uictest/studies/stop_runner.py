@@ -41,10 +41,15 @@ class StopRunner:
     def __init__(self, jobs: int = 1) -> None:
         self._jobs = jobs
         self._stops: dict[tuple[str, str], rig.SimulatedStop] = {}
+        self.inputs: dict[str, str] = {}
+        """Every file that the cases of the study were loaded from -> its SHA-256."""
 
     def cases(self, scenario: str, *changes: str) -> list[Case]:
         """Return the cases of a scenario of the studies, changed by `key=value` texts as of `--set`."""
-        return load([_SCENARIOS / f"{scenario}.yaml"], changes)
+        cases = load([_SCENARIOS / f"{scenario}.yaml"], changes)
+        for case in cases:
+            self.inputs.update(case.inputs)
+        return cases
 
     def repeated(self, cases: Sequence[Case], seeds: Sequence[int]) -> list[Stops]:
         """Return the stops, without recording, of every case under every seed of the sensors' noise."""

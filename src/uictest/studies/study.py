@@ -63,10 +63,11 @@ class Study:
 
 @dataclass(frozen=True, slots=True)
 class StudyResult:
-    """A study and its findings."""
+    """A study and its findings; `inputs` are the files of its stops with their SHA-256."""
 
     study: Study
     findings: StudyFindings
+    inputs: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def comparisons(self) -> list[PaperComparison]:
@@ -83,11 +84,12 @@ class StudyResult:
 
 def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
     """Run a study. Raises KeyError if it returns no value for one of its quantities."""
+    stop_runner.inputs.clear()
     findings = study.run(stop_runner)
     missing = [quantity.key for quantity in study.quantities if quantity.key not in findings.values]
     if missing:
         raise KeyError(f"{study.name} returns no value for {', '.join(missing)}")
-    return StudyResult(study, findings)
+    return StudyResult(study, findings, dict(stop_runner.inputs))
 
 
 def column(samples: NDArray[Any], unit: float, digits: int) -> list[float]:

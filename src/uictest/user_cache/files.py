@@ -26,9 +26,9 @@ def read(kind: str, inputs: bytes) -> bytes | None:
         kind: kind of content, part of the file's name.
         inputs: everything that the content was made of: sources, versions, options, the processor.
     """
-    for folder in _safe_folders(make=False):
+    for folder in safe_folders(make=False):
         with contextlib.suppress(OSError):
-            kept = _bytes_of(folder / _name(kind, inputs))
+            kept = _bytes_of(folder / name_of(kind, inputs))
             content = kept[_DIGEST_SIZE:]
             if kept[:_DIGEST_SIZE] == _digest(inputs, content):
                 return content
@@ -37,9 +37,9 @@ def read(kind: str, inputs: bytes) -> bytes | None:
 
 def write(kind: str, inputs: bytes, content: bytes) -> None:
     """Cache content for :func:`read` in the first writable folder; warn once if there is none."""
-    for folder in _safe_folders(make=True):
+    for folder in safe_folders(make=True):
         try:
-            _replace(folder / _name(kind, inputs), _digest(inputs, content) + content)
+            _replace(folder / name_of(kind, inputs), _digest(inputs, content) + content)
         except OSError as error:
             _warn(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
         else:
@@ -49,7 +49,7 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
     )
 
 
-def _safe_folders(*, make: bool) -> Iterator[Path]:
+def safe_folders(*, make: bool) -> Iterator[Path]:
     """Yield the folders of the cache that only this user can write; `make` creates missing ones."""
     for root in roots():
         try:
@@ -64,7 +64,8 @@ def _safe_folders(*, make: bool) -> Iterator[Path]:
             yield Path(os.path.realpath(root))
 
 
-def _name(kind: str, inputs: bytes) -> str:
+def name_of(kind: str, inputs: bytes) -> str:
+    """Return the name of the file that keeps the content of these inputs."""
     return f"{kind}-{hashlib.sha256(inputs).hexdigest()[:20]}"
 
 

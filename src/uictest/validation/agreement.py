@@ -12,7 +12,7 @@ from uictest.statistics import mean_interval, next_interval
 
 @dataclass(frozen=True, slots=True)
 class Differences:
-    """Differences summed up; NaN is what one stop cannot show.
+    """Differences summed up; NaN is what one stop, or equal differences, cannot show.
 
     Attributes:
         bias: their mean.
@@ -75,10 +75,15 @@ def agreement_of(
 
 
 def differences_of(values: Sequence[float], confidence: float) -> Differences:
-    """Return what differences, at least one, come to. Student's t, which takes them for normal draws."""
+    """Return what differences, at least one, come to. Student's t, which takes them for normal draws.
+
+    Differences that are all alike have no intervals: t would feign certainty.
+    """
     mean = math.fsum(values) / len(values)
     spread = math.nan
     if len(values) > 1:
         spread = math.sqrt(math.fsum((each - mean) ** 2 for each in values) / (len(values) - 1))
+    if min(values) == max(values):
+        return Differences(mean, spread, *[math.nan] * 4)
     interval, limits = mean_interval(values, confidence), next_interval(values, confidence)
     return Differences(mean, spread, *interval, *limits)

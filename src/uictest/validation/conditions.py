@@ -48,6 +48,11 @@ class Conditions:
     ranges: Mapping[str, Range] = field(default_factory=dict)
 
 
+def is_condition(key: str) -> bool:
+    """Return whether a key of a scenario can say something of the conditions of a stop."""
+    return key not in _DRAWN and key.partition(".")[0] not in _WITHOUT
+
+
 def conditions_of(parts: Mapping[str, EffectivePart]) -> Conditions:
     """Return the conditions that the parts of a simulated stop, by role, make up."""
     used = [part for role, part in parts.items() if role.partition(".")[0] not in _WITHOUT]

@@ -12,13 +12,15 @@ from typing import Any, Final
 from pydantic import ConfigDict, TypeAdapter
 
 from uictest.evaluation import DomainOfValidity, EffectivePart, from_json_form, to_json_form
+from uictest.scenario import VALIDATION_RESULT
 from uictest.scenario.yaml import display_name
 from uictest.validation.agreement import Agreement
 from uictest.validation.conditions import conditions_of
 from uictest.validation.domain import Domain, deviations
 from uictest.validation.stops import ComparedStop
 
-SCHEMA: Final = "uictest/validation-result/1"
+RESULT: Final = "validation.json"
+"""Name of the file of a result."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,11 @@ class Validation:
         """The stops that bias, spread and domain are of."""
         return tuple(stop for stop in self.stops if stop.counted)
 
+    @property
+    def not_usable(self) -> tuple[ComparedStop, ...]:
+        """The stops that should have counted and cannot; one that is only tuned is none of them."""
+        return tuple(stop for stop in self.stops if stop.not_counted)
+
 
 @dataclass(frozen=True, slots=True)
 class ValidationReference:
@@ -62,14 +69,11 @@ class ValidationReference:
     sha256: str
 
     def domains_of(self, parts: Mapping[str, Mapping[str, EffectivePart]]) -> dict[str, DomainOfValidity]:
-        """Return whether cases lie in its domain, by id.
+        """Return whether cases lie in its domain, by id; `parts` has their parts by id and role."""
+        return {case_id: self.domain_of(of_case) for case_id, of_case in parts.items()}
 
-        Args:
-            parts: case id -> role -> part.
-        """
-        return {case_id: self._domain_of(of_case) for case_id, of_case in parts.items()}
-
-    def _domain_of(self, parts: Mapping[str, EffectivePart]) -> DomainOfValidity:
+    def domain_of(self, parts: Mapping[str, EffectivePart]) -> DomainOfValidity:
+        """Return whether a case, whose parts are given by role, lies in its domain."""
         outside = deviations(self.validation.domains, conditions_of(parts))
         return DomainOfValidity(self.validation.name, self.sha256, outside)
 
@@ -81,7 +85,7 @@ _VALIDATIONS: Final = TypeAdapter(list[Validation], config=ConfigDict(extra="for
 def validation_json(validation: Validation) -> str:
     """Return a validation as JSON; NaN is null."""
     [content] = to_json_form(_VALIDATIONS, [validation])
-    form: dict[str, Any] = {"schema": SCHEMA, **content}
+    form: dict[str, Any] = {"schema": VALIDATION_RESULT, **content}
     return json.dumps(form, indent=2, allow_nan=False) + "\n"
 
 
@@ -90,10 +94,17 @@ def read_validation(path: Path) -> ValidationReference:
 
     Raises OSError, and ValueError where the file is none, or none of its stops is counted.
     """
+    if path.exists() and not path.is_file():  # a pipe would block for ever
+        raise ValueError("not the result of a validation: this is no regular file")
     content = path.read_bytes()
-    form = json.loads(content)
-    if not isinstance(form, dict) or form.pop("schema", None) != SCHEMA:
-        raise ValueError(f"not the result of a validation: expected a document with the schema {SCHEMA}")
+    try:
+        form = json.loads(content)
+    except RecursionError as error:
+        raise ValueError("not the result of a validation: it is nested too deeply") from error
+    if not isinstance(form, dict) or form.pop("schema", None) != VALIDATION_RESULT:
+        raise ValueError(
+            f"not the result of a validation: expected a document with the schema {VALIDATION_RESULT}"
+        )
     [validation] = from_json_form(_VALIDATIONS, [form])
     if not validation.domains:
         raise ValueError("none of its stops is counted: nothing was validated")

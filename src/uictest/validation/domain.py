@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 from uictest.evaluation import Deviation
 from uictest.validation.conditions import Conditions, Range
@@ -43,17 +43,21 @@ def deviations(domains: Sequence[Domain], conditions: Conditions) -> tuple[Devia
 
     Raises ValueError without any domain.
     """
-    return min((tuple(_outside(domain.conditions, conditions)) for domain in domains), key=len)
+    return min((tuple(outside_of(domain.conditions, conditions)) for domain in domains), key=len)
 
 
-def _outside(validated: Conditions, stop: Conditions) -> Iterator[Deviation]:
-    names = list(_different(validated.names, stop.names))
-    yield from names
-    # What stands inside of another part needs no line of its own.
-    inside = tuple(f"{each.key}." for each in names)
+def outside_of(validated: Conditions, stop: Conditions) -> Iterator[Deviation]:
+    """Yield what of a stop lies outside of conditions; of a part of another name the name alone."""
+    yield from _different(validated.names, stop.names)
+    inside = inside_of_other_parts(validated, stop)
     for each in (*_different(validated.settings, stop.settings), *_beyond(validated.ranges, stop.ranges)):
         if not each.key.startswith(inside):
             yield each
+
+
+def inside_of_other_parts(validated: Conditions, stop: Conditions) -> tuple[str, ...]:
+    """Return how the keys inside of parts of another name begin: they need no line of their own."""
+    return tuple(f"{each.key}." for each in _different(validated.names, stop.names))
 
 
 def _different(validated: Mapping[str, str], stop: Mapping[str, str]) -> Iterator[Deviation]:
@@ -65,14 +69,15 @@ def _different(validated: Mapping[str, str], stop: Mapping[str, str]) -> Iterato
 def _beyond(validated: Mapping[str, Range], stop: Mapping[str, Range]) -> Iterator[Deviation]:
     for key in dict.fromkeys((*stop, *validated)):
         found, bounds = stop.get(key), validated.get(key)
-        if found is None or bounds is None or not _holds(bounds, found):
+        if found is None or bounds is None or not bool(holds(bounds, found.lowest, found.highest)):
             unit = (found or bounds or Range(0.0, 0.0, "")).unit
             yield Deviation(key, _ends(found), _ends(bounds), unit)
 
 
-def _holds(bounds: Range, found: Range) -> bool:
+def holds(bounds: Range, lowest: Any, highest: Any) -> Any:
+    """Return whether an interval holds another one, or each of several that are given as arrays."""
     slack = _ROUNDING * max(abs(bounds.lowest), abs(bounds.highest))
-    return bounds.lowest - slack <= found.lowest and found.highest <= bounds.highest + slack
+    return (bounds.lowest - slack <= lowest) & (highest <= bounds.highest + slack)
 
 
 def _ends(interval: Range | None) -> tuple[float, float] | None:

@@ -8,9 +8,11 @@ from typing import Final
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report import (
     Cell,
+    Table,
     TableColumn,
     aligned,
     columns_not_shown,
+    counted,
     csv_text,
     fitted,
     interval_text,
@@ -52,6 +54,11 @@ def validation_lines(validation: Validation, width: int | None, *, every_figure:
     further = len(validation.figures) - len(shown)
     if further:
         yield f"{further} figures of single wheelsets: -v, figures.csv"
+
+
+def tally(validation: Validation) -> str:
+    """Return how many of the recorded stops count."""
+    return f"{len(validation.counted)} of {counted(len(validation.stops), 'recorded stop')} counted"
 
 
 def _stop_lines(validation: Validation) -> Iterator[str]:
@@ -135,10 +142,10 @@ def _range_text(conditions: Conditions, key: str) -> str:
 
 def remarks(validation: Validation) -> Iterator[str]:
     """Yield what a reader must know besides the figures."""
-    counted = len(validation.counted)
-    if counted == 1:
+    stops = len(validation.counted)
+    if stops == 1:
         yield "one stop: it shows a difference, and nothing of bias or spread"
-    elif counted > 1:
+    elif stops > 1:
         percent = f"{100.0 * validation.confidence:.4g} %"
         yield (
             f"bias: mean of simulated minus recorded; intervals with {percent} by Student's t, for stops that"
@@ -146,7 +153,7 @@ def remarks(validation: Validation) -> Iterator[str]:
         )
     if any(stop.repeats == 1 for stop in validation.counted):
         yield "a simulation under one seed is one draw where wheelsets slide; `repeat` compares medians"
-    if counted and validation.not_compared:
+    if stops and validation.not_compared:
         # What only one side has says nothing; a reader must know that it was not forgotten.
         columns = dict.fromkeys(map(_column_of, validation.not_compared))
         yield f"not compared, as no counted stop has both: {', '.join(columns)}"
@@ -159,6 +166,11 @@ def _column_of(figure: str) -> str:
 
 
 def figures_csv(validation: Validation) -> str:
+    """Return the table of the figures as CSV."""
+    return csv_text(*figures_table(validation))
+
+
+def figures_table(validation: Validation) -> Table:
     """Return every figure with its agreement, absolute and as a share of the recorded figure."""
     columns = ("figure", "unit", "stops", "recorded_mean")
     relative = [f"relative_{name}" for name in _OF_DIFFERENCES]
@@ -173,7 +185,7 @@ def figures_csv(validation: Validation) -> str:
         }
         for each in validation.figures
     ]
-    return csv_text([*columns, *_OF_DIFFERENCES, *relative], rows)
+    return Table([*columns, *_OF_DIFFERENCES, *relative], rows)
 
 
 def _values(differences: Differences, prefix: str) -> dict[str, float]:
@@ -181,12 +193,17 @@ def _values(differences: Differences, prefix: str) -> dict[str, float]:
 
 
 def stops_csv(validation: Validation) -> str:
+    """Return the table of the stops as CSV."""
+    return csv_text(*stops_table(validation))
+
+
+def stops_table(validation: Validation) -> Table:
     """Return one row for each figure of each stop: recorded, simulated and their difference."""
     columns = (
         *("stop", "recording", "counted", "tuned", "not_counted"),
         *("figure", "recorded", "simulated", "difference"),
     )
-    return csv_text(columns, (row for stop in validation.stops for row in _rows(stop)))
+    return Table(columns, [row for stop in validation.stops for row in _rows(stop)])
 
 
 def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
@@ -210,9 +227,7 @@ def markdown(validation: Validation) -> str:
     lines = [f"# Validation {prose(validation.name)}", ""]
     if validation.title:
         lines += [prose(validation.title), ""]
-    counted, others = len(validation.counted), len(validation.stops) - len(validation.counted)
-    not_counted = f", {others} not counted" if others else ""
-    lines += [f"uictest {validation.version}, {counted} recorded stops{not_counted}.", "", "## Stops", ""]
+    lines += [f"uictest {validation.version}, {tally(validation)}.", "", "## Stops", ""]
     lines += [f"- {prose(line)}" for line in _stop_lines(validation)]
     lines += ["", "## Figures", "", *_markdown_table(validation.figures), "", "## Domain", ""]
     lines += [f"- {prose(line)}" for line in _domain_lines(validation)]

@@ -146,6 +146,7 @@ def test_variants_without_pairs_exit_5_and_wrong_usage_exits_4(call: Call, scena
         ["reports/latest", "reports/latest", "--over", "controller"],
         ["reports/latest", "--over", "controller", "--tolerance", "1"],
         ["reports/latest", "--over", "friction"],
+        ["reports/latest", "--over", "controller", "--over", "controller"],
         ["scenarios", "--over", "controller"],
     ):
         answer = call("compare", *arguments)

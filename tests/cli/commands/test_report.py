@@ -26,6 +26,18 @@ def test_further_formats_are_written_into_the_run_and_named(call: Call, run: Pat
     assert all((run / name).stat().st_size for name in names)
 
 
+@pytest.mark.parametrize(
+    ("expression", "said"), [("b", "no case of the run matches 'b'"), ("a and", "in 'a and'")]
+)
+def test_stops_to_draw_are_chosen_among_those_there_are(
+    call: Call, run: Path, expression: str, said: str
+) -> None:
+    answer = call("report", run, "--format", "html", "--draw", expression)
+    assert answer.code == 4
+    assert said in " ".join(answer.err.split())
+    assert call("report", run, "--format", "html", "--draw", "a").code == 0
+
+
 def test_they_can_go_elsewhere(call: Call, run: Path) -> None:
     assert call("report", run, "--format", "csv", "-o", "elsewhere/deep").code == 0
     assert sorted(path.name for path in Path("elsewhere/deep").iterdir()) == [

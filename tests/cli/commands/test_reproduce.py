@@ -81,6 +81,7 @@ def test_data_and_figures_lie_by_study(call: Call) -> None:
         "data.csv",
         "figure.svg",
         "figure.png",
+        "index.html",
     }
 
 
@@ -98,7 +99,14 @@ def test_without_matplotlib_the_study_runs_and_says_what_to_install(
     answer = call("reproduce", "sound", "-o", "there")
     assert answer.code == 0
     assert "pip install 'uictest[figures]'" in answer.err
-    assert {path.name for path in Path("there", "sound").iterdir()} == {"data.csv"}
+    assert {path.name for path in Path("there", "sound").iterdir()} == {"data.csv", "index.html"}
+
+
+def test_a_page_for_each_study_and_one_that_lists_them(call: Call) -> None:
+    call("reproduce", "-o", "there")
+    assert "word-bad" in Path("there", "amiss", "index.html").read_text("utf-8").split("<main", 1)[1]
+    listed = Path("there", "index.html").read_text("utf-8")
+    assert [f'href="{name}/index.html"' in listed for name in ("sound", "amiss")] == [True, True]
 
 
 def test_a_study_that_fails_is_an_error_and_no_missed_band(

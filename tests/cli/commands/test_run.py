@@ -29,6 +29,7 @@ def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, sce
     files = sorted(path.name for path in Path("reports/latest/").iterdir())
     assert files == [
         "criteria.csv",
+        "index-entry.json",
         "index.html",
         "junit.xml",
         "manifest.json",

@@ -187,6 +187,23 @@ def test_a_finished_run_is_reported_again(call: Call, campaign: Callable[..., Pa
         assert Path("again", name).read_text() == Path("reports/latest", name).read_text()
 
 
+def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Callable[..., Path]) -> None:
+    path = campaign()
+    assert call("run", path, "--baseline", "kept", "--accept").code == 0
+    same = call("run", path, "--baseline", "kept")
+    assert same.code == 0
+    assert "compared with the baseline kept: no difference" in same.err
+    changed = call("run", path, "--baseline", "kept", "--set", "brake.command=90 %", "--format", "github")
+    assert changed.code == 1
+    assert "1 series different from the baseline" in changed.err
+    title = "::error file=scenarios/small.series.yaml,title=differs small::baseline: "
+    assert any(line.startswith(title) for line in changed.out.splitlines())
+    call("run", Path("scenarios/dry.yaml"), "--baseline", "kept", "--accept")
+    both = json.loads(Path("kept/results.json").read_text())
+    assert [each["id"] for each in both["series"]["series"]] == ["small"]
+    assert call("run", path, "--baseline", "kept").code == 0
+
+
 def test_series_are_not_run_in_real_time(call: Call, campaign: Callable[..., Path]) -> None:
     answer = call("run", campaign(), "--real-time")
     assert answer.code == 4

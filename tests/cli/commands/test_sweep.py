@@ -423,9 +423,7 @@ def test_without_a_gpu_the_processor_is_named_and_not_hindered(
     fake_cuda(monkeypatch, context)
     answer = call("sweep", study, "--device", "cuda")
     assert answer.code == 4
-    assert answer.err == (
-        f"uictest: no CUDA device found ({reason}); leave --device out to use the processor\n"
-    )
+    assert answer.err == (f"uictest: no CUDA device found ({reason}): simulate on the processor (--device)\n")
     assert call("sweep", study, "-k", "friction=0.09").code == 0
 
 
@@ -435,7 +433,7 @@ def test_without_numba_cuda_the_extra_is_named(
     monkeypatch.setitem(sys.modules, "uictest.rig.backends.cuda", None)  # type: ignore[arg-type]
     answer = call("sweep", study, "--device", "cuda")
     assert answer.code == 4
-    assert answer.err == "uictest: --device cuda needs the extra: pip install 'uictest[cuda]'\n"
+    assert answer.err == "uictest: a GPU needs the extra: pip install 'uictest[cuda]' (--device)\n"
 
 
 def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None:

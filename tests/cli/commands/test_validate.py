@@ -259,3 +259,126 @@ def test_a_missing_document_is_refused(call: Call, scenario: Write) -> None:
     scenario()
     answer = call("run", "scenarios/stop.yaml", "--validated", "none.json")
     assert (answer.code, "none.json: No such file" in answer.err) == (4, True)
+
+
+def test_a_scenario_names_the_validation_that_its_cases_are_held_against(
+    call: Call, validated: Path, scenario: Write
+) -> None:
+    shutil.copy(validated, "scenarios/train.json")
+    friction = "rail: {condition: wet, friction: 0.1}\n"
+    scenario("fast", f"{friction}validated: train.json\n")
+    scenario("other", friction)
+    answer = call("run", "scenarios", "--set", "initial_speed=40 km/h")
+    assert answer.code == 0
+    results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    asked = {case["id"]: "domain_of_validity" in case for case in results["cases"]}
+    assert asked == {"fast": True, "other": False, "stop": False}
+    assert "outside fast of what my-train validated: initial_speed 40 km/h > 31 km/h" in answer.out
+    assert "1 of 1 case outside of what my-train validated" in answer.err
+    manifest = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))
+    assert "scenarios/train.json" in manifest["inputs"]
+
+
+def test_the_option_takes_the_place_of_what_a_scenario_names(
+    call: Call, validated: Path, scenario: Write
+) -> None:
+    document = json.loads(validated.read_text("utf-8")) | {"name": "another-train"}
+    Path("scenarios/another.json").write_text(json.dumps(document), "utf-8")
+    scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: another.json\n")
+    for options, name in (((), "another-train"), (("--validated", validated), "my-train")):
+        call("run", "scenarios/stop.yaml", *options)
+        results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+        assert results["cases"][0]["domain_of_validity"]["validation"] == name
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("none.json", "no such file: 'none.json'"),
+        ("stop.yaml", "'stop.yaml' is not the result of a validation"),
+        ("list.json", "'list.json' is not the result of a validation"),
+        ("/etc/hostname", "is an absolute path"),
+        ("../../elsewhere.json", "leads out of"),
+        ("[a.json]", "expected a text, found a list"),
+    ],
+)
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_what_a_scenario_names_is_checked_on_loading(
+    call: Call, scenario: Write, command: str, text: str, message: str
+) -> None:
+    scenario("stop", f"validated: {text}\n")
+    Path("scenarios/list.json").write_text("[]")
+    answer = call(command, "scenarios/stop.yaml")
+    assert answer.code == 4
+    shown = answer.out + answer.err
+    assert "scenarios/stop.yaml:4:12: validated: " in shown
+    assert message in shown
+
+
+def test_a_validation_that_is_damaged_inside_is_refused_when_it_is_needed(
+    call: Call, validated: Path, scenario: Write
+) -> None:
+    document = json.loads(validated.read_text("utf-8"))
+    document["domains"][0]["stops"] = "two"
+    Path("scenarios/damaged.json").write_text(json.dumps(document), "utf-8")
+    scenario("stop", "validated: damaged.json\n")
+    answer = call("run", "scenarios/stop.yaml")
+    assert (answer.code, "damaged.json: " in answer.err) == (4, True)
+
+
+@pytest.fixture
+def study(validated: Path) -> Path:
+    """A sweep of four stops, of which three are outside of the validation."""
+    path = Path("study.sweep.yaml")
+    head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
+    path.write_text(f"{head}grid: {{initial_speed: [30 km/h, 32 km/h], brake.command: [100 %, 90 %]}}\n")
+    return path
+
+
+NOTE = (
+    "3 of 4 cases outside of what my-train validated: initial_speed 32 km/h > 31 km/h in 2;"
+    " brake.command 0.9 < 1 in 2"
+)
+
+
+def test_a_sweep_counts_and_names_the_cases_outside(call: Call, validated: Path, study: Path) -> None:
+    answer = call("sweep", study, "--validated", validated, "--report", "csv,html,md,xlsx")
+    assert answer.code in (0, 1)
+    assert f"note: {NOTE}" in answer.out
+    folder = Path("reports/study")
+    with (folder / "summary.csv").open(encoding="utf-8") as file:
+        outside = {row["id"]: set(row["outside"].split()) for row in csv.DictReader(file)}
+    speed, command = "initial_speed", "brake.command"
+    assert list(outside.values()) == [set(), {command}, {speed}, {speed, command}]
+    found = json.loads((folder / "sweep.json").read_text("utf-8"))["domain_of_validity"]
+    assert (found["validation"], found["outside"]) == ("my-train", 3)
+    assert [(each["deviation"]["key"], each["cases"]) for each in found["conditions"]] == [
+        (speed, 2),
+        (command, 2),
+    ]
+    assert NOTE.replace(">", "&gt;").replace("<", "&lt;") in (folder / "index.html").read_text("utf-8")
+    assert "3 of 4 cases outside of what my-train validated" in (folder / "summary.md").read_text("utf-8")
+    workbook = load_workbook(folder / "report.xlsx", read_only=True)
+    assert NOTE in [cell for row in workbook["Summary"].values for cell in row]
+    assert "outside" in next(workbook["Cases"].values)
+
+
+def test_another_validation_simulates_nothing_again(call: Call, validated: Path, study: Path) -> None:
+    call("sweep", study)
+    before = json.loads(Path("reports/study/sweep.json").read_text("utf-8"))
+    assert before["domain_of_validity"] is None
+    assert "outside" not in Path("reports/study/summary.csv").read_text("utf-8").splitlines()[0]
+    answer = call("sweep", study, "--validated", validated)
+    assert "4 of 4 cases are already finished" in answer.err
+    after = json.loads(Path("reports/study/sweep.json").read_text("utf-8"))
+    assert after["domain_of_validity"]["outside"] == 3
+    assert after["outcomes"] == before["outcomes"]
+
+
+def test_a_swept_scenario_names_its_validation(
+    call: Call, validated: Path, study: Path, scenario: Write
+) -> None:
+    shutil.copy(validated, "scenarios/train.json")
+    scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: train.json\n")
+    answer = call("sweep", study, "--format", "json")
+    assert json.loads(answer.out)["domain_of_validity"]["outside"] == 3

@@ -114,7 +114,7 @@ def test_every_report_says_the_version_that_only_a_running_program_tells(
     page = (folder / "index.html").read_text("utf-8")
     assert page.count(told) == 3  # in the row of the case, above its plots, and among its parts
     with zipfile.ZipFile(folder / "report.xlsx") as workbook:
-        assert told in workbook.read("xl/sharedStrings.xml").decode()
+        assert any(told in workbook.read(name).decode() for name in workbook.namelist() if "sheet" in name)
     (suite,) = ElementTree.parse(folder / "junit.xml").iter("testsuite")
     properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
     assert properties["controller.version"] == "1.2.0"

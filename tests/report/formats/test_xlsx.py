@@ -147,6 +147,20 @@ def test_the_cover_names_what_is_not_as_expected_and_draws_every_case(
     ]
 
 
+def test_charts_hold_what_they_draw_for_programs_that_compute_nothing(
+    make_content: MakeContent, make_result: MakeResult
+) -> None:
+    """The sheets are streamed, so that the library cannot read back what it wrote."""
+    content = make_content(make_result(id="a"), make_result(id="b", measures={}))
+    for chart in _read(content)["Cover"]._charts:
+        [series] = chart.series
+        assert [each.v for each in series.cat.strRef.strCache.pt] == ["a", "b"]
+        assert series.val.numRef.numCache.ptCount == 2
+    distance = _read(content)["Cover"]._charts[0].series[0].val.numRef.numCache
+    [shown] = [float(each.v) for each in distance.pt if each.v]
+    assert shown == content.results[0].measures["braking_distance_m"]
+
+
 def test_a_cover_names_so_many_cases_and_counts_the_rest(
     make_content: MakeContent, make_result: MakeResult
 ) -> None:

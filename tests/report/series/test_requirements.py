@@ -106,7 +106,7 @@ def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
     assert "| `BR-9` | **not met** | 2 | acceptance (fail) |" in markdown_summary(content)
     page = (tmp_path / "index.html").read_text()
     assert "1 case, 1 series" in page
-    assert '<a href="#series-1">series acceptance</a>' in page
+    assert '<a href="#series-acceptance">series acceptance</a>' in page
     assert "WSP-TC-7: BR-9" in page
 
 

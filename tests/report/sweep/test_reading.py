@@ -54,3 +54,11 @@ def test_a_case_that_is_none_is_rejected(folder: Path, worst: object) -> None:
     (folder / "sweep.json").write_text(json.dumps(document | {"worst": worst}))
     with pytest.raises(ValueError, match="not the result of a sweep"):
         read_sweep(folder)
+
+
+def test_an_id_of_a_worst_case_that_is_a_path_is_refused(folder: Path) -> None:
+    written = json.loads((folder / "sweep.json").read_text())
+    written["worst"][0]["id"] = "../escaped"
+    (folder / "sweep.json").write_text(json.dumps(written))
+    with pytest.raises(ValueError, match=r"sweep\.json: .*is not the name of a file"):
+        read_sweep(folder)

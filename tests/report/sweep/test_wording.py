@@ -41,6 +41,8 @@ def test_cases_that_no_criterion_applies_to_are_counted_as_skipped() -> None:
     [
         ([WrittenValue("80 %"), WrittenValue("90 %")], "80 %, 90 %"),
         ([WrittenValue(f"0.{k}") for k in (1, 2, 3, 4)], "0.1 .. 0.4 (4 values)"),
+        ([WrittenValue(f"{k} %") for k in (50, 100, 200, 80)], "50 % .. 200 % (4 values)"),
+        ([WrittenValue(text) for text in "badc"], "b, a, d, … (4 values)"),
         ([DrawnInterval(0.08, 0.12, "m/s"), DrawnInterval(0.12, 0.16, "m/s")], "0.08 .. 0.16 m/s, drawn"),
         ([], ""),
     ],

@@ -55,6 +55,7 @@ SETTINGS = {
     "pole wheels, wheelsets that differ": (
         (
             *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
+            "simulation.time_step=1 ms",
             (
                 "vehicle.wheelsets={2: {wheel_radius: 0.42 m, brake_force: 80 %, pad_friction: 0.4}, 3:"
                 " {sensors: {speed: {method: momentary, missing_teeth: 0}, pressure: {offset: 0.1 bar}}}}"
@@ -63,7 +64,10 @@ SETTINGS = {
         {**QUICK_BRAKE, "cycles": 150},
     ),
     "pads that fade on discs that warm": (
-        ("brake.pad=disc-pad", "initial_speed=20 km/h", "brake.initial_disc_temperature=200 degC"),
+        (
+            *("brake.pad=disc-pad", "initial_speed=20 km/h", "brake.initial_disc_temperature=200 degC"),
+            "simulation.time_step=1 ms",
+        ),
         {**QUICK_BRAKE, "cycles": 60},
     ),
     "composite blocks on discs that stay cold": (
@@ -81,6 +85,7 @@ SETTINGS = {
     "faults of every part, each for a while": (
         (
             *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
+            "simulation.time_step=1 ms",
             f"faults={FAULTS}",
         ),
         {**QUICK_BRAKE, "cycles": 150},

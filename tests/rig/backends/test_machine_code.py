@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from uictest import user_cache
 from uictest.rig.backends import machine_code
 from uictest.rig.backends.compiled import callback
 from uictest.rig.backends.machine_code import is_kept, native_function
@@ -94,3 +96,22 @@ def test_without_any_place_it_is_compiled_and_nothing_is_left(
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
     assert begin()(14) == 42
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_what_another_process_compiles_meanwhile_is_used(
+    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begin()
+    path = _kept(cache)
+    code = path.read_bytes()
+    path.unlink()
+
+    @contextmanager
+    def turn(name: str, inputs: bytes) -> Iterator[None]:
+        path.write_bytes(code)
+        path.chmod(0o600)
+        yield
+
+    monkeypatch.setattr(user_cache, "turn", turn)
+    monkeypatch.setitem(globals(), "_compiled", lambda: pytest.fail("compiled as well"))
+    assert begin()(14) == 42

@@ -28,6 +28,11 @@ def test_another_seed_gives_other_points_inside_the_cube(method: Method) -> None
     assert one.max() < 1.0
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_no_points_are_none_of_the_whole(method: Method) -> None:
+    assert points(method, 64, 3, 7, np.arange(0)).shape == (0, 3)
+
+
 def test_a_random_sample_goes_on_beyond_one_stream() -> None:
     drawn = points("random", 3000, 2, 0, np.arange(3000))
     assert np.unique(drawn, axis=0).shape == (3000, 2)

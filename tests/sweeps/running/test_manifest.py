@@ -15,8 +15,12 @@ from uictest.sweeps.running.manifest import SOURCES, manifest_differences
 
 Load = Callable[..., Plan]
 PACKAGE = Path(uictest.__file__).parent
-WITHOUT_INFLUENCE = {"campaign", "identification", "library", "recording", "report", "user_cache"}
-"""Rooms that select cases, serve the bench, keep files or write reports; the library's files are inputs."""
+WITHOUT_INFLUENCE = {
+    *("campaign", "identification", "library", "recording", "report", "user_cache"),
+    "validation",
+}
+"""Rooms that select cases, serve the bench, keep files, write reports or say what was validated; the files of
+the library are inputs."""
 
 
 def manifest(plan: Plan) -> dict[str, Any]:
@@ -62,9 +66,9 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
     [
         ("cases", 10, 16, "cases: 10 before, 16 now"),
         ("cases_in_a_part", 16, 32, "cases per chunk: 16 before, 32 now"),
-        ("seed", None, 7, "--seed: none before, 7 now"),
-        ("selected", "wet and cold", None, "-k: wet and cold before, none now"),
-        ("set", [], ["a=1", "b=2"], "--set: none before, a=1 and b=2 now"),
+        ("seed", None, 7, "seed: none before, 7 now"),
+        ("selected", "wet and cold", None, "selection: wet and cold before, none now"),
+        ("set", [], ["a=1", "b=2"], "set: none before, a=1 and b=2 now"),
         ("parameters", ["a", "b", "c"], ["d"], "parameters: a, b and c before, d now"),
         ("versions", {"numpy": "1", "scipy": "1"}, {"numpy": "2", "scipy": "1"}, "versions: numpy"),
         ("program", "1", "2", "the program itself"),

@@ -213,7 +213,7 @@ def test_a_value_that_all_cases_share_is_no_circumstance(load_dry: LoadDry) -> N
 def test_a_selection_of_draws_is_no_sample(load_dry: LoadDry) -> None:
     result, _ = finish(load_dry(SAMPLE % 100 + K_DRY), only="sample=1")
     assert (result.quantiles, result.k_dry) == ((), ())
-    assert "no quantiles and no K_dry: -k selects 11 of 100 cases" in result.notes
+    assert "no quantiles and no K_dry: only 11 of 100 cases selected" in result.notes
 
 
 def test_the_nominal_case_has_the_values_of_the_scenario(load_dry: LoadDry) -> None:

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from uictest import identification, recording, scenario
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest import identification, recording, runs, scenario
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.progress import announce_compilation
@@ -97,36 +97,33 @@ def _test(
     """Return the test of a recipe or of a recorded pressure. Raises InvalidInputError."""
     names = rig_bench.recipe_names()
     if (recipe is None) == (trace is None):
-        raise InvalidInputError(
-            f"uictest: name one recipe ({', '.join(names)}, or a .yaml file) or give --trace FILE"
+        raise runs.InvalidInputError(
+            f"name one recipe ({', '.join(names)}, or a .yaml file) or give --trace FILE"
         )
-    try:
-        if trace is not None:
-            return rig_bench.trace_recipe(trace, pressure, command, overrides, seed, trusted)
-        assert recipe is not None
-        if not rig_bench.recipe_path(recipe).exists():
-            hint = yaml.suggestion(recipe, names)
-            raise InvalidInputError(f"uictest: no bench recipe {recipe!r}; {hint}")
-        return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, seed, trusted)
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    if trace is not None:
+        return rig_bench.trace_recipe(trace, pressure, command, overrides, seed, trusted)
+    assert recipe is not None
+    if not rig_bench.recipe_path(recipe).exists():
+        hint = yaml.suggestion(recipe, names)
+        raise runs.InvalidInputError(f"no bench recipe {recipe!r}; {hint}")
+    return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, seed, trusted)
 
 
 def _run(test: rig_bench.BenchTest) -> recording.Recording:
     try:
         return rig_bench.run_test(test)
     except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error
     except FileNotFoundError as error:
-        raise InvalidInputError(f"uictest: {error.filename}: no such file") from error
+        raise runs.InvalidInputError(f"{error.filename}: no such file") from error
 
 
 def _writer(target: Path) -> Callable[[recording.Recording, Path], object]:
     """Return the function that writes a recording to a file of this name. Raises InvalidInputError."""
     if target.suffix.lower() not in _FORMATS:
-        raise InvalidInputError(f"uictest: {target}: write a .parquet or a .csv file")
+        raise runs.InvalidInputError(f"{target}: write a .parquet or a .csv file")
     if not target.parent.is_dir():
-        raise InvalidInputError(f"uictest: {target}: there is no folder {target.parent}")
+        raise runs.InvalidInputError(f"{target}: there is no folder {target.parent}")
     return formats.writer_of(_FORMATS[target.suffix.lower()])
 
 

@@ -11,7 +11,7 @@ import typer
 
 from uictest import comparison, recording, runs
 from uictest.cli.compared_variants import compare_variants
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
 from uictest.cli.output import data, message, terminal_width
 from uictest.recording import formats
@@ -91,7 +91,7 @@ def _compared(
     try:
         return comparison.compare_recordings(*recordings, _names(first, second), tolerances, channels or ())
     except ValueError as error:
-        raise InvalidInputError(f"uictest: --channel: {error}") from error
+        raise runs.InvalidInputError(f"--channel: {error}") from error
 
 
 def _runs(
@@ -99,14 +99,14 @@ def _runs(
 ) -> comparison.Comparison:
     """Compare two runs, and draw the stops that both have recorded and that differ."""
     if reason := runs.why_no_run(first) or runs.why_no_run(second):
-        raise InvalidInputError(
-            f"uictest: {reason}; compare takes the folders of two runs, or two recordings"
-        )
+        raise runs.InvalidInputError(f"{reason}; compare takes the folders of two runs, or two recordings")
     try:
         compared = comparison.compare_run_folders(first, second, tolerances)
-        return compared if channels is None else comparison.with_overlays(compared, first, second, channels)
+        if channels is None:
+            return compared
+        return comparison.with_overlays(compared, first, second, channels, tolerances)
     except (OSError, ValueError) as error:
-        raise InvalidInputError(f"uictest: cannot compare as runs: {error}") from error
+        raise runs.InvalidInputError(f"cannot compare as runs: {error}") from error
 
 
 def _recording(path: Path) -> recording.Recording:
@@ -114,9 +114,9 @@ def _recording(path: Path) -> recording.Recording:
         if path.suffix == ".parquet":
             return recording.read_parquet(path)
     except ValueError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error
     except OSError as error:
-        raise InvalidInputError(f"uictest: {path}: {error.strerror or error}") from error
+        raise runs.InvalidInputError(f"{path}: {error.strerror or error}") from error
     return runs.each_file(
         [path], lambda file: recording.recording_of(formats.read_contents(file), {"source": file.name})
     )[0]

@@ -12,7 +12,7 @@ import typer
 
 from uictest import conformance, recording, scenario
 from uictest.cli import options
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
 from uictest.cli.registration import command
 from uictest.scenario import yaml
@@ -86,10 +86,7 @@ def _subject(
     time_limit: float | None,
     trusted: Sequence[Path],
 ) -> conformance.Subject:
-    try:
-        part = scenario.load_controller(reference, class_name, trusted)
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    part = scenario.load_controller(reference, class_name, trusted)
     parameters = dict(map(_setting, settings))
     if part.program is None and (parameters or time_limit is not None):
         option = "--set" if parameters else "--time-limit"

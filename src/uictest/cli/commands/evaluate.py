@@ -10,8 +10,9 @@ import typer
 
 from uictest import campaign, field_data, recording, report, runs
 from uictest.cli import options, recordings, running
-from uictest.cli.exit_codes import ExitCode, InvalidInputError, of_run
+from uictest.cli.exit_codes import ExitCode, of_run
 from uictest.cli.output import data, message
+from uictest.cli.pruning import keep_newest, named_paths
 from uictest.recording import formats
 
 _OPTIONS = {
@@ -56,6 +57,7 @@ def evaluate(
     raster: recordings.Raster = None,
     low_pass: recordings.LowPass = None,
     output: options.Output = Path("reports"),
+    keep: options.KeptRuns = None,
     junit: options.JUnitFile = None,
     recorded: options.RecordingChoice = options.Recorded.FAILED,
     shown: options.RunFormat = options.Format.TEXT,
@@ -69,6 +71,7 @@ def evaluate(
     A recording does not contain the rail condition, the brake position, the state of the WSP or the criteria:
     state them with a scenario or with options.
     """
+    named = named_paths(*files, scenario, junit)
     request = campaign.RecordingRequest(recorded.value)
     display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     statements = [*runs.statements_of(criteria, rail, position, wsp), *(overrides or ())]
@@ -93,16 +96,16 @@ def evaluate(
     if not quiet:
         running.write_preparation(batch.files)
         message(f"uictest: {published.content.tally}; reports in {published.place}")
-    return of_run(published)
+    return keep_newest(of_run(published), keep, published.place, "evaluate", named)
 
 
 def _reject_options_of_recordings(files: Sequence[Path], options_of_recordings: Sequence[object]) -> None:
     """Raise where series and recordings are mixed, or options say what a series file says of its own."""
     if not all(map(runs.is_series, files)):
-        raise InvalidInputError("uictest: name series files or recordings, not both")
+        raise runs.InvalidInputError("name series files or recordings, not both")
     if any(options_of_recordings):
-        raise InvalidInputError(
-            "uictest: a series says itself which scenario and channel map each of its recordings has:"
+        raise runs.InvalidInputError(
+            "a series says itself which scenario and channel map each of its recordings has:"
             " state it in the file, or with --set"
         )
 
@@ -123,8 +126,8 @@ def _case_of_stop(
     try:
         return runs.case_of_stop(case, statements, trusted)
     except runs.MissingStatementsError as error:
-        raise InvalidInputError(
-            "uictest: a recording does not say what was tested: state it with --scenario FILE, or with"
+        raise runs.InvalidInputError(
+            "a recording does not say what was tested: state it with --scenario FILE, or with"
             f" {', '.join(_OPTIONS[key] for key in error.keys)}"
         ) from None
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from uictest import __version__, recording, runs
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files
@@ -64,10 +64,10 @@ def _formats(texts: Sequence[str]) -> list[str]:
 def _reject_overwriting(targets: Sequence[Path], *, force: bool) -> None:
     twice = sorted({str(target) for target in targets if targets.count(target) > 1})
     if twice:
-        raise InvalidInputError(f"uictest: several recordings would be written to {', '.join(twice)}")
+        raise runs.InvalidInputError(f"several recordings would be written to {', '.join(twice)}")
     there = [str(target) for target in targets if target.exists()]
     if there and not force:
-        raise InvalidInputError(f"uictest: already there: {', '.join(there)}; --force replaces them")
+        raise runs.InvalidInputError(f"already there: {', '.join(there)}; --force replaces them")
 
 
 def _recording(path: Path) -> recording.Recording:

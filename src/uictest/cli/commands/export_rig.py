@@ -11,7 +11,7 @@ import typer
 
 from uictest import recording, rig_fmu, runs, scenario
 from uictest.cli.cases import case_lines, select_by_options
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.progress import announce_compilation
@@ -69,17 +69,17 @@ def export_rig(
 def _reject_target(output: Path, *, force: bool) -> None:
     """Raise InvalidInputError where the FMU cannot be written."""
     if output.suffix != ".fmu":
-        raise InvalidInputError(f"uictest: {output}: the name of an FMU ends with .fmu")
+        raise runs.InvalidInputError(f"{output}: the name of an FMU ends with .fmu")
     if not output.parent.is_dir():
-        raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+        raise runs.InvalidInputError(f"{output}: there is no folder {output.parent}")
     if output.exists() and not force:
-        raise InvalidInputError(f"uictest: already there: {output}; --force replaces it")
+        raise runs.InvalidInputError(f"already there: {output}; --force replaces it")
 
 
 def _only(cases: Sequence[scenario.Case]) -> scenario.Case:
     if len(cases) > 1:
-        raise InvalidInputError(
-            f"uictest: {len(cases)} cases; an FMU holds one: choose it with --case ID\n{case_lines(cases)}"
+        raise runs.InvalidInputError(
+            f"{len(cases)} cases; an FMU holds one: choose it with --case ID\n{case_lines(cases)}"
         )
     return cases[0]
 
@@ -89,9 +89,9 @@ def _built(case: scenario.Case, version: Fmi) -> bytes:
     try:
         compiler = rig_fmu.usable_compiler()
     except rig_fmu.CannotBuildError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error
     announce_compilation(warm=rig_fmu.code_is_compiled())
     try:
         return rig_fmu.build_fmu(case, 2 if version is Fmi.TWO else 3, compiler)
     except ValueError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error

@@ -13,7 +13,7 @@ import typer
 
 from uictest import controllers, field_data, fitting, recording, report, rig, runs, scenario as scenarios
 from uictest.cli import options, recordings
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, message
 from uictest.cli.progress import announce_compilation
 from uictest.recording import formats
@@ -152,7 +152,7 @@ def _fit(
             return fitting.fit_cleaning(stops, case.scenario, places)
         return fitting.fit_stop(stops[0], case.scenario, places, with_pads=with_pads)
     except fitting.FitError as error:
-        raise InvalidInputError(f"uictest: {', '.join(map(str, files))}: {error}") from error
+        raise runs.InvalidInputError(f"{', '.join(map(str, files))}: {error}") from error
 
 
 def _stop(path: Path, mapped: field_data.ChannelMap) -> field_data.RecordedStop:
@@ -233,7 +233,7 @@ def _write_scenario(fitted: _FittedStops, name: str, fit: fitting.Fit, folder: P
             fitted.case, statements, fit, fitted.path, folder, fitted.cleaning, of_stop
         )
     except ValueError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error
     recording.write_text_atomic(path, text)
     return path
 
@@ -243,4 +243,4 @@ def _simulated(scenario: Path, trusted: Sequence[Path]) -> rig.SimulatedStop:
     try:
         return rig.simulate(case, record_every=_RECORD_EVERY)
     except controllers.ControllerError as error:
-        raise InvalidInputError(f"uictest: the fitted scenario cannot be simulated: {error}") from error
+        raise runs.InvalidInputError(f"the fitted scenario cannot be simulated: {error}") from error

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from uictest import field_data, identification, library, recording, scenario
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest import field_data, identification, library, recording, runs, scenario
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.identify_options import (
     ActingTime,
     Base,
@@ -152,10 +152,7 @@ def air(
 
 def _rig_of(record: Path, overrides: Sequence[str], trusted: Sequence[Path]) -> scenario.Case:
     """Return the rig of a record: that of the library with overrides."""
-    try:
-        return bench.trace_recipe(record, "", None, overrides, None, trusted).case
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    return bench.trace_recipe(record, "", None, overrides, None, trusted).case
 
 
 def _air(
@@ -172,7 +169,7 @@ def _air(
     try:
         return bench.identify_air(by_name, case, held_out)
     except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {record}: {error}") from error
+        raise runs.InvalidInputError(f"{record}: {error}") from error
 
 
 def _wsp_acting(
@@ -199,7 +196,7 @@ def _hysteresis(
         )
         identification.require_force_fit(result)
     except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {record}: {error}") from error
+        raise runs.InvalidInputError(f"{record}: {error}") from error
     return result
 
 
@@ -215,7 +212,7 @@ def _cylinder(
         )
         identification.require_fit(result)
     except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {record}: {error}") from error
+        raise runs.InvalidInputError(f"{record}: {error}") from error
     return result
 
 
@@ -223,37 +220,34 @@ def _record(record: Path, names: dict[str, str]) -> identification.RecordedChann
     """Read the channels of a record by role. Raises InvalidInputError where two options name the same one."""
     for (role, name), (other, same) in combinations(names.items(), 2):
         if name == same:
-            raise InvalidInputError(
-                f"uictest: {_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
+            raise runs.InvalidInputError(
+                f"{_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
             )
     try:
         return identification.read_record(_existing(record), names)
     except identification.UnsuitableRecordError as error:
-        raise InvalidInputError(f"uictest: {error}") from error
+        raise runs.InvalidInputError(f"{error}") from error
 
 
 def _existing(record: Path) -> Path:
     if not record.is_file():
-        raise InvalidInputError(f"uictest: {record}: {'not a file' if record.exists() else 'no such file'}")
+        raise runs.InvalidInputError(f"{record}: {'not a file' if record.exists() else 'no such file'}")
     return record
 
 
 def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
     """Return the compensation, of the library or in a file, whose other numbers are kept."""
-    try:
-        return identification.load_compensation(reference, trusted)
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    return identification.load_compensation(reference, trusted)
 
 
 def _name(name: str, record: Path) -> str:
     """Return the name of `--name`, else one from the file name of the record that no library part has."""
     derived = re.sub(r"[^a-z0-9]+", "-", record.stem.lower()).strip("-")[:100]
     if name and not re.fullmatch(yaml.NAME_PATTERN, name):
-        raise InvalidInputError(f"uictest: --name {name!r}: write lower case letters, digits and . _ -")
+        raise runs.InvalidInputError(f"--name {name!r}: write lower case letters, digits and . _ -")
     if not name and (not derived or derived in library.names("compensations")):
-        raise InvalidInputError(
-            f"uictest: {record.name} gives no name that is free for the compensation; write --name NAME"
+        raise runs.InvalidInputError(
+            f"{record.name} gives no name that is free for the compensation; write --name NAME"
         )
     return name or derived
 
@@ -277,14 +271,14 @@ def _provenance(
 def _write(output: Path, record: Path, text: str) -> None:
     """Write a compensation file. Raises InvalidInputError for numbers that no compensation can have."""
     if not output.parent.is_dir():
-        raise InvalidInputError(f"uictest: {output}: there is no folder {output.parent}")
+        raise runs.InvalidInputError(f"{output}: there is no folder {output.parent}")
     if output.exists() and output.samefile(record):
-        raise InvalidInputError(f"uictest: --output {output} is the recording itself: name another file")
+        raise runs.InvalidInputError(f"--output {output} is the recording itself: name another file")
     try:
         identification.check_compensation(text, output)
     except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(
-            f"uictest: {record}: nothing written, since the identified numbers fit no caliper\n{errors}"
+        raise runs.InvalidInputError(
+            f"{record}: nothing written, since the identified numbers fit no caliper\n{errors}"
         ) from errors
     recording.write_text_atomic(output, text)
     message(f"uictest: wrote {output}")

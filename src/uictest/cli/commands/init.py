@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from uictest import recording, templates
+from uictest import recording, runs, templates
 from uictest.cli.commands.schema import schema_text
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import message
 
@@ -96,7 +96,7 @@ def _write_new(texts: dict[Path, str]) -> None:
     """Write files. Raises InvalidInputError, and writes none, where one of them exists."""
     existing = [path for path in texts if path.exists()]
     if existing:
-        raise InvalidInputError(f"uictest: already there: {', '.join(map(str, existing))}")
+        raise runs.InvalidInputError(f"already there: {', '.join(map(str, existing))}")
     for path, text in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         recording.write_text_atomic(path, text)

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from uictest import field_data, library as library_files, scenario
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest import field_data, library as library_files, runs, scenario
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data
 from uictest.cli.registration import command
@@ -49,7 +49,7 @@ def show_part(
         _show_file(Path(reference), trusted or ())
         return ExitCode.MET
     if reference not in _references():
-        raise InvalidInputError(f"uictest: no part {reference!r} in the library; {_hint(reference)}")
+        raise runs.InvalidInputError(f"no part {reference!r} in the library; {_hint(reference)}")
     folder, _, name = reference.partition("/")
     data(printable(f"{reference}: {_title(reference)}"))
     if folder == "channel_maps":
@@ -61,19 +61,16 @@ def show_part(
 
 def _show_file(path: Path, trusted: Sequence[Path]) -> None:
     """Show the file of a part, a bench recipe or a channel map. Raises InvalidInputError for any other."""
-    try:
-        written = yaml.plain(yaml.read_file(path))
-        title = written.get("title", "")
-        heading = printable(f"{path}: {title}")
-        schema = written.get("schema")
-        if schema == "uictest/channel-map/1":
-            channels = _channels(str(path), trusted)
-            data(f"{heading}\n{_aligned(channels)}")
-            return
-        is_bench = schema == "uictest/bench/1"
-        part = _part("benches", str(path), trusted) if is_bench else scenario.load_part_file(path, trusted)
-    except yaml.ScenarioErrors as errors:
-        raise InvalidInputError(str(errors)) from errors
+    written = yaml.plain(yaml.read_file(path))
+    title = written.get("title", "")
+    heading = printable(f"{path}: {title}")
+    schema = written.get("schema")
+    if schema == "uictest/channel-map/1":
+        channels = _channels(str(path), trusted)
+        data(f"{heading}\n{_aligned(channels)}")
+        return
+    is_bench = schema == "uictest/bench/1"
+    part = _part("benches", str(path), trusted) if is_bench else scenario.load_part_file(path, trusted)
     data(f"{heading}\nbased on {part.based_on}" if part.based_on else heading)
     _show_numbers(part)
 

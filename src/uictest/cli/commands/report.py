@@ -10,8 +10,9 @@ from typing import Annotated
 import typer
 
 from uictest import report as reports, runs
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
-from uictest.cli.options import Verbosity, report_formats
+from uictest.cli.cases import malformed
+from uictest.cli.exit_codes import ExitCode
+from uictest.cli.options import Draw, Verbosity, report_formats
 from uictest.cli.output import data
 
 
@@ -27,6 +28,7 @@ def report(
             help=f"Formats, joined by commas: {', '.join(reports.format_names())}; junit for runs only.",
         ),
     ] = "xlsx",
+    draw: Draw = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the files [default: DIR]."),
@@ -41,24 +43,41 @@ def report(
     is_sweep = (folder / reports.SWEEP_RESULTS).is_file()
     accepted = reports.sweep_format_names() if is_sweep else reports.format_names()
     names = report_formats(formats, "--format", accepted)
-    write = _write_sweep if is_sweep else _write_run
-    for path in write(folder, folder if output is None else output, names):
+    if is_sweep and draw is not None:
+        raise typer.BadParameter("a sweep draws its worst cases; --draw is for runs", param_hint="--draw")
+    place = folder if output is None else output
+    written = _write_sweep(folder, place, names) if is_sweep else _write_run(folder, place, names, draw)
+    for path in written:
         data(str(path))
     return ExitCode.MET
 
 
-def _write_run(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
+def _write_run(folder: Path, place: Path, names: Sequence[str], draw: str | None) -> list[Path]:
     if runs.holds_sweep(folder):
-        raise InvalidInputError(
-            f"uictest: {folder} holds a sweep that is not finished: run its command again, "
+        raise runs.InvalidInputError(
+            f"{folder} holds a sweep that is not finished: run its command again, "
             "or merge its shards with --merge"
         )
     if reason := runs.why_no_run(folder):
-        raise InvalidInputError(f"uictest: {reason}; report takes the folder of a finished run or sweep")
+        raise runs.InvalidInputError(f"{reason}; report takes the folder of a finished run or sweep")
     with _read_as("run", folder, OSError, ValueError):
-        content = reports.read_run(folder, traces=reports.draws_stops(names))
+        content = reports.read_run(folder)
+        chosen = _drawn_first(content, draw)
+        if reports.draws_stops(names):
+            content = reports.with_recorded_traces(content, folder, chosen)
     place.mkdir(parents=True, exist_ok=True)
     return reports.write_formats(place, content, names)
+
+
+def _drawn_first(content: reports.RunContent, expression: str | None) -> frozenset[str]:
+    """Return the ids of the cases that `--draw` chooses. Raises typer.BadParameter if it chooses none."""
+    if expression is None:
+        return frozenset()
+    with malformed("--draw", expression):
+        chosen = runs.result_ids(content, expression)
+    if not chosen:
+        raise typer.BadParameter(f"no case of the run matches {expression!r}", param_hint="--draw")
+    return chosen
 
 
 def _write_sweep(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
@@ -75,4 +94,4 @@ def _read_as(kind: str, folder: Path, *errors: type[Exception]) -> Iterator[None
     try:
         yield
     except errors as error:
-        raise InvalidInputError(f"uictest: {folder} cannot be read as a {kind}: {error}") from error
+        raise runs.InvalidInputError(f"{folder} cannot be read as a {kind}: {error}") from error

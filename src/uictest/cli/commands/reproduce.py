@@ -10,8 +10,8 @@ from typing import Annotated
 
 import typer
 
-from uictest import controllers, report, rig, studies
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest import controllers, report, rig, runs, studies
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Colour, Colouring, Jobs, ListFormat, PlainFormat, Verbosity
 from uictest.cli.output import coloured, data, interactive, message
 from uictest.cli.progress import announce_compilation
@@ -21,13 +21,14 @@ _INSTALL_FIGURES = "pip install 'uictest[figures]'"
 
 
 def reproduce(
+    context: typer.Context,
     names: Annotated[
         list[str] | None,
         typer.Argument(metavar="[STUDY]...", help="Names of studies [default: all].", show_default=False),
     ] = None,
     listed: Annotated[bool, typer.Option("--list", help="List the studies and run none.")] = False,
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for data and figures.")
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for pages, data and figures.")
     ] = Path("reports", "studies"),
     shown: ListFormat = PlainFormat.TEXT,
     jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
@@ -37,7 +38,7 @@ def reproduce(
     verbosity: Verbosity = 0,
     colour: Colouring = Colour.AUTO,
 ) -> ExitCode:
-    """Run the studies of the paper and print its values next to ours.
+    """Run the studies of the paper and print its values next to ours. Writes a page for each.
 
     Exit 1 if a value lies outside its band.
     """
@@ -46,6 +47,7 @@ def reproduce(
         _list(selected, shown)
         return ExitCode.MET
     results = _run(selected, jobs, output, quiet=quiet)
+    _write_pages(results, output, context.obj.arguments)
     if shown is PlainFormat.JSON:
         data(studies.document(results))
     else:
@@ -66,7 +68,7 @@ def _selected(names: Sequence[str]) -> list[studies.Study]:
     for name in names:
         if name not in studies.STUDIES:
             hint = yaml.suggestion(name, studies.STUDIES)
-            raise InvalidInputError(f"uictest: no study {name!r}; {hint}")
+            raise runs.InvalidInputError(f"no study {name!r}; {hint}")
     return [study for name, study in studies.STUDIES.items() if not names or name in names]
 
 
@@ -93,16 +95,23 @@ def _run(
         results.append(studies.run_study(study, stop_runner))
         studies.write_tables(output, results[-1])
     studies.write_comparison(output, results)
-    _draw(results, output)
     return results
 
 
-def _draw(results: Sequence[studies.StudyResult], output: Path) -> None:
+def _write_pages(results: Sequence[studies.StudyResult], output: Path, arguments: Sequence[str]) -> None:
+    """Draw the figures and write the pages that hold them."""
+    drawn, known = _draw(results, output), list(studies.STUDIES.values())
+    for problem in studies.write_pages(output, results, known, arguments, drawn):
+        message(f"uictest: {problem}")
+
+
+def _draw(results: Sequence[studies.StudyResult], output: Path) -> list[Path]:
+    """Draw the figures, and return their files; without matplotlib there are none."""
     try:
-        for result in results:
-            studies.write_figures(output, result)
+        return [path for result in results for path in studies.write_figures(output, result)]
     except ImportError as error:
         message(f"uictest: no figures: {error.name or 'matplotlib'} is not installed ({_INSTALL_FIGURES})")
+        return []
 
 
 def _show(results: Sequence[studies.StudyResult], colour: Colour, *, quiet: bool) -> None:

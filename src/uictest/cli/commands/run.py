@@ -14,11 +14,12 @@ from uictest.cli import options, running
 from uictest.cli.cases import (
     case_lines,
     cases_json,
+    drawn_first,
     select_by_options,
 )
 from uictest.cli.exit_codes import ExitCode, of_run, worst
 from uictest.cli.output import data, message
-from uictest.cli.recorded_validation import read_reference
+from uictest.cli.pruning import keep_newest, named_paths
 from uictest.cli.series import (
     joined_json,
     select_series_by_options,
@@ -50,14 +51,6 @@ Repeat = Annotated[
         help="Run the stop of every case N times, under its seed and those that follow it.",
     ),
 ]
-Validated = Annotated[
-    Path | None,
-    typer.Option(
-        "--validated",
-        metavar="FILE",
-        help="Flag the cases outside of what was validated: validation.json of 'uictest validate'.",
-    ),
-]
 Durations = Annotated[
     int | None, typer.Option("--durations", metavar="N", min=0, help="List the N slowest cases; 0 lists all.")
 ]
@@ -78,15 +71,17 @@ def run(
     jobs: options.Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     dry_run: options.DryRun = False,
     output: options.Output = Path("reports"),
+    keep: options.KeptRuns = None,
     junit: options.JUnitFile = None,
     recorded: options.RecordingChoice = options.Recorded.FAILED,
     record_rate: options.RecordRate = 100.0,
     shown: options.RunFormat = options.Format.TEXT,
     formats: options.Reports = "csv,html",
+    draw: options.Draw = None,
     baseline: BaselineFolder = None,
     accept: Accept = False,
     tolerance: options.ToleranceTexts = None,
-    validated: Validated = None,
+    validated: options.Validated = None,
     durations: Durations = None,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
@@ -95,6 +90,7 @@ def run(
     colour: options.Colouring = options.Colour.AUTO,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
+    named = named_paths(baseline, validated, junit, *(paths or ()))
     names = options.report_formats(formats, "--report", report.format_names())
     choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
@@ -112,17 +108,18 @@ def run(
         _show_selection(selected, of_series, shown)
         return ExitCode.MET
     searched = () if expression or tag or last_failed else runs.scenario_paths(paths)
-    accepted = running.open_baseline(choice, running.scope_of(selected, searched))
-    reference = None if validated is None else read_reference(validated)
+    accepted = running.open_baseline(choice, running.scope_of(selected, of_series, searched))
+    reference = None if validated is None else runs.read_reference(validated)
     batch = runs.batch_of(selected, of_series, context.obj.arguments, seed)
     batch = replace(
-        batch if reference is None else runs.validated_by(batch, reference),
+        runs.with_domains(batch, reference),
         recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
         jobs=min(jobs, batch.stops),
         maxfail=1 if exit_first else maxfail,
         in_process=in_process,
         real_time=real_time,
         baseline=None if accept else accepted,
+        drawn_first=drawn_first(batch.all_cases, draw),
     )
     display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     published = running.publish_and_show(
@@ -133,10 +130,11 @@ def run(
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
-    return worst(
+    code = worst(
         of_run(published),
         running.accept_or_compare(choice, accepted, published, quiet=quiet),
     )
+    return keep_newest(code, keep, published.place, "run", named)
 
 
 def _selected(

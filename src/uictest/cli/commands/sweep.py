@@ -24,6 +24,7 @@ from uictest.cli.options import (
     Quiet,
     Seed,
     Trusted,
+    Validated,
     Verbosity,
     junit_file,
     report_formats,
@@ -125,6 +126,7 @@ def sweep(
     frontier: Frontier = None,
     tolerance: Tolerance = None,
     pair: MapPair = None,
+    validated: Validated = None,
     measures: Measures = None,
     output: SweepOutput = Path("reports"),
     junit: JUnitFile = None,
@@ -160,6 +162,7 @@ def sweep(
         pair=sweeping.map_pair(plan, pair),
         measures=sweeping.measure_names(measures),
         search=sweeping.frontier_search(plan, frontier, tolerance),
+        reference=runs.reference_of(validated, plan.base.scenario.validated),
         formats=format_names,
         in_process=in_process,
     )

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from datetime import UTC, datetime
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from uictest import recording, report, validation
+from uictest import rig, runs, scenario, validation
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode, worst
 from uictest.cli.output import data, message, terminal_width
-from uictest.cli.recorded_validation import load_plans, validate_plan
+from uictest.cli.progress import announce_compilation, progress
 
 Files = Annotated[
     list[Path],
@@ -45,38 +45,42 @@ def validate(
     Writes validation.json, which `uictest run --validated` reads, figures.csv, stops.csv and validation.md.
     Exit code 1: a recorded stop cannot be counted; 3: a simulation failed.
     """
-    if shown is options.PlainFormat.JSON and len(files) > 1:
-        raise typer.BadParameter("prints the document of one file; name one", param_hint="--format json")
+    plans = runs.load_validations(files, overrides, trusted)
+    if shown is options.PlainFormat.JSON and len(plans) > 1:
+        raise typer.BadParameter(
+            f"prints the document of one validation, found {', '.join(plan.name for plan in plans)}",
+            param_hint="--format json",
+        )
     codes = [ExitCode.MET]
-    for plan in load_plans(files, overrides, trusted):
-        validated, complete = validate_plan(plan, jobs, trusted)
-        place = _publish(validated, context.obj.arguments, output)
-        if shown is options.PlainFormat.JSON:
-            data(validation.validation_json(validated).rstrip("\n"))
-        else:
-            width = terminal_width(sys.stdout)
-            data("\n".join(validation.validation_lines(validated, width, every_figure=verbosity > 0)))
-        counted = f"{len(validated.counted)} of {report.counted(len(validated.stops), 'recorded stop')}"
-        message(f"uictest: {plan.name}: {counted} counted; validation in {place}")
-        codes.append(_code(validated, complete=complete))
+    for plan in plans:
+        run = runs.run_validation(plan, jobs, trusted, _TerminalObserver())
+        place = runs.publish_validation(run.validation, context.obj.arguments, output)
+        _show(run.validation, shown, every_figure=verbosity > 0)
+        message(f"uictest: {plan.name}: {validation.tally(run.validation)}; validation in {place}")
+        codes.append(_code(run))
     return worst(*codes)
 
 
-def _code(validated: validation.Validation, *, complete: bool) -> ExitCode:
-    if not complete:
+class _TerminalObserver(runs.Observer):
+    """Shows on stderr how far the simulations are."""
+
+    @contextmanager
+    def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
+        announce_compilation(warm=rig.is_compiled(cases))
+        stops = sum(case.scenario.repeat for case in cases)
+        with progress(stops, quiet=False, unit="stops") as advance:
+            yield advance
+
+
+def _show(validated: validation.Validation, shown: options.PlainFormat, *, every_figure: bool) -> None:
+    if shown is options.PlainFormat.JSON:
+        data(validation.validation_json(validated).rstrip("\n"))
+        return
+    width = terminal_width(sys.stdout)
+    data("\n".join(validation.validation_lines(validated, width, every_figure=every_figure)))
+
+
+def _code(run: runs.ValidationRun) -> ExitCode:
+    if not run.complete:
         return ExitCode.ERROR
-    return ExitCode.MISSED if any(stop.not_counted for stop in validated.stops) else ExitCode.MET
-
-
-def _publish(validated: validation.Validation, arguments: Sequence[str], output: Path) -> Path:
-    """Write the files of a validation, and return their folder. Raises OSError."""
-    manifest = report.run_manifest(arguments, None, validated.inputs, len(validated.stops))
-    with report.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:
-        for name, text in (
-            ("validation.json", validation.validation_json(validated)),
-            ("figures.csv", validation.figures_csv(validated)),
-            ("stops.csv", validation.stops_csv(validated)),
-            ("validation.md", validation.markdown(validated)),
-        ):
-            recording.write_text_atomic(folder.path / name, text)
-        return folder.publish()
+    return ExitCode.MISSED if run.validation.not_usable else ExitCode.MET

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import typer
 
-from uictest import comparison, evaluation, recording, report, runs, scenario
-from uictest.cli.exit_codes import ExitCode, InvalidInputError
+from uictest import comparison, evaluation, recording, report, runs, scenario, series
+from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import message
 from uictest.scenario import yaml
 
@@ -31,10 +31,13 @@ class BaselineChoice:
         return cls(folder, tolerances, accepting)
 
 
-def scope_of(selected: Sequence[scenario.Case], searched: Sequence[Path]) -> comparison.Scope:
-    """Return the cases that a run selects; `searched` are paths of which it takes every case."""
+def scope_of(
+    selected: Sequence[scenario.Case], planned: Sequence[series.Series], searched: Sequence[Path]
+) -> comparison.Scope:
+    """Return what a run selects; `searched` are paths of which it takes every case and series."""
     return comparison.Scope(
-        frozenset(case.id for case in selected), [yaml.display_name(path) for path in searched]
+        frozenset([*(case.id for case in selected), *(each.id for each in planned)]),
+        [yaml.display_name(path) for path in searched],
     )
 
 
@@ -55,9 +58,9 @@ def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison
         return comparison.read_baseline(folder, scope, choice.tolerances)
     except OSError as error:
         reason = f"{error.filename}: {error.strerror}"
-        raise InvalidInputError(f"uictest: {folder} is no baseline: {reason}; {advice}") from error
+        raise runs.InvalidInputError(f"{folder} is no baseline: {reason}; {advice}") from error
     except ValueError as error:
-        raise InvalidInputError(f"uictest: {folder} is no baseline: {error}; {advice}") from error
+        raise runs.InvalidInputError(f"{folder} is no baseline: {error}; {advice}") from error
 
 
 def accept_or_compare(

@@ -37,6 +37,7 @@ def publish_and_show(
     _append_step_summary(content)
     write_junit(junit, content)
     display.end(content, published.document)
+    show_index_problem(published.index_problem)
     if not quiet:
         _sum_up(batch, published, perf_counter() - started)
     return published
@@ -48,6 +49,12 @@ def _append_step_summary(content: report.RunContent) -> None:
         report.append_step_summary(content)
     except OSError as error:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
+
+
+def show_index_problem(problem: str) -> None:
+    """Show why the index of all runs was not written; nothing if it was."""
+    if problem:
+        message(f"uictest: {problem}")
 
 
 def write_junit(path: Path | None, content: report.RunContent) -> None:

@@ -6,8 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, report, scenario, series
-from uictest.cli.exit_codes import InvalidInputError
+from uictest import campaign, report, runs, scenario, series
 from uictest.cli.output import message
 
 
@@ -61,6 +60,6 @@ def _not_met(run: Path) -> frozenset[str]:
     try:
         content = report.run_content(json.loads(path.read_text(encoding="utf-8")), run.name)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InvalidInputError(f"uictest: {path} cannot be read as the results of a run: {error}") from error
+        raise runs.InvalidInputError(f"{path} cannot be read as the results of a run: {error}") from error
     missed = [result.id for result in content.results if not result.met]
     return frozenset([*missed, *(result.id for result in content.series if not result.met)])

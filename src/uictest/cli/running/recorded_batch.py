@@ -7,7 +7,7 @@ from pathlib import Path
 
 from uictest import campaign, runs
 from uictest.cli.output import message
-from uictest.cli.running.batch import write_junit
+from uictest.cli.running.batch import show_index_problem, write_junit
 from uictest.cli.running.display import Display
 
 _FORMATS = ("html",)
@@ -30,6 +30,7 @@ def judge_and_show(
     for each in content.series:
         display.series(each)
     display.end(content, published.document)
+    show_index_problem(published.index_problem)
     return published
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from time import perf_counter
 
-from uictest import recording, report, runs, sweeps
+from uictest import history, recording, report, runs, sweeps
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Format
 from uictest.cli.output import message
@@ -39,6 +39,8 @@ def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
     if finished is None:
         message(f"uictest: {_shard_words(run)}")
         return ExitCode.MET
+    if problem := history.refresh_index(run.folder.parent):
+        message(f"uictest: {problem}")
     _append_step_summary(finished.content)
     if junit is not None:
         text = report.sweep_junit_xml(finished.result, run.selection.plan.file)

@@ -16,12 +16,15 @@ Variant = tuple[tuple[str, str], ...]
 def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedComparison]:
     """Return the differences of every variant of a run from the first one, as the keys tell them apart.
 
-    Cases and series without any of the keys are left out. Raises ValueError where there are no two variants.
+    Cases and series without any of the keys are left out. Raises ValueError where there are no two variants,
+    for a key that none of them has and for one that is given twice.
     """
     parameters: list[Mapping[str, str]] = [case.parameters for case in run.results]
     parameters += [series.parameters for series in run.series]
     known = list(dict.fromkeys(key for of_item in parameters for key in of_item))
     for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"{key!r} is given {keys.count(key)} times; give every key once")
         if key not in known:
             guess = nearest(key, known)
             hint = f"did you mean {guess!r}? " if guess else ""

@@ -9,7 +9,17 @@ from typing import Final
 from uictest import evaluation
 from uictest.comparison.paired.difference import CONFIDENCE, PairedDifference, PairedGroup
 from uictest.comparison.paired.pairing import PairedComparison
-from uictest.report import TableColumn, aligned, columns_not_shown, counted, fitted, number, printable
+from uictest.report import (
+    TableColumn,
+    aligned,
+    columns_not_shown,
+    counted,
+    fitted,
+    number,
+    percent_text,
+    printable,
+    relative_percent,
+)
 from uictest.series_measures import Estimate
 
 METHOD: Final = (
@@ -30,10 +40,10 @@ def paired_lines(compared: PairedComparison, width: int | None = None) -> Iterat
 
     The tables are at most `width` characters wide, None for any width.
     """
-    differing = [group for group in compared.groups if not all(each.is_zero for each in group.differences)]
-    if differing:
+    groups = [group for group in compared.groups if differing(group)]
+    if groups:
         yield f"paired: {METHOD}"
-    for group in differing:
+    for group in groups:
         yield f"paired: {printable(group_text(group))}"
         yield from _table(group, width)
         if same := same_text(group):
@@ -69,9 +79,9 @@ def same_text(group: PairedGroup) -> str:
     return f"the same in every pair: {', '.join(same)}" if same else ""
 
 
-def differing_rows(group: PairedGroup) -> list[tuple[str, ...]]:
-    """Return the cells under `HEADINGS` of every quantity that differs in some pair."""
-    return [_cells(each) for each in group.differences if not each.is_zero]
+def differing(group: PairedGroup) -> list[PairedDifference]:
+    """Return the quantities that differ in some pair."""
+    return [each for each in group.differences if not each.is_zero]
 
 
 def interval_text(estimate: Estimate) -> str:
@@ -80,15 +90,21 @@ def interval_text(estimate: Estimate) -> str:
     return "-" if any(map(math.isnan, ends)) else " .. ".join(map(number, ends))
 
 
-def _cells(each: PairedDifference) -> tuple[str, ...]:
+def paired_cells(each: PairedDifference) -> tuple[str, ...]:
+    """Return the cells of a quantity under `HEADINGS`."""
     numbers = number(each.first), number(each.second), number(each.mean.value), interval_text(each.mean)
     larger = f"{each.larger} of {each.pairs}" + (f" ({each.missing} without)" if each.missing else "")
     medians = number(each.median.value), interval_text(each.median)
     return (each.quantity, *numbers, *medians, larger, each.unit)
 
 
+def paired_percent(each: PairedDifference) -> str:
+    """Return the mean difference in per cent of the median of the first side; `-` where that is 0."""
+    return percent_text(relative_percent(each.first, each.first + each.mean.value, each.unit))
+
+
 def _table(group: PairedGroup, width: int | None) -> Iterator[str]:
-    cells = zip(*differing_rows(group), strict=True)
+    cells = zip(*map(paired_cells, differing(group)), strict=True)
     columns = [
         TableColumn(heading, list(map(printable, texts)), rank)
         for heading, texts, rank in zip(HEADINGS, cells, _RANKS, strict=True)

@@ -1,6 +1,6 @@
 """Controllers in the built-in form, compiled to a function that the rig calls by address."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
 from typing import Any, Final, NamedTuple
@@ -18,8 +18,6 @@ from uictest.record import layout_of
 
 _OPTIONS: Final = {"error_model": "numpy", "nogil": True}
 """As the rig is compiled: the same source gives the same bits."""
-_WITHOUT_ENTRIES: Final = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""Only compiled code calls the functions inside; their entries from Python and C would double the time."""
 
 
 class CompiledInstance:
@@ -87,7 +85,6 @@ def _memory_of(controller: Controller) -> Any:
 def _compiled(controller: Controller) -> _Functions:
     """Compile a controller, which takes some seconds, once per process."""
     numba: Any = import_module("numba")
-    njit = numba.njit(**_OPTIONS, **_WITHOUT_ENTRIES)
     memory = _memory_of(controller)
     train_place, parameters_place, speed_place = (
         memory.fields[name][1] for name in ("train", "parameters", "initial_speed")
@@ -98,7 +95,7 @@ def _compiled(controller: Controller) -> _Functions:
     parameters_at = lanes.record_at(memory["parameters"])
     number_at = lanes.record_at(np.dtype([("value", "f8")]))
     inputs_at, outputs_at = lanes.record_at(INPUTS), lanes.record_at(OUTPUTS)
-    begin, decide = _translated(controller, njit)
+    begin, decide = _translated(controller)
 
     def four_wheelsets(handle: int) -> Any:
         return (
@@ -108,7 +105,7 @@ def _compiled(controller: Controller) -> _Functions:
             wheelset_at(handle + 3 * size),
         )
 
-    wheelsets_at = njit(four_wheelsets)
+    wheelsets_at = _compile_inner(four_wheelsets)
 
     def begin_at(handle: int) -> int:
         begin(train_at(handle + train_place), wheelsets_at(handle), number_at(handle + speed_place).value)
@@ -135,10 +132,14 @@ def _compiled(controller: Controller) -> _Functions:
     )
 
 
-def _translated(controller: Controller, njit: Any) -> tuple[Any, Any]:
+def _compile_inner(function: Callable[..., Any]) -> Any:
+    return lanes.compile_inner(function, **_OPTIONS)
+
+
+def _translated(controller: Controller) -> tuple[Any, Any]:
     """Return the two functions of a controller compiled, with what they call of their package and of ours."""
     functions = controller.begin, controller.decide
     packages = {"uictest", *(function.__module__.partition(".")[0] for function in functions)}
     done: dict[Any, Any] = {fma: lanes.fma} if lanes.fuses() else {}
-    begin, decide = (lanes.translate(function, njit, done, packages) for function in functions)
+    begin, decide = (lanes.translate(function, _compile_inner, done, packages) for function in functions)
     return begin, decide

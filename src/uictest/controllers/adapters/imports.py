@@ -25,8 +25,10 @@ def check_imports(file: Path) -> None:
 
 def _imported_from(folders: set[Path]) -> Iterator[Path]:
     """Yield the modules and packages that lie in some folders."""
-    for name, module in tuple(sys.modules.items()):
-        file = getattr(module, "__file__", None)
+    # Other threads import meanwhile: a copy is made at once, while a walk over the items can be interrupted
+    # by the garbage collector. Looking an attribute up would let lazy modules import.
+    for name, module in sys.modules.copy().items():
+        file = getattr(module, "__dict__", {}).get("__file__")
         if file and "." not in name:
             path = Path(file).parent if Path(file).stem == "__init__" else Path(file)
             if path.parent in folders:

@@ -36,9 +36,10 @@ def junit_xml(
 ) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
 
-    A case that differs from the baseline is a failure, as is a case of the baseline that is missing. Cases
-    with a controller from outside have a suite of their own for each such program, whose properties say
-    which it is. A series is a suite of its own, with one testcase per criterion.
+    A case that differs from the baseline is a failure; a case of the baseline that is missing and a series
+    that differs have a failed testcase of their own beside the cases. Cases with a controller from outside
+    have a suite of their own for each such program, whose properties say which it is. A series is a suite of
+    its own, with one testcase per criterion.
 
     It keeps to the schema that Jenkins' xUnit plugin checks against: a testcase has neither `file` nor
     properties there. With `test_properties` a testcase has properties nevertheless: those by which Polarion
@@ -48,7 +49,7 @@ def junit_xml(
     differences = baseline.differences if baseline else {}
     missing = [
         _missing_testcase(case_id, scenario, differences[case_id])
-        for case_id, scenario in (baseline.missing if baseline else {}).items()
+        for case_id, scenario in (baseline.beside_cases if baseline else {}).items()
     ]
     own: dict[evaluation.Program | None, list[evaluation.CaseResult]] = {None: []} if missing else {}
     for result in results:

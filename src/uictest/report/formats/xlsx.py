@@ -21,7 +21,15 @@ from uictest.report.repeat_wording import criterion_share_cells, range_cells, sh
 from uictest.report.requirement_matrix import REQUIREMENTS_SHEET, requirement_matrix, verdict_columns
 from uictest.report.requirements import verified_requirements
 from uictest.report.series.tables import series_sheets
-from uictest.report.sheet import VERDICT_COLUMNS, Row, open_workbook, styles_of, write_sheet
+from uictest.report.sheet import (
+    VERDICT_COLUMNS,
+    Row,
+    RowsMadeAnew,
+    columns_of,
+    open_workbook,
+    styles_of,
+    write_table,
+)
 from uictest.report.wording import definition_sentence, result_word
 
 
@@ -29,23 +37,25 @@ def workbook_bytes(content: RunContent) -> bytes:
     """Return the workbook of a run. Missing numbers are empty cells."""
     buffer = io.BytesIO()
     sheets = _sheets(content)
-    with open_workbook(buffer) as workbook:
+    with open_workbook(buffer, streaming=True) as workbook:
         styles = styles_of(workbook)
         cover = workbook.add_worksheet(COVER)
         write_cover(cover, content, list(sheets), styles)
+        columns = {name: columns_of(rows) for name, rows in sheets.items()}
         for name, rows in sheets.items():
             verdicts = verdict_columns(rows) if name == REQUIREMENTS_SHEET else VERDICT_COLUMNS
-            write_sheet(workbook.add_worksheet(name), rows, styles, verdicts)
-        insert_charts(workbook, cover, sheets["Cases"])
+            write_table(workbook.add_worksheet(name), columns[name], rows, styles, verdicts=verdicts)
+        insert_charts(workbook, cover, columns["Cases"], sheets["Cases"])
     return buffer.getvalue()
 
 
-def _sheets(content: RunContent) -> dict[str, list[Row]]:
+def _sheets(content: RunContent) -> Mapping[str, Iterable[Row]]:
+    """Return the rows of each sheet by its name; those that grow with the cases are made when read."""
     return {
         **series_sheets(content.series),
-        "Cases": list(_cases(content)),
-        "Wheelsets": list(_wheelsets(content)),
-        "Criteria": list(_criteria(content)),
+        "Cases": RowsMadeAnew(lambda: _cases(content)),
+        "Wheelsets": RowsMadeAnew(lambda: _wheelsets(content)),
+        "Criteria": RowsMadeAnew(lambda: _criteria(content)),
         **_repeats(content),
         **_requirements(content),
         **_baseline_sheet(content),
@@ -97,18 +107,23 @@ def _criteria(content: RunContent) -> Iterator[Row]:
             yield row | {"definition": definition_sentence(verdict), "sensitivity": firm}
 
 
-def _repeats(content: RunContent) -> dict[str, list[Row]]:
+def _repeats(content: RunContent) -> dict[str, Iterable[Row]]:
     """Return the stops of repeated cases; no sheet where there are none."""
-    rows = [{"case": row.pop("id"), **row} for row in stop_rows(content.results)]
-    return {"Repeats": rows} if rows else {}
+    if next(iter(stop_rows(content.results)), None) is None:
+        return {}
+    return {"Repeats": RowsMadeAnew(lambda: map(_stop_row, stop_rows(content.results)))}
 
 
-def _requirements(content: RunContent) -> dict[str, list[Row]]:
+def _stop_row(row: Row) -> Row:
+    return {"case": row["id"], **{name: cell for name, cell in row.items() if name != "id"}}
+
+
+def _requirements(content: RunContent) -> dict[str, Iterable[Row]]:
     requirements = verified_requirements(content.results, content.series)
     return {REQUIREMENTS_SHEET: requirement_matrix(requirements)} if requirements else {}
 
 
-def _baseline_sheet(content: RunContent) -> dict[str, list[Row]]:
+def _baseline_sheet(content: RunContent) -> dict[str, Iterable[Row]]:
     if content.baseline is None:
         return {}
     return {"Baseline": [_difference_row(each) for each in content.baseline.all_differences]}
@@ -127,13 +142,13 @@ def _difference_row(difference: Difference) -> Row:
     }
 
 
-def _parts(content: RunContent) -> dict[str, list[Row]]:
+def _parts(content: RunContent) -> dict[str, Iterable[Row]]:
     """Return the parts of each case, and the parameters of these; no sheet where none is known."""
     known = [result for result in content.all_results if result.parts]
     if not known:
         return {}
     return {
-        "Parts": [{"case": each.id, **_part_ids(each)} for each in known],
+        "Parts": RowsMadeAnew(lambda: ({"case": each.id, **_part_ids(each)} for each in known)),
         "Parameters": list(parameter_rows(each.parts for each in known)),
     }
 

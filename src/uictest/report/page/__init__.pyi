@@ -1,4 +1,7 @@
-from .page import DRAWN as DRAWN, page_html as page_html, worst_first as worst_first
+from .anchors import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
+from .page import page_html as page_html
 from .rendering import render as render
-from .stop.overlay_view import overlay_view as overlay_view
+from .stop.mark import Mark as Mark
+from .stop.overlay_view import OverlayView as OverlayView, overlay_view as overlay_view
+from .stop.packing import STEPS as STEPS
 from .sweep.page import sweep_page_html as sweep_page_html

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import shlex
+from collections.abc import Sequence
 from itertools import islice
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import side_text
+from uictest.report.drawn_cases import DRAWN, MOST_DRAWN, drawn_cases, worst_first
+from uictest.report.page.anchors import case_anchor
 from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
 from uictest.report.page.matrix import maps_of
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
@@ -20,22 +23,21 @@ from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.wording import CASE_WORDS, counted, counted_in, failing_first, number, tone
 
-DRAWN = 18
-"""Cases drawn on one page. Each takes up to 270 kB, and a page must still open from a mail attachment."""
-
 
 def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
     keys = {view.result.id: view.fragment for view in drawn}
-    series = [series_view(f"series-{n}", each) for n, each in enumerate(content.series, start=1)]
+    series = list(map(series_view, content.series))
     return render(
         "run.html.j2",
         content=content,
+        command=shlex.join(content.manifest.command),
         drawn=drawn,
         keys=keys,
+        case_anchor=case_anchor,
         series=series,
-        series_keys={view.result.id: view.key for view in series},
+        series_keys={view.result.id: view.fragment for view in series},
         **SERIES_WORDS,
         maps=maps_of(content.results),
         requirements=verified_requirements(content.results, content.series),
@@ -69,7 +71,7 @@ def page_html(content: RunContent) -> str:
 
 def _drawn(content: RunContent) -> list[CaseView]:
     traced = [result for result in content.all_results if result.id in content.traces]
-    shown = {result.id for result in worst_first(traced)[:DRAWN]}
+    shown = {result.id for result in drawn_cases(traced, content.drawn_first)}
     commands = rerun_commands(content)
     return [
         case_view(
@@ -115,23 +117,19 @@ def _baseline_lines(baseline: BaselineComparison | None) -> list[str]:
 
 
 def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:
-    """Return which cases have no plots and why; empty where all have."""
-    missing = len(content.all_results) - len(drawn)
+    """Return how many cases have plots, which, and how others get some; empty where all have."""
+    of, missing = len(content.all_results), len(content.all_results) - len(drawn)
     if not missing:
         return ""
-    if len(drawn) == DRAWN:
-        return (
-            f"{counted(missing, 'case')} not drawn: a page draws {DRAWN}, those not as expected first, then "
-            "those with the narrowest margins. Every criterion of every case is in criteria.csv."
-        )
-    return f"{counted(missing, 'case')} not drawn: there is no recording of it here, or the stop failed."
-
-
-def worst_first(results: Iterable[evaluation.CaseResult]) -> list[evaluation.CaseResult]:
-    """Return the results with those not as expected first, then those with the narrowest margins."""
-    return sorted(results, key=_rank)
-
-
-def _rank(result: evaluation.CaseResult) -> tuple[bool, bool, float]:
-    margin, _ = evaluation.narrowest_margin(result)
-    return result.met, result.outcome == "pass", 1.0 if margin is None else margin
+    shown = {view.result.id for view in drawn}
+    lost = sum(case_id not in shown for case_id in content.drawn_first)
+    if len(drawn) < DRAWN:
+        return f"{counted(missing, 'case')} not drawn: there is no recording of it here, or the stop failed."
+    without = f" (not {lost} of them)" if lost else ""
+    chosen = f"those chosen with --draw{without}, then " if content.drawn_first else ""
+    return (
+        f"{len(drawn)} of {of} cases are drawn: {chosen}those not as expected, then those with the narrowest "
+        "margins, from every scenario in turn. To have others drawn, and compared, give uictest run the "
+        f"option --draw EXPR with an expression as for -k (at most {MOST_DRAWN} cases); uictest report takes "
+        "it, too, for cases with a recording. Every criterion of every case is in criteria.csv."
+    )

@@ -31,12 +31,29 @@ _SCRIPTS = (
     "moments",
     "stops",
     "comparison",
+    "laid_over",
     "copying",
+    "history",
+    "heat",
+    "scatter",
     "anchors",
 )
 """Parts of the script of a page, in the order in which they run; they share one scope."""
 
-_STYLES = ("base", "tables", "sweep", "stops", "drawings", "narrow", "print")
+_STYLES = (
+    "base",
+    "tables",
+    "verdicts",
+    "sweep",
+    "sweep_plots",
+    "stops",
+    "drawings",
+    "laid_over",
+    "history",
+    "studies",
+    "narrow",
+    "print",
+)
 """Parts of the style sheet; those for narrow windows and for paper change what stands before them."""
 
 

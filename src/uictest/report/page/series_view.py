@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from uictest import evaluation
+from uictest.report.page.anchors import fragment, series_anchor
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.series.comparison import comparison_columns, comparison_rows, value_with_interval
 from uictest.report.series.wording import (
@@ -80,19 +81,26 @@ class DotPlot:
 class SeriesView:
     """A series with its word, its plots, and the names and units of its measures."""
 
-    key: str
+    anchor: str
     result: SeriesResult
     word: str
     plots: Sequence[DotPlot]
     units: dict[str, str]
 
+    @property
+    def fragment(self) -> str:
+        """What stands behind the `#` of a link to it."""
+        return fragment(self.anchor)
 
-def series_view(key: str, result: SeriesResult) -> SeriesView:
-    """Return the view of a series; `key` is its anchor."""
+
+def series_view(result: SeriesResult) -> SeriesView:
+    """Return the view of a series."""
     stops = observed_stops(result.cases, result.speed_tolerance_kmh)
     plots = [_plot(result, speed.speed_kmh, stops) for speed in result.speeds]
     units = {name: SERIES_MEASURES[name].unit for name in result.measures if name in SERIES_MEASURES}
-    return SeriesView(key, result, series_word(result), [plot for plot in plots if plot], units)
+    return SeriesView(
+        series_anchor(result.id), result, series_word(result), [plot for plot in plots if plot], units
+    )
 
 
 def _plot(result: SeriesResult, speed_kmh: float, stops: Sequence[SeriesStop]) -> DotPlot | None:

@@ -6,11 +6,13 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
+from uictest.report.recording_path import require_names
 from uictest.report.run_contents import read_traces
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.result import read_sweep_document
 
 SWEEP_RESULTS: Final = "sweep.json"
+SWEEP_MANIFEST_SCHEMA: Final = "uictest/sweep-manifest/1"
 _MANIFEST: Final = "manifest.json"
 
 
@@ -25,6 +27,7 @@ def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
     path = folder / SWEEP_RESULTS
     try:
         result = read_sweep_document(_read_mapping(path))
+        require_names(case.id for case in result.worst)
     except ValueError as error:
         raise ValueError(f"{path}: not the result of a sweep: {error}") from error
     drawn = read_traces(folder, result.worst) if traces else {}

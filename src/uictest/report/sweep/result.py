@@ -11,6 +11,7 @@ from pydantic import ConfigDict, Field, TypeAdapter
 from uictest import evaluation
 from uictest.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
+from uictest.report.sweep.domain import SweepDomain
 from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 
@@ -184,6 +185,7 @@ class SweepResult:
         trends: measures along parameters.
         base: the parts of the case that is varied, by role; empty where an earlier version wrote the result.
         varied: keys of the parameters.
+        logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
         worst: the cases most worth looking at, those not met first.
@@ -192,6 +194,7 @@ class SweepResult:
         frontier: where the verdict flips, None where it was not searched.
         quantiles: of measures, with bounds, where the sweep requests them.
         k_dry: where the sweep requests it, a table for each combination of listed values.
+        domain_of_validity: how many cases lie outside of what was validated; None where nobody asked.
         notes: sentences that every report shows.
 
     """
@@ -210,6 +213,7 @@ class SweepResult:
     trends: tuple[Trend, ...]
     base: NamedParts = field(default_factory=dict)
     varied: tuple[str, ...] = ()
+    logarithmic: tuple[str, ...] = ()
     requirements: tuple[str, ...] = ()
     test_case: str = ""
     worst: tuple[WrittenCaseResult, ...]
@@ -218,6 +222,7 @@ class SweepResult:
     frontier: Frontier | None
     quantiles: tuple[MeasureQuantiles, ...] = ()
     k_dry: tuple[KDry, ...] = ()
+    domain_of_validity: SweepDomain | None = None
     notes: tuple[str, ...]
 
     def subject(self, case_id: str) -> CaseDescription:

@@ -40,7 +40,10 @@ def swept_words(values: Sequence[SweptValue]) -> str:
         return f"{range_label(values)}, drawn"
     if len(values) <= _MOST_LISTED:
         return ", ".join(value.label for value in values)
-    return range_label(values)
+    if len({value.unit for value in values}) == 1 and all(value.number is not None for value in values):
+        return range_label(sorted(values, key=lambda value: value.number or 0.0))
+    # Texts, and numbers of several units, have no ends.
+    return f"{', '.join(value.label for value in values[:_MOST_LISTED])}, … ({len(values)} values)"
 
 
 def share_words(met: int, cases: int) -> str:

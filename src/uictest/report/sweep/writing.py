@@ -13,7 +13,7 @@ from uictest.report.sweep.reading import SWEEP_RESULTS
 from uictest.report.sweep.result import SweepResult, sweep_document
 from uictest.report.sweep.tables import csv_tables
 
-_OF_ONE_RESULT: Final = (
+OF_ONE_RESULT: Final = (
     *("map-*.csv", "sensitivity.csv", "frontier.csv", "quantiles.csv", "k_dry.csv", K_DRY_FILE),
     *(WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md"),
 )
@@ -33,7 +33,7 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     if result.k_dry:
         texts[K_DRY_FILE] = k_dry_yaml(result)
     if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:
-        for path in (path for pattern in _OF_ONE_RESULT for path in folder.glob(pattern)):
+        for path in (path for pattern in OF_ONE_RESULT for path in folder.glob(pattern)):
             path.unlink()
     for name, text in texts.items():
         recording.write_text_atomic(folder / name, text)

@@ -33,10 +33,10 @@ def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] =
 
 
 def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
-    """Yield one line per case of the baseline that is missing."""
-    for case_id in baseline.missing:
-        reason = "; ".join(difference_sentences(baseline.differences[case_id]))
-        yield f"{DIFFERS} {printable(case_id)} reason={reason}"
+    """Yield one line per case of the baseline that is missing, and per series that differs from it."""
+    for own_id in baseline.beside_cases:
+        reason = "; ".join(difference_sentences(baseline.differences[own_id]))
+        yield f"{DIFFERS} {printable(own_id)} reason={reason}"
 
 
 def criterion_lines(result: evaluation.CaseResult) -> Iterator[str]:

@@ -69,11 +69,8 @@ def with_controller(
 
 
 def compile_inner(function: Function) -> Any:
-    """Compile a function that only compiled code calls.
-
-    Left out are its entries from Python and from C, which take as long to compile as the function itself.
-    """
-    return compiler().njit(**OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+    """Compile a function that only compiled code calls."""
+    return lanes.compile_inner(function, **OPTIONS)
 
 
 def compiler() -> Any:

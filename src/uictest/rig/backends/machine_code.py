@@ -91,7 +91,11 @@ def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
 
 
 def _object_code(name: str, callback: Callable[[], Any], target: Target) -> bytes:
-    return _kept(name, target) or _compiled(name, callback, target)
+    kept = _kept(name, target)
+    if kept is not None:
+        return kept
+    with user_cache.turn(name, _inputs(target)):  # another process may have compiled it meanwhile
+        return _kept(name, target) or _compiled(name, callback, target)
 
 
 def _compiled(name: str, callback: Callable[[], Any], target: Target) -> bytes:

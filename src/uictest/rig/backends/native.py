@@ -45,7 +45,7 @@ def _name(controller: Controller) -> str:
 def compiled_stop(controller: Controller) -> "NativeStop":
     """Return :func:`uictest.rig.model.stop.run_stop` compiled for a controller.
 
-    The first call on a machine takes about twenty seconds.
+    The first call on a machine takes some fifteen seconds.
     """
     return NativeStop(controller)
 

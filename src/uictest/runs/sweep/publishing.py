@@ -31,7 +31,7 @@ class FinishedSweep:
 
 def publish(run: SweepRun, store: sweeps.ChunkStore, observer: SweepObserver) -> FinishedSweep:
     """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
-    summary = sweeps.summarize(run.selection, store, run.pair, run.measures)
+    summary = sweeps.summarize(run.selection, store, run.pair, run.measures, run.reference)
     frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
     worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
@@ -60,11 +60,13 @@ def _run_worst(
     request = campaign.RecordingRequest("all")
     request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
     parts = campaign.parts_of_cases(cases)
+    domains = {} if run.reference is None else run.reference.domains_of(parts)
     batch = campaign.run_cases(
         cases,
         jobs=run.jobs,
         recording=request,
         parts=parts,
+        domains=domains,
         in_process=run.in_process,
         on_result=write_recording,
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from uictest import rig, sweeps
+from uictest import rig, sweeps, validation
 from uictest.report import counted
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.sweep.observer import SweepObserver
@@ -39,6 +39,8 @@ class SweepRun:
     pair: tuple[str, str] | None = None
     measures: Sequence[str] = ()
     search: FrontierSearch | None = None
+    reference: validation.ValidationReference | None = None
+    """Validation that the cases are held against."""
     formats: Sequence[str] = ()
     in_process: bool = False
     run_block: sweeps.RunBlock = rig.run_block
@@ -84,8 +86,9 @@ def _open_store(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> No
         store.open(run.manifest, restart=run.restart)
     except ChangedInputsError as error:
         raise InvalidInputError(
-            f"{run.folder} holds chunks of this sweep with other inputs ({error}); "
-            "--restart discards them, -o names another folder"
+            f"{run.folder} holds chunks of this sweep with other inputs ({error}): "
+            "restart it to discard them, or name another output folder",
+            arguments=("restart", "output"),
         ) from error
     for folder in run.merged:
         _merge_shard(store, folder, observer)
@@ -121,7 +124,9 @@ def _run_on_cluster(
     try:
         sweeps.run_on_cluster(run.selection, numbers, address, write_chunk, lambda: observer.waiting(address))
     except ImportError as error:
-        raise InvalidInputError("--dask needs the extra: pip install 'uictest[dask]'") from error
+        raise InvalidInputError(
+            "a cluster needs the extra: pip install 'uictest[dask]'", arguments=("cluster",)
+        ) from error
     except sweeps.ClusterError as error:
         raise OSError(str(error)) from error
 
@@ -147,11 +152,13 @@ def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
         runner.prepare()
     except sweeps.NoDeviceError as error:
         raise InvalidInputError(
-            f"no CUDA device found ({error}); leave --device out to use the processor"
+            f"no CUDA device found ({error}): simulate on the processor", arguments=("device",)
         ) from error
     except ImportError as error:
         # The compiler for GPUs belongs to the extra as well, and is imported at its first use.
-        raise InvalidInputError("--device cuda needs the extra: pip install 'uictest[cuda]'") from error
+        raise InvalidInputError(
+            "a GPU needs the extra: pip install 'uictest[cuda]'", arguments=("device",)
+        ) from error
     return runner
 
 

@@ -45,5 +45,6 @@ def _locked(folder: Path, *, shared: bool) -> FolderLock:
         return FolderLock(folder, shared=shared)
     except FolderInUseError as error:
         raise InvalidInputError(
-            f"{folder} is in use by {error}: wait until it ends, or name another folder with -o"
+            f"{folder} is in use by {error}: wait until it ends, or name another output folder",
+            arguments=("output",),
         ) from error

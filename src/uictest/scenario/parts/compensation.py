@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field
 
+from uictest.scenario.total import total
 from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
 from uictest.units import BAR
 
@@ -114,7 +115,7 @@ class CylinderDynamics(Section):
                 "every pole must lie inside the unit circle",
             )
             return
-        gain = sum(self.numerator) / (1.0 + sum(self.denominator))
+        gain = total(self.numerator) / (1.0 + total(self.denominator))
         if abs(gain - 1.0) > UNITY_GAIN_TOLERANCE:
             yield Inconsistency(
                 ("numerator",),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
 
@@ -124,7 +125,7 @@ def _recorded(stop_runner: StopRunner) -> dict[str, Recording]:
 def _trailing_share(stop: Recording) -> float:
     """Return the mean cleaned share over the distance under wheelsets 2 to 4, over that under the first."""
     first, *others = (float(np.trapezoid(stop[f"cleaned_share_{n}"], stop["distance"])) for n in (1, 2, 3, 4))
-    return sum(others) / len(others) / first
+    return math.fsum(others) / len(others) / first
 
 
 def _values(tests: Map) -> dict[str, StudyValue]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -23,6 +23,8 @@ _WHOLE: Final = 2.0**53
 """Every whole number up to it is a float."""
 _NO_TIE: Final = 0.4999
 """A product this near to a whole number is rounded to it, whatever the last bit of the product."""
+_PLACES_WITHOUT_EXPONENT: Final = 14
+"""Arrow writes ten digits without an exponent from 1e-5 on."""
 _POWERS: Final = np.array([float(10**power) for power in range(23)])
 """The powers of ten that are floats without rounding."""
 
@@ -43,7 +45,7 @@ class RoundedNumbers:
         divisor = math.lcm(factor.denominator, offset.denominator)
         scaled = self.digits * int(factor * divisor)
         shift = int(offset * divisor) * _POWERS[self.places]
-        divisors = _floats([divisor * 10**power for power in range(_POWERS.size)])[self.places]
+        divisors = _times_powers(divisor)[self.places]
         results: NDArray[np.float64] = (scaled + shift) / divisors
         is_exact = (abs(scaled) + abs(shift) < _WHOLE) & ~np.isnan(divisors)
         for place in np.flatnonzero(~is_exact).tolist():
@@ -60,13 +62,26 @@ def rounded_numbers(numbers: NDArray[np.float64]) -> RoundedNumbers:
     scaled = numbers * _POWERS[places]
     digits = np.rint(scaled)
     is_exact = has_power & (abs(scaled - digits) < _NO_TIE)
-    texts = pa.array(digits / _POWERS[places]).cast(pa.string())
-    by_hand = ~is_exact | np.asarray(pc.match_substring(texts, "e"))
-    replacements = pa.array([rounded_text(number) for number in numbers[by_hand].tolist()], pa.string())
-    texts = pc.replace_with_mask(texts, pa.array(by_hand), replacements)
-    return RoundedNumbers(texts, np.where(is_exact, digits, np.nan), places)
+    texts = _texts(digits, places)
+    if not is_exact.all():
+        by_hand = [rounded_text(number) for number in numbers[~is_exact].tolist()]
+        texts = pc.replace_with_mask(texts, pa.array(~is_exact), pa.array(by_hand, pa.string()))
+        digits[~is_exact] = np.nan
+    return RoundedNumbers(texts, digits, places)
 
 
-def _floats(numbers: Iterable[int]) -> NDArray[np.float64]:
-    """Return whole numbers as floats, NaN where that rounds them."""
+def _texts(digits: NDArray[np.float64], places: NDArray[np.int64]) -> pa.Array:
+    """Return the texts of `digits / 10**places`; zeros that call for an exponent are put in afterwards."""
+    zeros = np.maximum(places - _PLACES_WITHOUT_EXPONENT, 0)
+    texts = pa.array(digits / _POWERS[places - zeros]).cast(pa.string())
+    for count in np.unique(zeros[zeros > 0]).tolist():
+        smaller = pc.replace_substring(texts, ".", "." + count * "0", max_replacements=1)
+        texts = pc.if_else(pa.array(zeros == count), smaller, texts)
+    return texts
+
+
+@cache
+def _times_powers(divisor: int) -> NDArray[np.float64]:
+    """Return a divisor times the powers of ten, NaN where no float holds the product."""
+    numbers = [divisor * 10**power for power in range(_POWERS.size)]
     return np.array([float(number) if int(float(number)) == number else math.nan for number in numbers])

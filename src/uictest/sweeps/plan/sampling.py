@@ -20,6 +20,8 @@ def points(method: Method, size: int, dimensions: int, seed: int, numbers: NDArr
 
     `size` counts points; for `saltelli` each of them makes (dimensions + 2) rows: see :func:`_saltelli`.
     """
+    if not numbers.size:
+        return np.empty((0, dimensions))
     if method == "saltelli":
         return _saltelli(dimensions, seed, numbers)
     if method == "sobol":

@@ -106,7 +106,7 @@ class BlockAssembler:
     def of_settings(self, indices: NDArray[np.int64], ids: list[str], settings: Settings) -> CaseBlock:
         """Return the records of cases that are given by their ids and values."""
         variants = ScenarioVariants(self._plan.base.scenario, settings, indices.size)
-        rejections = [_reason(result) for result in self._rejection.per_case(variants)]
+        rejections = self._rejections(variants)
         parameters = np.repeat(self._record[None], indices.size)
         for setter in self._parameters:
             _fill(parameters, setter.results(variants), rejections)
@@ -122,6 +122,13 @@ class BlockAssembler:
             *(self._controllers.per_case(variants), programs, _configs(programs, parameters, wheelsets)),
             *(self._judged_as(variants), rejections),
         )
+
+    def _rejections(self, variants: ScenarioVariants) -> list[str]:
+        rejections = [""] * variants.count
+        for places, result in self._rejection.results(variants):
+            if result is not None:
+                _reject(places, result, rejections)
+        return rejections
 
     def _judged_as(self, variants: ScenarioVariants) -> ScenarioVariants:
         """Return the scenarios as far as they are judged; numbers in their criteria keep cases apart."""
@@ -172,18 +179,14 @@ def _values(value: float | list[float]) -> Any:
     return np.stack(np.broadcast_arrays(*value), axis=-1) if isinstance(value, list) else np.asarray(value)
 
 
-def _rejection_of(keys: Iterable[str]) -> Callable[[Scenario], str]:
+def _rejection_of(keys: Iterable[str]) -> Callable[[Scenario], Rejected | None]:
     swept = tuple(keys)
 
-    def rejection(scenario: Scenario) -> str:
+    def rejection(scenario: Scenario) -> Rejected | None:
         first = next(inconsistencies(scenario, swept), None)
-        return "" if first is None else f"{dotted(first.key)}: {first.message}"
+        return None if first is None else Rejected(f"{dotted(first.key)}: {first.message}")
 
     return rejection
-
-
-def _reason(result: str | Rejected) -> str:
-    return result.reason if isinstance(result, Rejected) else result
 
 
 def _fill(

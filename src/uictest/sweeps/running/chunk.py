@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from uictest import rig
 from uictest.campaign import ThreadedMap
 from uictest.ensemble import Places, rows_at
-from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, result_columns
+from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, joined
 from uictest.sweeps.plan.plan import Plan
 from uictest.sweeps.running.case_blocks import BlockAssembler, CaseBlock
 from uictest.sweeps.running.case_selection import CaseSelection
@@ -57,13 +57,14 @@ class ChunkRunner:
     def results(self, block: CaseBlock) -> ResultColumns:
         """Return the results of a block; an error in a case is its result."""
         places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
-        columns = result_columns(len(block.ids))
+        judged: Sequence[tuple[Places, ResultColumns]] = ()
         if places.size:
             try:
                 measures = self._simulated(block, places)
             except Exception as error:
                 return self._run_one_by_one(block, error)
-            self._judge(block, places, measures, columns)
+            judged = list(self._judged(block, places, measures))
+        columns = joined(judged, len(block.ids))
         for place, reason in enumerate(block.rejections):
             if reason:
                 columns.put(place, error_result(self.assembler.case(block, place), reason))
@@ -71,14 +72,14 @@ class ChunkRunner:
 
     def _simulated(self, block: CaseBlock, places: Places) -> Measures:
         """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
-        controllers = [block.controllers[place] for place in places]
+        controllers = [block.controllers[place] for place in places.tolist()]
         inputs = (
             rows_at(block.parameters, places),
             rows_at(block.wheelset_parameters, places),
             rows_at(block.rail, places),
             controllers,
         )
-        programs = [block.programs[place] for place in places]
+        programs = [block.programs[place] for place in places.tolist()]
         if not any(programs):
             return self.simulate(*inputs)
         configs = [block.configs[place] for place in places]
@@ -92,22 +93,21 @@ class ChunkRunner:
         if len(block.ids) == 1:
             block.rejections[0] = f"{type(error).__name__}: {error}"
             return self.results(block)
-        columns = result_columns(len(block.ids))
-        for place in range(len(block.ids)):
-            at = np.array([place])
-            columns.put_block(at, self.results(block.take(at)))
-        return columns
+        alone = [np.array([place]) for place in range(len(block.ids))]
+        return joined([(place, self.results(block.take(place))) for place in alone], len(block.ids))
 
-    def _judge(self, block: CaseBlock, places: Places, measures: Measures, columns: ResultColumns) -> None:
-        """Set the results of the simulated cases at some places, group by group of the same criteria."""
-        position = np.full(len(block.ids), -1)
+    def _judged(
+        self, block: CaseBlock, places: Places, measures: Measures
+    ) -> Iterator[tuple[Places, ResultColumns]]:
+        """Yield the results of the simulated cases at some places, group by group of the same criteria."""
+        position = np.zeros(len(block.ids), np.int64)
         position[places] = np.arange(places.size)
+        is_simulated = np.array([not reason for reason in block.rejections])
         for group in block.judged_as.groups(by_numbers=False):
-            own = group[position[group] >= 0]
-            own = own[[not block.rejections[place] for place in own]]
+            own = group[is_simulated[group]]
             if own.size:
                 of_stops, of_wheelsets = (rows_at(each, position[own]) for each in measures)
-                columns.put_block(own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets)))
+                yield own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets))
 
     def _stops(
         self, block: CaseBlock, places: Places, measures: NDArray[Any], wheelset_measures: NDArray[Any]

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from uictest.evaluation import EffectiveParts
-from uictest.report import named_parts
+from uictest.report import SWEEP_MANIFEST_SCHEMA, named_parts
 from uictest.sweeps.running.case_selection import CaseSelection
 
-SCHEMA: Final = "uictest/sweep-manifest/1"
+SCHEMA: Final = SWEEP_MANIFEST_SCHEMA
 SOURCES: Final = (
     *("physics", "controllers", "faults", "measures", "lanes", "rig"),
     *("evaluation", "scenario", "series_measures", "statistics", "sweeps"),
@@ -25,10 +25,7 @@ SOURCES: Final = (
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
 _LIBRARY: Final = "library:"
 _LABELS: Final = {
-    "selected": "-k",
-    "set": "--set",
-    "seed": "--seed",
-    "device": "--device",
+    "selected": "selection",
     "cases_in_a_part": "cases per chunk",
 }
 """Key -> the name that users know it by, where the two differ."""

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
-import numpy as np
 from numpy.typing import NDArray
 
-from uictest.ensemble import Places, by_way, ensemble
+from uictest.ensemble import Places, alike, by_way, ensemble
 from uictest.scenario import Scenario
 from uictest.sweeps.plan.column import Column
 from uictest.sweeps.plan.scenario_values import with_values
@@ -31,19 +30,26 @@ class Rejected:
 class ScenarioVariants:
     """The scenarios of some cases, each built when it is first needed."""
 
-    def __init__(self, base: Scenario, settings: Settings, count: int) -> None:
+    def __init__(
+        self, base: Scenario, settings: Settings, count: int, all_numbers: ScenarioVariants | None = None
+    ) -> None:
         self.base = base
         self.settings = settings
         self.count = count
+        self._all_numbers = all_numbers
         self._scenarios: dict[int, Scenario] = {}
         self._common: dict[bytes, Scenario] = {}
         self._restricted: dict[tuple[str, ...], ScenarioVariants] = {}
 
     def restricted_to(self, keys: tuple[str, ...]) -> ScenarioVariants:
-        """Return the variants in which only these keys vary."""
+        """Return the variants in which only these keys vary.
+
+        If all keys have numbers, one scenario with all of them serves any keys: the others are not read.
+        """
         if keys not in self._restricted:
             settings = {key: self.settings[key] for key in keys}
-            self._restricted[keys] = ScenarioVariants(self.base, settings, self.count)
+            all_numbers = None if any(numbers is None for numbers in self._numbers) else self
+            self._restricted[keys] = ScenarioVariants(self.base, settings, self.count, all_numbers)
         return self._restricted[keys]
 
     def take(self, places: Places) -> ScenarioVariants:
@@ -64,6 +70,8 @@ class ScenarioVariants:
 
     def together(self, places: Places) -> Scenario:
         """Return one scenario for cases of the same group, in which their numbers are ensembles."""
+        if self._all_numbers is not None:
+            return self._all_numbers.together(places)
         content = places.tobytes()
         if content not in self._common:
             self._common[content] = self._with_ensembles(places)
@@ -79,14 +87,8 @@ class ScenarioVariants:
     def groups(self, *, by_numbers: bool) -> list[Places]:
         """Return the places of cases that have the same values; numbers count only where asked for."""
         columns = zip(self.settings.values(), self._numbers, strict=True)
-        codes = [column.codes for column, numbers in columns if by_numbers or numbers is None]
-        if not codes:
-            return [np.arange(self.count)]
-        group_of = np.zeros(self.count, np.int64)
-        for code in codes:
-            _, group_of = np.unique(group_of * self.count + code, return_inverse=True)
-        order, sizes = np.argsort(group_of, kind="stable"), np.bincount(group_of)
-        return np.split(order, np.cumsum(sizes)[:-1])
+        codes = (column.codes for column, numbers in columns if by_numbers or numbers is None)
+        return alike(codes, self.count)
 
     @cached_property
     def has_numbers(self) -> bool:
@@ -137,6 +139,8 @@ class ScenarioFunction:
         """Return the result for each case, of a function whose results hold no ensembles."""
         results: list[Any] = [None] * variants.count
         for places, result in self.results(variants):
+            if places.size == variants.count:
+                return [result] * variants.count
             for place in places.tolist():
                 results[place] = result
         return results

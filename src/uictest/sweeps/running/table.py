@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.evaluation import ResultColumns
@@ -43,6 +44,11 @@ def wheelset_columns(name: str) -> tuple[str, ...]:
 
 def row_schema(plan: Plan) -> pa.Schema:
     """Return names and types of the columns, in order."""
+    return _schema(plan.keys, plan.numeric_keys)
+
+
+@cache
+def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...]) -> pa.Schema:
     import pyarrow as pa
 
     text, number = pa.string(), pa.float64()
@@ -50,8 +56,8 @@ def row_schema(plan: Plan) -> pa.Schema:
         [
             ("index", pa.int64()),
             ("id", text),
-            *((text_column(key), text) for key in plan.keys),
-            *((number_column(key), number) for key in plan.numeric_keys),
+            *((text_column(key), text) for key in keys),
+            *((number_column(key), number) for key in numeric_keys),
             *((name, text) for name in _OWN),
             ("met", pa.bool_()),
             ("narrowest_margin", number),

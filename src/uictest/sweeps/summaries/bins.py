@@ -1,4 +1,7 @@
-"""Bins to count cases by: listed values one by one, drawn numbers in ten intervals."""
+"""Bins to count cases by: listed values one by one, drawn numbers in ten intervals.
+
+Those of a log-uniform parameter have like ratios, so that they hold about as many cases each.
+"""
 
 from __future__ import annotations
 
@@ -68,6 +71,22 @@ def _drawn_bins(key: str, draw: ParameterDraw, place: tuple[int, int]) -> Parame
     if draw.choices:
         return ParameterBins(key, tuple(WrittenValue(value.text) for value in draw.choices), place)
     low, high = draw.distribution.bounds
-    edges: Any = np.linspace(float(low.number), float(high.number), INTERVALS + 1).tolist()
+    ends = float(low.number), float(high.number)
+    edges: Any = _even_ratios(*ends) if draw.distribution.log_uniform else _even_steps(*ends)
     intervals = tuple(DrawnInterval(start, end, low.unit) for start, end in pairwise(edges))
     return ParameterBins(key, intervals, place, tuple(edges[1:-1]))
+
+
+def _even_steps(low: float, high: float) -> list[float]:
+    edges: list[float] = np.linspace(low, high, INTERVALS + 1).tolist()
+    return edges
+
+
+def _even_ratios(low: float, high: float) -> list[float]:
+    """Return the ends of intervals that a log-uniform draw falls into equally often; inner ones rounded."""
+    edges: list[float] = np.geomspace(low, high, INTERVALS + 1).tolist()
+    rounded = [low, *(float(f"{edge:.3g}") for edge in edges[1:-1]), high]
+    # Close to each other, three digits do not keep them apart.
+    return (
+        rounded if all(after > before for before, after in pairwise(rounded)) else [low, *edges[1:-1], high]
+    )

@@ -9,13 +9,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import validation
 from uictest.evaluation import EffectiveParts
-from uictest.report import MET, MeasureHistogram, SobolSensitivity, SweepResult, counted
+from uictest.report import (
+    MET,
+    MeasureHistogram,
+    SobolSensitivity,
+    SweepDomain,
+    SweepResult,
+    counted,
+    domain_notes,
+)
 from uictest.scenario import named_requirements
 from uictest.sweeps.plan.nominal import drawn_ranges
 from uictest.sweeps.plan.plan import Plan, saltelli_sample
+from uictest.sweeps.plan.spacing import logarithmic_keys
 from uictest.sweeps.running.case_selection import CaseSelection
 from uictest.sweeps.running.store import ChunkStore
+from uictest.sweeps.summaries.domain import DomainTally
 from uictest.sweeps.summaries.frontier import UNKNOWN, Verdicts
 from uictest.sweeps.summaries.histograms import HistogramCounts, reported_measures
 from uictest.sweeps.summaries.maps import MapSums
@@ -47,7 +58,11 @@ class SweepSummary:
 
 
 def summarize(
-    selection: CaseSelection, store: ChunkStore, pair: tuple[str, str] | None, measures: Sequence[str]
+    selection: CaseSelection,
+    store: ChunkStore,
+    pair: tuple[str, str] | None,
+    measures: Sequence[str],
+    reference: validation.ValidationReference | None = None,
 ) -> SweepSummary:
     """Read all chunks: write summary.csv and summary.parquet, and compute the result.
 
@@ -56,22 +71,27 @@ def summarize(
         store: with every chunk finished.
         pair: the two parameters of the maps, None for no map.
         measures: columns to map and to compute sensitivities of, besides the verdict.
+        reference: validation that the cases are held against; they get a column of what lies outside.
 
     Raises:
         OSError: a file cannot be written.
         MissingChunksError: a chunk is missing.
     """
     sums = _Sums(selection, pair, measures)
+    domain = None if reference is None else DomainTally(selection.plan, reference)
     with summary_files(store.folder) as write:
         for table in store.tables(range(selection.chunks)):
-            write(table)
+            write(table if domain is None else domain.with_column(table))
             sums.add(table)
+    of_validity = None if domain is None else domain.result()
     sensitivities, notes = _sensitivities(selection.plan, sums.sampled_columns())
     result = _result(
         sums,
         distributions=_histograms(sums.histograms, selection, store),
         sensitivities=sensitivities,
+        domain=of_validity,
         notes=(
+            *domain_notes(of_validity, sums.tally.cases),
             *_requirement_notes(selection.plan),
             *_not_judged_notes(sums.tally.outcomes),
             *map(str, drawn_ranges(selection.plan)),
@@ -130,6 +150,7 @@ def _result(
     *,
     distributions: tuple[MeasureHistogram, ...],
     sensitivities: tuple[SobolSensitivity, ...],
+    domain: SweepDomain | None,
     notes: tuple[str, ...],
 ) -> SweepResult:
     tally, plan = sums.tally, sums.tally.plan
@@ -146,6 +167,7 @@ def _result(
         trends=tuple(trend for each in sums.trends for trend in each.trends()),
         base=EffectiveParts().of(plan.base.scenario),
         varied=plan.keys,
+        logarithmic=logarithmic_keys(plan),
         requirements=named_requirements(plan.base.scenario),
         test_case=plan.base.scenario.test_case or "",
         worst=(),
@@ -154,6 +176,7 @@ def _result(
         frontier=None,
         quantiles=tuple(sums.tails.quantiles()) if sums.tails else (),
         k_dry=tuple(sums.tails.k_dry()) if sums.tails else (),
+        domain_of_validity=domain,
         notes=notes,
     )
 
@@ -186,7 +209,7 @@ def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
 def _selection_notes(selection: CaseSelection) -> Iterator[str]:
     plan = selection.plan
     if selection.selected is not None and (plan.quantiles or plan.k_dry):
-        yield f"no quantiles and no K_dry: -k selects {selection.size} of {counted(plan.size, 'case')}"
+        yield f"no quantiles and no K_dry: only {selection.size} of {counted(plan.size, 'case')} selected"
 
 
 def _sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:

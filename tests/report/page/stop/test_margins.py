@@ -5,7 +5,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.evaluation import AppliedDefinition, Sensitivity, Verdict, VerdictInterval
+from uictest.evaluation import (
+    AppliedDefinition,
+    CaseResult,
+    Sensitivity,
+    Verdict,
+    VerdictInterval,
+    narrowest_margin,
+)
 from uictest.recording import Recording
 from uictest.report.page.stop.margins import margin_share, margins_of
 from uictest.report.page.stop.taken import taken_at
@@ -63,12 +70,30 @@ def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
     assert margin.beyond is beyond
 
 
-def test_a_verdict_that_turns_keeps_its_margin(make_verdict: MakeVerdict) -> None:
+@pytest.mark.parametrize(
+    ("margin", "status", "spare", "words"),
+    [
+        (4.0, "pass", "0 %", "turns; +40 % at its value"),
+        (-4.0, "fail", "-40 %", "turns"),
+        (0.0, "pass", "0 %", "turns"),
+    ],
+)
+def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
+    make_verdict: MakeVerdict, trace: PlotTrace, margin: float, status: str, spare: str, words: str
+) -> None:
     intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
-    verdict = make_verdict(
-        lower=None, upper=10.0, margin=4.0, sensitivity=(Sensitivity("d", "s", 0.0, 1.0, intervals),)
+    turning = Sensitivity("d", "s", 0.0, 1.0, intervals)
+    bounds = {"lower": None, "upper": 10.0}
+    verdict = make_verdict(**bounds, margin=margin, status=status, sensitivity=(turning,))
+    firm = make_verdict(**bounds, margin=0.1, status="pass", id="firm")
+    shown = margins_of([firm, verdict], [firm, verdict], trace).judged[0]
+    assert (shown.verdict.id, shown.share_text, shown.turns_text) == (verdict.id, spare, words)
+    assert shown.bar[1] == pytest.approx(abs(10.0 * margin) / 2)
+    narrowest, criterion = narrowest_margin(
+        CaseResult("c", "s", {}, "pass", "pass", criteria=(firm, verdict))
     )
-    assert margin_share(verdict) == pytest.approx(40.0)
+    assert criterion == verdict.id
+    assert shown.to_spare == pytest.approx(100.0 * (narrowest or 0.0))
 
 
 def test_a_limit_of_zero_has_no_share(make_verdict: MakeVerdict) -> None:

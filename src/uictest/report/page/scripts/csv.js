@@ -1,16 +1,10 @@
 /* The points behind a plot as a file: a row for each point of each line. */
 const numberText = (value, digits) => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : "");
 const cellText = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const csvLines = (rows) => rows.map((row) => `${row.map(cellText).join(",")}\n`).join("");
 
 const csvOf = (stop, title, head, points) =>
-  [
-    `# case: ${stop.id}`,
-    `# plot: ${title}`,
-    `# sampling: ${stop.sampling}`,
-    head.join(","),
-    ...points.map((row) => row.map(cellText).join(",")),
-    "",
-  ].join("\n");
+  `# case: ${stop.id}\n# plot: ${title}\n# sampling: ${stop.sampling}\n${csvLines([head, ...points])}`;
 
 const labelOfSeries = (name) => {
   const [, key, wheelset] = /^(.*?)(?:_([1-4]))?$/.exec(name);

@@ -1,5 +1,5 @@
 /* Criteria in the plots: limits, instants, windows. Their labels stand above a panel, where no data lie. */
-const MARK_COLOURS = { pass: "good", fail: "bad", inconclusive: "odd" };
+const MARK_COLOURS = { pass: "good", fail: "bad", inconclusive: "odd", not_applicable: "quiet" };
 const inkOf = (mark) => colour(MARK_COLOURS[mark.status]);
 
 const shapeOf = (mark, xref, yref) => {
@@ -8,6 +8,9 @@ const shapeOf = (mark, xref, yref) => {
   const across = mark.x0 === null && mark.x1 === null ? `${xref} domain` : xref;
   const upright = { xref: across, yref: `${yref} domain`, x0, x1, y0: 0, y1: 1 };
   if (mark.kind === "instant") return { type: "line", ...upright, line: { color: inkOf(mark), width: 2 } };
+  if (mark.kind === "tolerance")
+    return { type: "rect", layer: "below", xref: `${xref} domain`, yref, x0: 0, x1: 1, y0: -mark.y, y1: mark.y,
+             line: { width: 0 }, fillcolor: colour(`${MARK_COLOURS[mark.status]}-wash`) };
   if (mark.y === null)
     return { type: "rect", layer: "below", ...upright, opacity: 0.75, line: { width: 0 },
              fillcolor: colour(mark.kind === "window" && mark.status === "fail" ? "bad-wash" : "window") };
@@ -17,7 +20,7 @@ const shapeOf = (mark, xref, yref) => {
 };
 
 const pointOf = (mark, xaxis, yaxis) => ({
-  type: "scatter", mode: "markers", x: [mark.x0], y: [mark.y], xaxis, yaxis, hoverinfo: "none", name: mark.criterion,
+  type: "scatter", mode: "markers", cliponaxis: false, x: [mark.x0], y: [mark.y], xaxis, yaxis, hoverinfo: "none", name: mark.criterion,
   marker: { symbol: "circle-open", size: 10, color: inkOf(mark), line: { width: 2 } },
 });
 
@@ -31,7 +34,7 @@ const closedMarks = (stop) =>
 
 const CHARACTER = 6.3; /* pixels of a letter of a label, about */
 const LABEL_ROW = 14;
-const SAMPLES = { limit: "┄ ", mean: "━ " };
+const SAMPLES = { limit: "┄ ", mean: "━ ", tolerance: "▬ " };
 const widthOf = (text) => CHARACTER * text.length + 8;
 const shortened = (text, width) =>
   widthOf(text) <= width ? text : `${text.slice(0, Math.max(Math.floor((width - 8) / CHARACTER) - 1, 1))}…`;

@@ -1,6 +1,12 @@
 const MISSING = 32767;
 
-const bytesOf = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+/* A loop: for the script of the plots, two million bytes, `Uint8Array.from` takes a tenth of a second. */
+const bytesOf = (text) => {
+  const characters = atob(text);
+  const bytes = new Uint8Array(characters.length);
+  for (let k = 0; k < bytes.length; k += 1) bytes[k] = characters.charCodeAt(k);
+  return bytes;
+};
 const inflated = (text) =>
   new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate")));
 

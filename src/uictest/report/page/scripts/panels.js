@@ -37,7 +37,7 @@ const spanOf = (traces, marks, include) => {
 /* Without any trace a panel would be left out. */
 const NOTHING = { type: "scatter", mode: "lines", x: [0], y: [null], hoverinfo: "skip" };
 
-const gridFigure = ({ rows, columns, width, start, end }) => {
+const gridFigure = ({ rows, columns, width, start, end, across = "time since the brake command, s" }) => {
   const { pixels, domains } = columnsOf(columns.length, width);
   const pixel = (time) => (Math.min(Math.max(time, start), end) - start) / (end - start || 1) * pixels;
   const marks = rows.map((row) => columns.map((wheelsets, c) => row.marks?.(wheelsets, c) ?? []));
@@ -74,7 +74,7 @@ const gridFigure = ({ rows, columns, width, start, end }) => {
     const last = (rows.length - 1) * columns.length + c + 1;
     layout[`xaxis${c ? c + 1 : ""}`] = axis({
       domain: domains[c], anchor: subplot("y", last), range: [start, end], ...(c ? { matches: "x" } : {}), nticks: apart ? 5 : 10,
-      title: { text: c ? "" : "time since the brake command, s", font: { size: 11, color: colour("quiet") }, standoff: 6 },
+      title: { text: c ? "" : across, font: { size: 11, color: colour("quiet") }, standoff: 6 },
     });
     if (apart)
       layout.annotations.push({ text: `wheelset ${wheelsets[0]}`, xref: `${subplot("x", c + 1)} domain`, yref: "paper", x: 0, y: 1,

@@ -38,14 +38,13 @@ const draw = async (plots) => {
   const apart = () => chosen(plots, "view") === "apart" && plots.clientWidth > 640;
   const wheelset = () => Number(chosen(plots, "wheelset") || 1);
   const paintPanels = () => paintFigure(Plotly, plots, panels, panelsFigure(stop, panels.clientWidth, apart()));
-  const paintLoops = () => loops && paintFigure(Plotly, plots, loops, loopsFigure(stop, loops.clientWidth, wheelset()));
+  const paintLoops = () => paintFigure(Plotly, plots, loops, loopsFigure(stop, loops.clientWidth, wheelset()));
   const paint = () => Promise.all([paintPanels(), paintLoops()]);
-  for (const element of [panels, loops]) if (element) element.hidden = false;
+  for (const element of [panels, loops]) element.hidden = false;
   for (const each of all(".sketch", plots)) each.hidden = true;
   panels.placeOf = placesIn(stop, apart);
   await paint();
   redraw.push(paint);
-  if (!first(".readout", plots)) return;
   const dots = loopDots(loops, stop, wheelset);
   const show = cursor(plots, stop, panels, [dots]);
   offerMoments(plots.closest("details"), panels, show);
@@ -60,13 +59,12 @@ const draw = async (plots) => {
   plots.dataset.ready = "yes";
 };
 
+/* The drawings stand in for the plots until these come near the window: their script takes a second to run. */
 if (canPlot) {
-  all(".plots.overlay").forEach(draw);
-  const lookAt = (details) => details.open && all(".plots", details).forEach(draw);
-  for (const details of all("details.stop")) {
-    details.addEventListener("toggle", () => lookAt(details));
-    requestAnimationFrame(() => setTimeout(() => lookAt(details)));
-  }
+  const near = new IntersectionObserver((entries) => {
+    for (const { isIntersecting, target: plots } of entries) if (isIntersecting) setTimeout(() => draw(plots));
+  }, { rootMargin: "50% 0px" });
+  for (const plots of all("details.stop .plots")) near.observe(plots);
 }
 
 /* Labels keep apart in pixels: another width needs other rows of them. */

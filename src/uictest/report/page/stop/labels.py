@@ -13,8 +13,8 @@ ROW = 13.0
 
 _CHARACTER = 6.2
 """Pixels of a letter, about: labels keep apart even in a wide font."""
-_SAMPLES = {"limit": "┄ ", "mean": "━ "}
-"""What a level line looks like."""
+_SAMPLES = {"limit": "┄ ", "mean": "━ ", "tolerance": "▬ "}
+"""What a level line or a band looks like."""
 
 
 @dataclass(frozen=True, slots=True)

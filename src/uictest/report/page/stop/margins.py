@@ -16,7 +16,7 @@ _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS,
 
 @dataclass(frozen=True, slots=True)
 class Margin:
-    """The margin of one criterion: `share` in per cent of the limit, negative where it is missed.
+    """The margin of one criterion: `share` of its value in per cent of the limit, negative if missed.
 
     `share` is None for a criterion that only says yes or no, or whose limit is 0.
     """
@@ -24,6 +24,11 @@ class Margin:
     verdict: evaluation.Verdict
     share: float | None
     taken: Taken | None
+
+    @property
+    def to_spare(self) -> float | None:
+        """The share as cases are ranked by it: a verdict that turns has none to spare, at most 0."""
+        return self.share if self.share is None or self.verdict.firm else min(self.share, 0.0)
 
     @property
     def bar(self) -> tuple[float, float]:
@@ -38,10 +43,19 @@ class Margin:
 
     @property
     def share_text(self) -> str:
-        """The share with its sign and unit."""
-        if self.share is None:
+        """The share to spare with its sign and unit."""
+        if self.to_spare is None:
             return "met" if self.verdict.status == "pass" else "missed"
-        return f"{self.share:+.3g} %" if abs(self.share) < 1e3 else f"{self.share:+.0f} %"
+        return _percent(self.to_spare)
+
+    @property
+    def turns_text(self) -> str:
+        """That a verdict turns, and the share of its value where that is not what is to spare; else empty."""
+        if self.verdict.firm:
+            return ""
+        return (
+            "turns" if self.share == self.to_spare else f"turns; {_percent(self.share or 0.0)} at its value"
+        )
 
     @property
     def value_text(self) -> str:
@@ -102,11 +116,18 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
     A criterion that is met exactly, as that of standstill is, only says yes or no.
     """
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
-    if verdict.margin is None or not bound or (verdict.margin == 0.0 and verdict.status == "pass"):
+    says_yes = verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm
+    if verdict.margin is None or not bound or says_yes:
         return None
     return 100.0 * verdict.margin / bound
 
 
 def _urgency(margin: Margin) -> tuple[bool, bool, float]:
-    share = margin.share
+    share = margin.to_spare
     return margin.verdict.status == "pass", share is None, 0.0 if share is None else share
+
+
+def _percent(share: float) -> str:
+    if share == 0.0:
+        return "0 %"
+    return f"{share:+.3g} %" if abs(share) < 1e3 else f"{share:+.0f} %"

@@ -144,7 +144,7 @@ def _panel(
         y.tick_marks(4),
         y_title=panel.unit,
         paths=[(line, path_over_time(time.pixels(curve.x), y.pixels(curve.y))) for line, curve in curves],
-        shaded=list(_shaded(marks, time, upper, lower)),
+        shaded=[*_shaded(marks, time, upper, lower), *_tolerances(marks, time, y)],
         levels=list(_levels(marks, time, y)),
     )
 
@@ -230,9 +230,16 @@ def _shaded(marks: Sequence[Mark], x: Axis, upper: float, lower: float) -> Itera
             yield Rectangle(first, upper, last - first, lower - upper, mark.kind, mark.status)
 
 
+def _tolerances(marks: Sequence[Mark], x: Axis, y: Axis) -> Iterator[Rectangle]:
+    for mark in marks:
+        if mark.kind == "tolerance" and mark.y is not None:
+            upper, lower = y.at(mark.y), y.at(-mark.y)
+            yield Rectangle(x.start, upper, x.end - x.start, lower - upper, mark.kind, mark.status)
+
+
 def _levels(marks: Sequence[Mark], x: Axis, y: Axis) -> Iterator[Level]:
     for mark in marks:
-        if mark.y is not None:
+        if mark.y is not None and mark.kind != "tolerance":
             yield Level(*_ends(mark, x), y.at(mark.y), mark.kind, mark.status)
 
 

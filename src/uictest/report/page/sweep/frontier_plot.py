@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from uictest.report.page.axis import Axis, Tick, axis_title, span
+from uictest.report.page.axis import Tick, axis_title
+from uictest.report.page.sweep.number_axis import NumberAxis, spanned
 from uictest.report.sweep.result import Circumstances, Flip, Frontier, FrontierScan
 from uictest.report.sweep.values import WrittenValue
 from uictest.report.sweep.wording import circumstances_words, flip_words
@@ -66,23 +65,27 @@ def frontier_lines(frontier: Frontier) -> list[tuple[str, str, str]]:
     ]
 
 
-def frontier_plot(frontier: Frontier) -> FrontierPlot | None:
-    """Return the frontier drawn, or None where it depends on no other number."""
+def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> FrontierPlot | None:
+    """Return the frontier drawn, or None where it depends on no other number.
+
+    `logarithmic` are the keys of the parameters whose axes are.
+    """
     key = _numeric_key(frontier.scans)
     flips = [] if key is None else list(_flips(frontier.scans, key))
     if key is None or not flips:
         return None
     scanned = sorted({_number_at(scan, key) for scan in frontier.scans})
-    x = Axis(*span([np.array(scanned)], ()), *_SIDES[0])
-    y = Axis(*span([np.array([flip.middle for flip in flips])], ()), *_SIDES[1])
+    middles = [flip.middle for flip in flips]
+    x = spanned(scanned, *_SIDES[0], logarithmic=key in logarithmic)
+    y = spanned(middles, *_SIDES[1], logarithmic=frontier.parameter in logarithmic)
     names = list(dict.fromkeys(flip.series for flip in flips))
     series = [
         _series(name, [flip for flip in flips if flip.series == name], scanned, x, y)
         for name in names[:_MOST_SERIES]
     ]
     return FrontierPlot(
-        _title(key, (scan.circumstances[key] for scan in frontier.scans)),
-        _title(frontier.parameter, (flip.low for scan in frontier.scans for flip in scan.flips)),
+        _title(key, (scan.circumstances[key] for scan in frontier.scans), x),
+        _title(frontier.parameter, (flip.low for scan in frontier.scans for flip in scan.flips), y),
         series,
         x.tick_marks(8),
         y.tick_marks(6),
@@ -105,7 +108,9 @@ def _number_at(scan: FrontierScan, key: str) -> float:
     return number
 
 
-def _series(name: str, flips: Sequence[_Flip], scanned: Sequence[float], x: Axis, y: Axis) -> Series:
+def _series(
+    name: str, flips: Sequence[_Flip], scanned: Sequence[float], x: NumberAxis, y: NumberAxis
+) -> Series:
     points = sorted((x.at(flip.at), y.at(flip.middle), f"{flip.at:g}: {flip.words}") for flip in flips)
     strokes = [
         stroke
@@ -129,8 +134,9 @@ def _strokes(flips: Sequence[_Flip], scanned: Sequence[float]) -> Iterator[list[
         yield stroke
 
 
-def _title(key: str, values: Iterable[WrittenValue]) -> str:
-    return axis_title(key, next((value.unit for value in values), ""))
+def _title(key: str, values: Iterable[WrittenValue], axis: NumberAxis) -> str:
+    title = axis_title(key, next((value.unit for value in values), ""))
+    return f"{title}, logarithmic" if axis.logarithmic else title
 
 
 def _numeric_key(scans: Sequence[FrontierScan]) -> str | None:

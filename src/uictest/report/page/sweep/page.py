@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from itertools import chain
 
+from uictest.report.csv_text import csv_text
 from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
 from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
+from uictest.report.page.stop.packing import script_json
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
-from uictest.report.page.sweep.heat import HeatMap, heat_map
 from uictest.report.page.sweep.histogram import histogram_plot
+from uictest.report.page.sweep.scatter_view import ScatterView, scatter_view
+from uictest.report.page.sweep.shown_maps import maps_left_out, shown_maps
+from uictest.report.page.sweep.sobol_bars import sobol_plots
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.notable import notable_cases
-from uictest.report.sweep.result import Frontier, SweepResult
+from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.scatter import is_sampled, scatter
+from uictest.report.sweep.summary_rows import SummaryRows
+from uictest.report.sweep.tables import TREND_COLUMNS, distribution_rows, frontier_csv, trend_rows
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
     circumstances_words,
@@ -39,11 +47,15 @@ def sweep_page_html(content: SweepContent) -> str:
         result=result,
         tally=sweep_tally(result),
         swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
-        maps=list(_maps(result, keys)),
+        maps=list(shown_maps(content, keys)),
+        maps_left_out=maps_left_out(content),
+        scatter=_scatter(content, keys),
         rates={key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES},
-        frontier=_frontier(result.frontier),
+        frontier=_frontier(result),
         trends=_trends(result),
+        sobol_plots=list(sobol_plots(result.sensitivities)),
         histograms=list(map(histogram_plot, result.distributions)),
+        plot_tables=script_json(_plot_tables(result)),
         tails=list(tail_tables(result)),
         tails_left_out=tables_left_out(result),
         notable=notable_cases(result),
@@ -75,27 +87,37 @@ def _drawn(content: SweepContent) -> list[CaseView]:
     return [case_view(case, result.subject(case.id), content.traces[case.id]) for case in traced]
 
 
-def _maps(result: SweepResult, keys: Mapping[str, str]) -> Iterator[HeatMap]:
-    for sweep_map in result.maps:
-        row, column = sweep_map.rows.parameter, sweep_map.columns.parameter
-        # The worst come first, and a cell links to the worst of its cases.
-        keys_by_values = {
-            (case.parameters.get(row, ""), case.parameters.get(column, "")): keys[case.id]
-            for case in reversed(result.worst)
-            if case.id in keys
-        }
-        yield heat_map(sweep_map, keys_by_values)
+def _scatter(content: SweepContent, fragments: Mapping[str, str]) -> ScatterView | None:
+    rows = SummaryRows(content.folder)
+    if not rows.exists or not is_sampled(content.result):
+        return None
+    return scatter_view(scatter(content.result, rows, fragments), fragments)
 
 
 def _trends(result: SweepResult) -> dict[str, list[TrendPlot]]:
     """Return the plots of each parameter that has any."""
     plots: dict[str, list[TrendPlot]] = {}
     for trend in result.trends:
-        plot = trend_plot(trend, result.rates[trend.parameter])
+        is_log = trend.parameter in result.logarithmic
+        plot = trend_plot(trend, result.rates[trend.parameter], logarithmic=is_log)
         if plot is not None:
             plots.setdefault(trend.parameter, []).append(plot)
     return plots
 
 
-def _frontier(frontier: Frontier | None) -> tuple[FrontierPlot | None, list[tuple[str, str, str]]] | None:
-    return (frontier_plot(frontier), frontier_lines(frontier)) if frontier else None
+def _frontier(result: SweepResult) -> tuple[FrontierPlot | None, list[tuple[str, str, str]]] | None:
+    frontier = result.frontier
+    return (frontier_plot(frontier, result.logarithmic), frontier_lines(frontier)) if frontier else None
+
+
+def _plot_tables(result: SweepResult) -> dict[str, str]:
+    """Return the numbers behind the drawings that have no table of their own, as CSV by file name."""
+    tables = {}
+    if result.trends:
+        tables["trends.csv"] = csv_text(TREND_COLUMNS, chain.from_iterable(map(trend_rows, result.trends)))
+    if result.distributions:
+        rows = [row for each in result.distributions for row in distribution_rows(each)]
+        tables["distributions.csv"] = csv_text(list(dict.fromkeys(chain.from_iterable(rows))), rows)
+    if result.frontier is not None:
+        tables["frontier.csv"] = frontier_csv(result.frontier)
+    return tables

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from uictest.report.page.axis import Axis, Tick, axis_title, span
+from uictest.report.page.sweep.number_axis import NumberAxis, spanned
 from uictest.report.sweep.result import OutcomeCount, Trend
 from uictest.report.wording import counted
 
@@ -61,23 +62,27 @@ class _Value:
         return f"{self.label}: {self.mean:.4g}{reach}, {counted(self.cases, 'case')}{missed}"
 
 
-def trend_plot(trend: Trend, counts: Sequence[OutcomeCount]) -> TrendPlot | None:
+def trend_plot(
+    trend: Trend, counts: Sequence[OutcomeCount], *, logarithmic: bool = False
+) -> TrendPlot | None:
     """Return a trend drawn, None where its parameter has no two numbers of one unit.
 
     Args:
         trend: the trend.
         counts: the counts for each value of the parameter.
+        logarithmic: its axis is.
+
     """
     units = {value.unit for value in trend.values}
     values = sorted(_values(trend, counts), key=lambda value: value.at)
     if len(units) != 1 or len({value.at for value in values}) < 2:
         return None
-    x = Axis(*span([np.array([value.at for value in values])], ()), _LEFT, _RIGHT)
+    x = spanned([value.at for value in values], _LEFT, _RIGHT, logarithmic=logarithmic)
     reached = np.array([(value.minimum, value.maximum) for value in values])
     y = Axis(*span([reached.ravel()], ()), _BOTTOM, _TOP)
     return TrendPlot(
         axis_title(trend.measure, "" if trend.unit == "1" else trend.unit),
-        axis_title(trend.parameter, units.pop()),
+        axis_title(trend.parameter, units.pop()) + (", logarithmic" if x.logarithmic else ""),
         _line((x.at(value.at), y.at(value.mean)) for value in values),
         _band(values, x, y) if any(value.cases > 1 for value in values) else "",
         [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.missed > 0) for v in values],
@@ -95,7 +100,7 @@ def _values(trend: Trend, counts: Sequence[OutcomeCount]) -> Iterator[_Value]:
             yield _Value(at, value.label, cases, count.cases - count.met, minimum, mean, maximum)
 
 
-def _band(values: Sequence[_Value], x: Axis, y: Axis) -> str:
+def _band(values: Sequence[_Value], x: NumberAxis, y: Axis) -> str:
     there = [(x.at(value.at), y.at(value.maximum)) for value in values]
     back = [(x.at(value.at), y.at(value.minimum)) for value in reversed(values)]
     return f"{_line([*there, *back])}Z"

@@ -1,0 +1,8 @@
+"""The runs below a folder: read back, listed in its `index.html`, and pruned.
+
+Names are imported when they are first used.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

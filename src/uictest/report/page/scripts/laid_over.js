@@ -1,0 +1,147 @@
+/* Two sides of a stop over each other, their difference beneath, over time or over distance: drawn once they
+ * come near the window, with one cursor for all panels and the table. */
+const SIDE_STYLES = { "side-a": ["compared-1", "solid"], "side-b": ["compared-2", "6px,2px"], difference: ["train", "solid"] };
+const SIDE_LINES = ["first", "second", "difference"];
+
+const sideRow = ({ curves, marks }, panel) => {
+  const isDifference = panel.lines.some((each) => each.role === "difference");
+  return {
+    title: `${panel.title}, ${panel.unit}`,
+    height: 112 * panel.height,
+    yaxis: { nticks: isDifference ? 4 : 5, zeroline: isDifference, zerolinecolor: colour("quiet"), zerolinewidth: 1 },
+    include: panel.include,
+    traces: () =>
+      panel.lines.filter((each) => each.series in curves).map((each) => {
+        const [ink, dash] = SIDE_STYLES[each.role];
+        return { ...line(each, curves[each.series]), line: { color: colour(ink), width: 1.5, dash } };
+      }),
+    marks: () => marks.filter((mark) => mark.plot === panel.key),
+  };
+};
+
+/* A value of a line; none beyond its ends. */
+const valueWithin = (curve, at) =>
+  curve && at >= curve.x[0] && at <= curve.x.at(-1) ? valueAt(curve, at) : NaN;
+
+/* As many decimals as the points have: they are rounded to a part of the range of their line. */
+const decimalsOf = (curve) => {
+  const known = (curve?.y ?? []).filter(Number.isFinite);
+  const range = known.reduce((most, value) => Math.max(most, value), -Infinity) - known.reduce((least, value) => Math.min(least, value), Infinity);
+  return range > 0 ? Math.min(Math.max(4 - Math.floor(Math.log10(range)), 0), 9) : 3;
+};
+const MOST_PERCENT = 1000; /* beyond, a relative figure says only that its base is nearly 0 */
+const percentText = (value, base) => {
+  if (!base || !Number.isFinite(value / base)) return "–";
+  const percent = (100 * value) / Math.abs(base);
+  if (Math.abs(percent) >= MOST_PERCENT) return percent > 0 ? `> ${MOST_PERCENT}` : `< -${MOST_PERCENT}`;
+  return String(Number(percent.toPrecision(3)));
+};
+
+/* What the cells of a channel read at the cursor. */
+const cursorCells = (row) => {
+  const { channel, relative } = row.dataset;
+  const cells = all("td.number", row);
+  return ({ curves }, at) => {
+    const lines = SIDE_LINES.map((name) => curves[`${name} ${channel}`]);
+    const [a, b, apart] = lines.map((curve) => valueWithin(curve, at));
+    const decimals = decimalsOf(lines[0]);
+    const figures = [a, b, apart].map((value) => text(value, decimals));
+    const shown = Number(figures[0]); /* A is 0 where it reads as 0. */
+    [...figures, relative === "yes" ? percentText(apart, shown && a) : "–"].forEach((own, k) => {
+      cells[k].textContent = own;
+    });
+  };
+};
+
+const abscissae = async (stop) => {
+  const drawnIn = (curves) => stop.panels.filter((panel) => panel.lines.some((each) => each.series in curves));
+  const views = { time: { curves: stop.curves, marks: stop.marks, start: stop.start, end: stop.end,
+    title: "time since the brake command, s", head: "time_s", unit: "s", panels: drawnIn(stop.curves) } };
+  const curves = await unpacked(stop.over_distance);
+  const drawn = Object.values(curves).filter(({ x }) => x.length);
+  if (drawn.length)
+    views.distance = { curves, marks: stop.marks_over_distance, start: Math.min(...drawn.map(({ x }) => x[0])),
+      end: Math.max(...drawn.map(({ x }) => x.at(-1))), title: "distance since the brake command, m", head: "distance_m",
+      unit: "m", panels: drawnIn(curves) };
+  return views;
+};
+
+const offerSideTables = (place, stop, views, shown) => {
+  const pairs = stop.panels.filter((panel) => panel.lines.length > 1);
+  for (const panel of pairs) {
+    const button = make("button", panel.title, { type: "button", "aria-label": `Download ${panel.title} as CSV` });
+    button.addEventListener("click", () => {
+      const { curves, head } = views[shown()];
+      const channel = panel.quantities[0];
+      const points = SIDE_LINES.flatMap((name, k) => {
+        const { x, y } = curves[`${name} ${channel}`] ?? { x: [], y: [] };
+        return Array.from(x, (at, row) => [["A", "B", "B - A"][k], panel.unit, numberText(at, 9), numberText(y[row], 7)]);
+      });
+      save(`${stop.id} ${channel}.csv`, csvOf(stop, panel.title, ["line", "unit", head, "value"], points));
+    });
+    place.append(button);
+  }
+};
+
+const drawSides = async (plots) => {
+  const Plotly = await plotly();
+  const stop = await stopOf(plots.nextElementSibling);
+  const views = await abscissae(stop);
+  const panels = first(".panels-plot", plots);
+  const slider = first(".slider input", plots);
+  const cells = all(".at-cursor tbody tr", plots).map(cursorCells);
+  const shown = () => chosen(plots, "across") || "time";
+  const paint = () => {
+    const { curves, marks, start, end, title, panels: own } = views[shown()];
+    const rows = own.map((panel) => sideRow({ curves, marks }, panel));
+    const { traces, layout } = gridFigure({ rows, columns: [ROWS], width: panels.clientWidth, start, end, across: title });
+    return Plotly.react(panels, traces, layout, configOf(panels.clientWidth));
+  };
+  panels.hidden = false;
+  for (const each of all(".sketch", plots)) each.hidden = true;
+  await paint();
+  redraw.push(paint);
+  const mark = uprights(panels, "cursor-line");
+  const show = (wanted) => {
+    const view = views[shown()];
+    const at = Math.max(view.start, Math.min(wanted, view.end));
+    slider.value = (slider.max * (at - view.start)) / (view.end - view.start || 1);
+    slider.setAttribute("aria-valuetext", `${text(at, 2)} ${view.unit}`);
+    first(".slider output", plots).textContent = `${text(at, 2)} ${view.unit}`;
+    for (const read of cells) read(view, at);
+    mark(at, at);
+  };
+  slider.addEventListener("input", () => {
+    const { start, end } = views[shown()];
+    show(start + (slider.value / slider.max) * (end - start));
+  });
+  panels.on("plotly_hover", ({ xvals }) => show(xvals[0]));
+  const choice = first('[data-choice="across"]', plots);
+  choice?.addEventListener("change", async () => {
+    await paint();
+    show(views[shown()].start);
+  });
+  for (const button of all("button.moment", plots))
+    button.addEventListener("click", async () => {
+      if (choice && choice.value !== "time") {
+        choice.value = "time";
+        await paint();
+      }
+      show(Number(button.dataset.at));
+      panels.scrollIntoView({ block: "nearest" });
+    });
+  offerSideTables(first(".tables", plots), stop, views, shown);
+  show(Number(first("button.moment", plots)?.dataset.at ?? stop.start));
+  plots.dataset.ready = "yes";
+};
+
+if (canPlot) {
+  const near = new IntersectionObserver((entries) => {
+    for (const { isIntersecting, target: plots } of entries)
+      if (isIntersecting) {
+        near.unobserve(plots);
+        drawSides(plots);
+      }
+  }, { rootMargin: "600px" });
+  for (const plots of all(".plots.laid-over")) near.observe(plots);
+}

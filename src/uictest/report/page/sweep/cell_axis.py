@@ -1,0 +1,153 @@
+"""Where the rows and columns of a heat map lie: on a linear, a logarithmic or a listed axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final, Literal
+
+from uictest.report.page.axis import Tick, axis_title
+from uictest.report.page.sweep.number_axis import NumberAxis
+from uictest.report.sweep.folding import short_label
+from uictest.report.sweep.map_cells import CellAxis
+from uictest.report.sweep.values import DrawnInterval, SweptValue
+
+Spacing = Literal["linear", "logarithmic", "listed"]
+
+_NARROWEST: Final = 0.3
+"""Smallest width of a cell over the mean width on a linear or logarithmic axis: chosen, to be readable."""
+_PIXELS_PER_LETTER: Final = 6.2
+_LONGEST_LABEL: Final = 22
+_MOST_LABELS: Final = 16
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedCells:
+    """The cells along one side in pixels.
+
+    Args:
+        title: parameter, unit, and what is special about the axis.
+        spacing: of the values.
+        edges: ends of the cells in pixels: one more than there are cells.
+        ticks: where labels stand, and what they say.
+        slanted: the labels are too long to stand side by side.
+
+    """
+
+    title: str
+    spacing: Spacing
+    edges: Sequence[float]
+    ticks: Sequence[Tick]
+    slanted: bool
+
+    def span(self, place: int) -> tuple[float, float]:
+        """Return the pixels of a cell, the smaller one first."""
+        first, last = self.edges[place : place + 2]
+        return min(first, last), max(first, last)
+
+
+def placed_cells(
+    axis: CellAxis, logarithmic: Collection[str], start: float, end: float, *, upright: bool = False
+) -> PlacedCells:
+    """Return the cells of an axis between two pixels.
+
+    Numbers lie where they belong; texts, and numbers that would leave cells too narrow to read, are listed
+    one beside the other with the same width.
+    """
+    is_log = axis.parameter in logarithmic
+    bounds = _bounds(axis.groups, logarithmic=is_log)
+    if bounds is None:
+        # The first row of a list stands on top.
+        return _listed(axis, *((end, start) if upright else (start, end)), upright=upright)
+    numbers = NumberAxis(min(bounds), max(bounds), start, end, is_log)
+    edges = list(map(numbers.at, bounds))
+    ticks = [_number_tick(group, numbers) for group in axis.groups]
+    if _intervals(axis.groups) or len(ticks) > _MOST_LABELS or not (upright or _fit(ticks)):
+        ticks = numbers.tick_marks(7)
+        ticks = ticks if upright else _apart(ticks)
+    title = axis_title(axis.parameter, axis.groups[0][0].unit) + (", logarithmic" if is_log else "")
+    return PlacedCells(title, "logarithmic" if is_log else "linear", edges, ticks, slanted=False)
+
+
+def _listed(axis: CellAxis, start: float, end: float, *, upright: bool) -> PlacedCells:
+    edges = [start + (end - start) * k / len(axis.groups) for k in range(len(axis.groups) + 1)]
+    labels = [_shortened(short_label(group)) for group in axis.groups]
+    ticks = [((edges[k] + edges[k + 1]) / 2, label) for k, label in enumerate(labels)]
+    ticks = ticks[:: -(-len(ticks) // _MOST_LABELS)]
+    return PlacedCells(axis.parameter, "listed", edges, ticks, slanted=not (upright or _fit(ticks)))
+
+
+def label_pixels(ticks: Sequence[Tick]) -> float:
+    """Return about how long the longest label is."""
+    return _PIXELS_PER_LETTER * max((len(label) for _, label in ticks), default=0)
+
+
+def _bounds(groups: Sequence[Sequence[SweptValue]], *, logarithmic: bool) -> list[float] | None:
+    """Return the ends of the cells as numbers, None where they are listed."""
+    values = [value for group in groups for value in group]
+    if len({value.unit for value in values}) != 1:
+        return None
+    if _intervals(groups):
+        return [groups[0][0].low, *(group[-1].high for group in groups)]  # type: ignore[union-attr]
+    numbers = [value.number for value in values]
+    if None in numbers or len(groups) < 2 or not _is_monotonic(numbers):  # type: ignore[arg-type]
+        return None
+    bounds = _between_values(groups, logarithmic=logarithmic)
+    return bounds if _are_readable(bounds, logarithmic=logarithmic) else None
+
+
+def _between_values(groups: Sequence[Sequence[SweptValue]], *, logarithmic: bool) -> list[float]:
+    """Return the middles between the values of neighbouring cells, and as far beyond the outer ones."""
+    to, back = (math.log, math.exp) if logarithmic else (float, float)
+    ends = [(to(group[0].number), to(group[-1].number)) for group in groups]  # type: ignore[arg-type]
+    inner = [(before[1] + after[0]) / 2 for before, after in pairwise(ends)]
+    first = ends[0][0] - (inner[0] - ends[0][1])
+    last = ends[-1][1] + (ends[-1][0] - inner[-1])
+    return [back(bound) for bound in (first, *inner, last)]
+
+
+def _are_readable(bounds: Sequence[float], *, logarithmic: bool) -> bool:
+    scaled = list(map(math.log, bounds)) if logarithmic else bounds
+    widths = [abs(after - before) for before, after in pairwise(scaled)]
+    return min(widths) >= _NARROWEST * sum(widths) / len(widths)
+
+
+def _is_monotonic(numbers: Sequence[float]) -> bool:
+    steps = [after - before for before, after in pairwise(numbers)]
+    return all(step > 0.0 for step in steps) or all(step < 0.0 for step in steps)
+
+
+def _intervals(groups: Sequence[Sequence[SweptValue]]) -> bool:
+    return all(isinstance(value, DrawnInterval) for group in groups for value in group)
+
+
+def _number_tick(group: Sequence[SweptValue], numbers: NumberAxis) -> Tick:
+    """Return where the number of a cell lies, which is its middle only on an even axis, and its label."""
+    ends = group[0], group[-1]
+    pixels = [numbers.at(value.number) for value in ends if value.number is not None]
+    texts = [value.label.split(" ", 1)[0] for value in ends]
+    return sum(pixels) / len(pixels), texts[0] if len(group) == 1 else " … ".join(texts)
+
+
+def _shortened(label: str) -> str:
+    return label if len(label) <= _LONGEST_LABEL else f"{label[: _LONGEST_LABEL - 1]}…"
+
+
+def _apart(ticks: Sequence[Tick]) -> list[Tick]:
+    """Return the ticks without those whose labels would touch the one before."""
+    kept: list[Tick] = []
+    for tick in ticks:
+        if not kept or _fit([kept[-1], tick]):
+            kept.append(tick)
+    return kept
+
+
+def _fit(ticks: Sequence[Tick]) -> bool:
+    """Return whether labels side by side keep apart."""
+    lengths = [len(label) * _PIXELS_PER_LETTER for _, label in ticks]
+    return all(
+        abs(ticks[k + 1][0] - ticks[k][0]) > (lengths[k] + lengths[k + 1]) / 2 + 5
+        for k in range(len(ticks) - 1)
+    )

@@ -1,0 +1,1 @@
+"""Recorded stops of validation and series files, run beside their simulations."""

@@ -1,0 +1,139 @@
+"""The recorded stops of a validation: which count, their cases, their figures and conditions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from uictest import campaign, evaluation, field_data, scenario, validation
+from uictest.runs.invalid_input import InvalidInputError
+from uictest.runs.recorded.files import RecordedFile, named_map, read_files
+from uictest.scenario import yaml
+from uictest.units import KILOMETRE_PER_HOUR
+
+_DISTANCE: Final = "braking_distance_m"
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedStopOfPlan:
+    """A recorded stop: its file, the case as planned, and that from the recorded speed where it is usable."""
+
+    file: RecordedFile
+    planned: validation.PlannedComparison
+    case: scenario.Case
+    not_counted: str
+
+
+def recorded_stops(
+    plan: validation.ValidationPlan, trusted: Sequence[Path] | None
+) -> tuple[list[RecordedStopOfPlan], dict[str, str]]:
+    """Return the recorded stops of a plan, and every file that was read with its SHA-256.
+
+    Raises InvalidInputError where a file cannot be read, or two stops have one id.
+    """
+    read = dict(plan.inputs)
+    stops = _counted_once([stop for each in plan.comparisons for stop in _stops(plan, each, read, trusted)])
+    _require_distinct(plan, stops)
+    return stops, read
+
+
+def compared_stop(
+    stop: RecordedStopOfPlan, simulated: evaluation.CaseResult | None
+) -> validation.ComparedStop:
+    """Return a recorded stop beside its simulation, if it has one."""
+    file = stop.file
+    found = validation.ComparedStop(
+        id=stop.case.id,
+        recording=yaml.display_name(file.path),
+        sha256=file.digest,
+        initial_speed=float(stop.case.scenario.initial_speed),
+        repeats=stop.case.scenario.repeat,
+        tuned=stop.planned.tuned,
+        not_counted=stop.not_counted,
+    )
+    if file.stop is None or simulated is None:
+        return found
+    recorded, _ = field_data.judge_recording(stop.case, file.stop)
+    found = replace(
+        found, recorded=validation.figures_of(recorded), simulated=validation.figures_of(simulated)
+    )
+    return replace(found, not_counted=found.not_counted or _missing_end(found, simulated))
+
+
+def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
+    """Return the conditions of a stop as planned and as recorded."""
+    parts = campaign.parts_of_cases([replace(stop.planned.case, id="planned"), stop.case])
+    return [validation.conditions_of(each) for each in parts.values()]
+
+
+def _stops(
+    plan: validation.ValidationPlan,
+    planned: validation.PlannedComparison,
+    read: dict[str, str],
+    trusted: Sequence[Path] | None,
+) -> Iterator[RecordedStopOfPlan]:
+    """Yield the recorded stops of a comparison; the files read for it are added to `read`."""
+    mapped, inputs = named_map(planned.recorded.channel_map, trusted)
+    read |= inputs
+    for file in read_files(planned.recorded.files, mapped):
+        read[yaml.display_name(file.path)] = file.digest
+        case_id = f"{planned.case.id}.{file.name}"
+        case = replace(planned.case, id=case_id)
+        if file.stop is not None:
+            case = validation.as_recorded(planned.case, case_id, _speed(file.stop))
+        yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
+
+
+def _require_distinct(plan: validation.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
+    """Raise InvalidInputError where two stops have one id: each is compared with the simulation of its id."""
+    files: dict[str, Path] = {}
+    for stop in stops:
+        if stop.case.id in files:
+            raise InvalidInputError(
+                f"{plan.path}: a second recorded stop {stop.case.id!r}, of {stop.file.path} and"
+                f" {files[stop.case.id]}: rename one of the files"
+            )
+        files[stop.case.id] = stop.file.path
+
+
+def _counted_once(stops: Sequence[RecordedStopOfPlan]) -> list[RecordedStopOfPlan]:
+    """Return stops of which a copy of another's record does not count; the one that is tuned comes first."""
+    first: dict[str, RecordedStopOfPlan] = {}
+    for stop in sorted(stops, key=lambda stop: not stop.planned.tuned):
+        first.setdefault(stop.file.digest, stop)
+    return [
+        stop
+        if first[stop.file.digest] is stop or stop.not_counted
+        else replace(stop, not_counted=f"a copy of {yaml.display_name(first[stop.file.digest].file.path)}")
+        for stop in stops
+    ]
+
+
+def _why_not_counted(
+    plan: validation.ValidationPlan, planned: validation.PlannedComparison, file: RecordedFile
+) -> str:
+    if file.stop is None:
+        return "; ".join(map(str, file.defects))
+    nominal, speed = float(planned.case.scenario.initial_speed), _speed(file.stop)
+    if abs(speed - nominal) > plan.speed_tolerance:
+        stated = f"{nominal / KILOMETRE_PER_HOUR:.4g} km/h"
+        within = f"{plan.speed_tolerance / KILOMETRE_PER_HOUR:.3g} km/h"
+        return f"its scenario begins at {stated}, more than {within} away"
+    return ""
+
+
+def _speed(stop: field_data.RecordedStop) -> float:
+    return float(stop.recording["speed"][0])
+
+
+def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult) -> str:
+    """Return why the stop has no end: conditions under which it had none were not validated."""
+    if simulated.outcome == "error":
+        return f"simulation: {simulated.reason}"
+    for figures, of_what in ((stop.recorded, "record"), (stop.simulated, "simulation")):
+        if math.isnan(figures[_DISTANCE]):
+            return f"the {of_what} has no braking distance: it ends before standstill, or has a gap"
+    return ""

@@ -1,0 +1,106 @@
+"""A page for each study, and one that lists them: one document each, which loads nothing."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from markupsafe import Markup
+
+from uictest import report
+from uictest.report.page import render
+from uictest.studies import band_plot
+from uictest.studies.comparison import band_text, ours_text, paper_text
+from uictest.studies.quantity import BandStatus, PaperComparison
+from uictest.studies.study import Study, StudyResult
+
+STUDY_MARK: Final = "uictest/study-page/1"
+STUDIES_MARK: Final = "uictest/studies-page/1"
+_TONES: Final[Mapping[BandStatus, str]] = {"holds": "good", "misses": "bad", "shown": "none"}
+_TYPES: Final = {".svg": "image/svg+xml", ".png": "image/png"}
+
+
+@dataclass(frozen=True, slots=True)
+class StudyFigure:
+    """A figure: its name, and the file that the page holds."""
+
+    name: str
+    file: Path
+
+    @property
+    def source(self) -> Markup:
+        """The file as a URL of its own."""
+        content = b64encode(self.file.read_bytes()).decode("ascii")
+        return Markup(f"data:{_TYPES[self.file.suffix]};base64,{content}")
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityRow:
+    """A quantity of a study as the page shows it."""
+
+    comparison: PaperComparison
+    ours: str
+    band: str
+    plot: band_plot.BandPlot | None
+
+
+def study_html(result: StudyResult, figures: Sequence[StudyFigure], manifest: report.RunManifest) -> str:
+    """Return the page of a study. Raises OSError where a figure cannot be read."""
+    return render(
+        "study.html.j2",
+        with_plots=False,
+        running_head=result.study.name,
+        mark=STUDY_MARK,
+        result=result,
+        study=result.study,
+        paper=paper_text(result.study),
+        tally=tally(result),
+        rows=[_row(each) for each in result.comparisons],
+        figures=figures,
+        content={"manifest": manifest},
+        **_words(),
+    )
+
+
+def studies_html(
+    results: Sequence[StudyResult], earlier: Sequence[Study], manifest: report.RunManifest
+) -> str:
+    """Return the list of studies; `earlier` are those with a page from an earlier run."""
+    return render(
+        "studies.html.j2",
+        with_plots=False,
+        running_head="studies",
+        mark=STUDIES_MARK,
+        results=results,
+        earlier=earlier,
+        missed=sum(each.status == "misses" for each in results),
+        tally=tally,
+        content={"manifest": manifest},
+        **_words(),
+    )
+
+
+def tally(result: StudyResult) -> str:
+    """Return how many values hold, miss, and are only shown, e.g. `3 values: 2 hold, 1 shown`."""
+    statuses = [comparison.status for comparison in result.comparisons]
+    words = {"holds": "hold", "misses": "miss", "shown": "shown"}
+    counts = [f"{statuses.count(status)} {word}" for status, word in words.items() if status in statuses]
+    return f"{report.counted(len(statuses), 'value')}: {', '.join(counts)}" if counts else "no value"
+
+
+def _words() -> dict[str, Any]:
+    return {
+        "counted": report.counted,
+        "tones": _TONES,
+        "plot_width": band_plot.WIDTH,
+        "plot_height": band_plot.HEIGHT,
+    }
+
+
+def _row(comparison: PaperComparison) -> QuantityRow:
+    return QuantityRow(
+        comparison, ours_text(comparison), band_text(comparison.quantity), band_plot.band_plot(comparison)
+    )

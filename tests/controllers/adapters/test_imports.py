@@ -1,0 +1,52 @@
+"""Which modules a process holds, while others import."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from uictest.controllers.adapters import imports
+
+
+@pytest.fixture
+def importing_elsewhere() -> Iterator[None]:
+    """Let modules be imported whenever the garbage collector runs, which is at nearly every object."""
+    numbers, thresholds, before = count(), gc.get_threshold(), set(sys.modules)
+
+    def import_another(phase: str, info: dict[str, Any]) -> None:
+        name = f"imported_meanwhile_{next(numbers)}"
+        sys.modules[name] = ModuleType(name)
+
+    gc.callbacks.append(import_another)
+    gc.set_threshold(1)
+    yield
+    gc.set_threshold(*thresholds)
+    gc.callbacks.remove(import_another)
+    for name in set(sys.modules) - before:
+        del sys.modules[name]
+
+
+@pytest.mark.usefixtures("importing_elsewhere")
+def test_an_import_of_another_thread_is_no_error_of_a_controller(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(imports, "_FOLDERS", set())
+    imports.check_imports(tmp_path / "wsp.py")
+    imports.check_imports(tmp_path / "other" / "wsp.py")
+
+
+def test_looking_for_modules_imports_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Lazy(ModuleType):
+        def __getattr__(self, name: str) -> Any:
+            raise ImportError(f"{name} needs an extra")
+
+    monkeypatch.setitem(sys.modules, "lazy_module_of_a_test", Lazy("lazy_module_of_a_test"))
+    monkeypatch.setattr(imports, "_FOLDERS", {tmp_path})
+    imports.check_imports(tmp_path / "other" / "wsp.py")

@@ -1,0 +1,191 @@
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+import pytest
+
+from uictest import recording
+from uictest.folder_lock import FolderLock
+from uictest.history import index_file, refresh_index
+
+from .conftest import Publish, case
+
+HOSTILE = "<script>alert(1)</script>'\"&\u202e"
+
+
+def links(page: Path) -> list[str]:
+    return re.findall(r'href="([^"]*)"', page.read_text("utf-8"))
+
+
+def test_every_run_stands_in_the_index_the_newest_first(publish: Publish, reports: Path) -> None:
+    runs = [publish(case("a")), publish(case("b")), publish(case("c", "fail"))]
+    to_runs = [link for link in links(reports / "index.html") if link.endswith("index.html")]
+    assert to_runs[:3] == [f"./{run.name}/index.html" for run in reversed(runs)]
+
+
+def test_a_case_leads_to_itself_on_the_page_of_the_newest_run_that_has_it(
+    publish: Publish, reports: Path
+) -> None:
+    run = publish(case("slip-120[friction=0.09]"))
+    publish(case("other"))
+    link = f"./{run.name}/index.html#case-slip-120%5Bfriction%3D0.09%5D"
+    assert link in links(reports / "index.html")
+
+
+def test_without_runs_the_index_says_so(tmp_path: Path) -> None:
+    assert refresh_index(tmp_path) == ""
+    assert "There is no finished run here." in (tmp_path / "index.html").read_text("utf-8")
+
+
+def test_older_runs_are_folded_and_counted(publish: Publish, reports: Path) -> None:
+    for _ in range(21):
+        publish(formats=())
+    page = (reports / "index.html").read_text("utf-8")
+    assert "<summary>1 older run</summary>" in page
+    assert all(run.name in page for run in reports.glob("2*Z-*"))
+
+
+def test_what_is_no_run_is_stated_with_its_reason(publish: Publish, reports: Path) -> None:
+    publish()
+    (reports / "notes").mkdir()
+    (reports / "half").mkdir()
+    (reports / "half" / "manifest.json").write_text("{")
+    (reports / ".x.0123.partial").mkdir()
+    assert refresh_index(reports) == ""
+    page = (reports / "index.html").read_text("utf-8")
+    assert "<code>notes</code>: not of uictest: there is no manifest.json" in page
+    assert "<code>half</code>: manifest.json is damaged" in page
+    assert "1 folder being filled, or left by a killed run." in page
+
+
+def test_hostile_names_are_text(publish: Publish, reports: Path) -> None:
+    publish(case(HOSTILE.replace("/", "|")), command=("run", HOSTILE))
+    (reports / HOSTILE.replace("/", "|")).mkdir()
+    (reports / "javascript:alert(1)").mkdir()
+    assert refresh_index(reports) == ""
+    page = (reports / "index.html").read_text("utf-8")
+    assert "<script>alert" not in page
+    assert "\u202e" not in page
+    assert all(link.startswith(("./", "#")) for link in links(reports / "index.html"))
+
+
+@pytest.mark.parametrize("name", ["a b", "javascript:x", "per%cent", "q?a=b#c", "ü", "a%2f.."])
+def test_a_renamed_run_is_still_found_by_its_link(publish: Publish, reports: Path, name: str) -> None:
+    publish().rename(reports / name)
+    assert refresh_index(reports) == ""
+    found = [link for link in links(reports / "index.html") if "/index.html" in link]
+    assert found
+    for link in found:
+        parts = urlsplit(link)
+        assert parts.scheme == parts.netloc == ""
+        assert (reports / unquote(parts.path)).resolve() == reports / name / "index.html"
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="every name of a file is Unicode")
+def test_names_that_are_no_unicode_are_spelled_out(publish: Publish, reports: Path) -> None:
+    publish().rename(reports / os.fsdecode(b"L\xe4ufe"))
+    (reports / os.fsdecode(b"Entw\xfcrfe")).mkdir()
+    assert refresh_index(reports) == ""
+    page = (reports / "index.html").read_text("utf-8")
+    assert "./L%E4ufe/index.html" in page
+    assert "Entw\\udcfcrfe" in page
+
+
+def test_a_page_of_somebody_else_is_left_alone(publish: Publish, reports: Path) -> None:
+    reports.mkdir()
+    (reports / "index.html").write_text("my own page")
+    publish()
+    assert (reports / "index.html").read_text() == "my own page"
+    assert "is no index of runs" in refresh_index(reports)
+
+
+def test_a_link_in_its_place_is_left_alone(publish: Publish, reports: Path, tmp_path: Path) -> None:
+    reports.mkdir()
+    (reports / "index.html").symlink_to(tmp_path / "elsewhere.html")
+    publish()
+    assert (reports / "index.html").is_symlink()
+    assert not (tmp_path / "elsewhere.html").exists()
+
+
+def test_the_page_of_a_run_is_not_taken_for_an_index(publish: Publish) -> None:
+    run = publish()
+    before = (run / "index.html").read_bytes()
+    assert "is no index of runs" in refresh_index(run)
+    assert (run / "index.html").read_bytes() == before
+
+
+def test_an_index_that_cannot_be_written_undoes_no_run(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(index_file, "list_runs", fail)
+    run = publish()
+    assert (run / "results.json").is_file()
+    assert not (reports / "index.html").exists()
+    assert "No space left on device" in refresh_index(reports)
+
+
+def test_nothing_half_written_and_no_lock_is_left(publish: Publish, reports: Path) -> None:
+    run = publish()
+    assert {path.name for path in reports.iterdir()} == {run.name, "latest", "index.html"}
+
+
+def test_an_index_waits_for_the_one_that_is_being_written(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The second starts to read only when the first has written: neither can miss the other's run."""
+    publish()
+    order: list[str] = []
+    write = recording.write_text_atomic
+
+    def noted(path: Path, text: str) -> None:
+        order.append("written")
+        write(path, text)
+
+    monkeypatch.setattr(recording, "write_text_atomic", noted)
+    second = threading.Thread(target=refresh_index, args=(reports,))
+    with FolderLock(reports):
+        second.start()
+        second.join(timeout=0.3)
+        assert order == []
+    second.join()
+    assert order == ["written"]
+
+
+def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publish()
+    monkeypatch.setattr(index_file, "_PATIENCE", 0.0)
+    with FolderLock(reports):
+        assert "is in use by" in refresh_index(reports)
+
+
+AT_ONCE = """
+import sys
+from pathlib import Path
+from uictest import evaluation, report, runs
+for n in range(4):
+    result = evaluation.CaseResult(f"case-{sys.argv[1]}-{n}", "s.yaml", {}, "pass", "pass")
+    manifest = report.RunManifest(command=("uictest", "run", sys.argv[1], str(n)))
+    published = runs.publish_run(report.RunContent("", [result], manifest), {}, Path("reports"), ())
+    assert published.index_problem == "", published.index_problem
+"""
+
+
+def test_runs_that_end_at_once_all_stand_in_the_index(reports: Path) -> None:
+    processes: list[Any] = [
+        subprocess.Popen([sys.executable, "-c", AT_ONCE, str(each)], cwd=reports.parent) for each in range(3)
+    ]
+    assert [process.wait() for process in processes] == [0, 0, 0]
+    page = (reports / "index.html").read_text("utf-8")
+    assert [f"case-{each}-{n}" in page for each in range(3) for n in range(4)] == [True] * 12

@@ -1,0 +1,276 @@
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest import report
+from uictest.folder_lock import FolderLock
+from uictest.history import foreign_file, prune
+
+from .conftest import Publish, case
+
+
+def fates(reports: Path, keep: int, written: Path, *referred: Path, kind: str = "run") -> dict[str, str]:
+    return {
+        each.name: each.kept_because
+        for each in prune(reports, kind, keep, written.name, referred)  # type: ignore[arg-type]
+    }
+
+
+def test_the_newest_stay_and_the_others_go(publish: Publish, reports: Path) -> None:
+    runs = [publish() for _ in range(5)]
+    assert fates(reports, 2, runs[-1]) == {run.name: "" for run in reversed(runs[:3])}
+    assert [run.exists() for run in runs] == [False, False, False, True, True]
+
+
+def test_nothing_goes_where_there_are_not_more(publish: Publish, reports: Path) -> None:
+    runs = [publish() for _ in range(3)]
+    assert fates(reports, 3, runs[-1]) == {}
+    assert all(run.exists() for run in runs)
+
+
+def test_the_run_just_written_stays_though_the_clock_went_back(publish: Publish, reports: Path) -> None:
+    written, later = publish(), publish()
+    assert fates(reports, 1, written) == {later.name: "the link latest refers to it"}
+    assert written.exists()
+
+
+def test_at_least_one_run_stays(publish: Publish, reports: Path) -> None:
+    run = publish()
+    with pytest.raises(ValueError, match="at least 1 run stays"):
+        fates(reports, 0, run)
+    assert run.exists()
+
+
+def _add_a_note(run: Path) -> None:
+    (run / "review.md").write_text("seen by me")
+
+
+def _add_a_recording_of_the_user(run: Path) -> None:
+    (run / "recordings").mkdir(exist_ok=True)
+    (run / "recordings" / "mine.csv").write_text("time")
+
+
+def _add_a_link(run: Path) -> None:
+    (run / "summary.csv").unlink()
+    (run / "summary.csv").symlink_to("wheelsets.csv")
+
+
+def _link_to_it(run: Path) -> None:
+    (run.parent / "accepted").symlink_to(run.name)
+
+
+def _link_into_it(run: Path) -> None:
+    (run.parent / "figures.csv").symlink_to(run / "summary.csv")
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (_add_a_note, "it holds review.md, which uictest did not write"),
+        (_add_a_recording_of_the_user, "it holds recordings/mine.csv, which uictest did not write"),
+        (_add_a_link, "it holds summary.csv, which uictest did not write"),
+        (_link_to_it, "the link accepted refers to it"),
+        (_link_into_it, "the link figures.csv refers to it"),
+    ],
+)
+def test_what_somebody_may_need_stays_and_the_reason_is_given(
+    publish: Publish, reports: Path, change: Callable[[Path], None], reason: str
+) -> None:
+    old, newest = publish(), publish()
+    change(old)
+    before = sorted(old.rglob("*"))
+    assert fates(reports, 1, newest) == {old.name: reason}
+    assert sorted(old.rglob("*")) == before
+
+
+def test_what_the_command_line_names_stays(publish: Publish, reports: Path) -> None:
+    baseline, other, newest = publish(), publish(), publish()
+    named = [baseline / "results.json", Path("elsewhere")]
+    found = fates(reports, 1, newest, *named)
+    assert found == {other.name: "", baseline.name: "the command line refers to it"}
+
+
+def test_what_a_run_that_stays_was_computed_from_stays(publish: Publish, reports: Path) -> None:
+    source, other = publish(), publish()
+    newest = publish(inputs={f"reports/{source.name}/recordings/a.parquet": "00"})
+    assert fates(reports, 1, newest) == {other.name: "", source.name: f"{newest.name} refers to it"}
+
+
+def test_what_a_run_that_stays_for_a_reason_refers_to_stays_too(publish: Publish, reports: Path) -> None:
+    source = publish()
+    middle = publish(inputs={f"reports/{source.name}/results.json": "00"})
+    newest = publish()
+    _add_a_note(middle)
+    found = fates(reports, 1, newest)
+    assert found[source.name] == f"{middle.name} refers to it"
+
+
+def test_what_no_path_can_be_is_no_reference(publish: Publish, reports: Path) -> None:
+    old, newest = publish(), publish(inputs={"a\0b": "00"})
+    assert fates(reports, 1, newest) == {old.name: ""}
+
+
+def test_the_baseline_of_a_run_that_stays_stays(publish: Publish, reports: Path) -> None:
+    source = publish()
+    newest = publish(baseline=report.BaselineComparison(f"reports/{source.name}", "00"))
+    assert fates(reports, 1, newest) == {source.name: f"{newest.name} refers to it"}
+
+
+def test_a_folder_with_a_name_of_the_user_stays(publish: Publish, reports: Path) -> None:
+    """A baseline has nothing but files that uictest wrote."""
+    old, newest = publish(), publish()
+    for name in ("index.html", "index-entry.json", "junit.xml"):
+        (old / name).unlink(missing_ok=True)
+    baseline = old.rename(reports / "baseline")
+    assert fates(reports, 1, newest) == {"baseline": "somebody gave it this name, as to a baseline"}
+    assert (baseline / "results.json").is_file()
+
+
+def test_what_runs_refer_to_is_known_from_every_working_folder(
+    publish: Publish, reports: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    baseline, source, other = publish(), publish(), publish()
+    newest = publish(
+        baseline=report.BaselineComparison(f"reports/{baseline.name}", "00"),
+        inputs={f"reports/{source.name}/recordings/a.parquet": "00"},
+    )
+    monkeypatch.chdir("/")
+    said = f"{newest.name} refers to it"
+    assert fates(reports, 1, newest) == {other.name: "", source.name: said, baseline.name: said}
+
+
+def test_a_file_that_was_given_by_an_absolute_path_is_known_by_its_content(
+    publish: Publish, reports: Path
+) -> None:
+    source, alike = publish(), publish()
+    for run in (source, alike):
+        (run / "recordings").mkdir()
+        (run / "recordings" / "a.parquet").write_text(run.name)
+    digest = hashlib.sha256(source.name.encode()).hexdigest()
+    newest = publish(inputs={".../a.parquet": digest})
+    assert fates(reports, 1, newest) == {alike.name: "", source.name: f"{newest.name} refers to it"}
+
+
+def test_two_runs_that_end_together_do_not_remove_each_other(publish: Publish, reports: Path) -> None:
+    own, other = publish(), publish()
+    (reports / "latest").unlink()  # between its publication and the renewal of the link
+    assert fates(reports, 1, own) == {other.name: "another process wrote it after this run"}
+    assert fates(reports, 1, other) == {own.name: ""}
+    assert other.exists()
+
+
+def test_a_link_that_leads_to_itself_and_a_damaged_path_refer_to_nothing(
+    publish: Publish, reports: Path
+) -> None:
+    old, newest = publish(), publish(inputs={"a\0b": "00"})
+    (reports / "loop").symlink_to("loop")
+    (reports / "latest").unlink()
+    (reports / "latest").symlink_to("latest")
+    assert fates(reports, 1, newest) == {old.name: ""}
+
+
+def test_an_incomplete_run_stays(publish: Publish, reports: Path) -> None:
+    old, newest = publish(complete=False), publish()
+    assert fates(reports, 1, newest) == {old.name: "it is incomplete"}
+
+
+def test_a_folder_in_use_stays_as_it_is(publish: Publish, reports: Path) -> None:
+    old, newest = publish(), publish()
+    with FolderLock(old):
+        # The file of the lock is ours, and no reason of its own.
+        assert "it is in use by" in fates(reports, 1, newest)[old.name]
+    assert (old / "results.json").is_file()
+
+
+def test_runs_of_other_kinds_do_not_count_and_stay(publish: Publish, reports: Path) -> None:
+    evaluated = [publish(command=("evaluate", "a.csv")) for _ in range(2)]
+    old, newest = publish(), publish()
+    assert fates(reports, 1, newest) == {old.name: ""}
+    assert all(each.exists() for each in evaluated)
+
+
+@pytest.mark.parametrize(
+    "content", [{}, {"manifest.json": "{"}, {"manifest.json": '{"schema": "theirs"}', "results.json": "{}"}]
+)
+def test_what_uictest_did_not_write_is_never_touched(
+    publish: Publish, reports: Path, content: dict[str, str]
+) -> None:
+    newest = publish()
+    foreign = reports / "20200101T000000Z-00000000"
+    foreign.mkdir()
+    for name, text in content.items():
+        (foreign / name).write_text(text)
+    assert fates(reports, 1, newest) == {}
+    assert foreign.is_dir()
+
+
+def test_damaged_runs_stay(publish: Publish, reports: Path) -> None:
+    old, newest = publish(), publish()
+    (old / "results.json").write_text("{")
+    assert fates(reports, 1, newest) == {}
+    assert old.is_dir()
+
+
+def test_a_run_behind_a_link_stays(publish: Publish, reports: Path, tmp_path: Path) -> None:
+    old, newest = publish(), publish()
+    elsewhere = old.rename(tmp_path / "archive")
+    (reports / old.name).symlink_to(elsewhere)
+    assert fates(reports, 1, newest) == {}
+    assert (elsewhere / "results.json").is_file()
+
+
+def test_a_removal_that_fails_is_a_reason(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old, newest = publish(), publish()
+
+    def refuse(*_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "rename", refuse)
+    assert fates(reports, 1, newest) == {old.name: "it cannot be removed: Permission denied"}
+    assert (old / "results.json").is_file()
+
+
+def test_a_removal_cut_short_is_completed_by_the_next_run(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The rest has a hidden name, which no list shows, and belongs to nobody."""
+    old, newest = publish(), publish()
+
+    def stop(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("uictest.history.pruning.shutil.rmtree", stop)
+        with pytest.raises(KeyboardInterrupt):
+            fates(reports, 1, newest)
+    assert not old.exists()
+    assert len(list(reports.glob(".*.partial"))) == 1
+    publish()
+    assert list(reports.glob(".*.partial")) == []
+
+
+def test_uictest_knows_every_file_that_it_writes(publish: Publish) -> None:
+    run = publish(case("a"), formats=tuple(report.format_names()))
+    (run / "recordings").mkdir()
+    (run / "recordings" / "slip-120[friction=0.09].parquet").write_bytes(b"")
+    assert foreign_file(run) == ""
+
+
+@pytest.mark.parametrize("name", ["notes.csv", "recordings/a/b.parquet", "index.html.bak", "sub/run.json"])
+def test_a_file_that_it_does_not_write_is_found(publish: Publish, name: str) -> None:
+    run = publish()
+    (run / name).parent.mkdir(parents=True, exist_ok=True)
+    (run / name).write_text("")
+    assert foreign_file(run) == name
+
+
+def test_an_empty_folder_is_not_of_uictest_either(publish: Publish) -> None:
+    run = publish()
+    (run / "mine").mkdir()
+    assert foreign_file(run) == "mine"

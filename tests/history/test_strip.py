@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import re
+from datetime import UTC, datetime
+
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest import report
+from uictest.history.case_history import CaseHistory, case_histories
+from uictest.history.entry import CaseEntry
+from uictest.history.page import _change
+from uictest.history.run_in_folder import ListedRun
+from uictest.history.strip import HEIGHT, shape, strip, summary, width
+
+START = datetime(2026, 11, 22, tzinfo=UTC)
+stops = st.none() | st.tuples(st.sampled_from(report.CASE_WORDS), st.none() | st.floats(0.0, 1e5))
+
+
+def history(*stops: tuple[str, float | None] | None) -> CaseHistory:
+    cases = [() if each is None else (CaseEntry("a", *each),) for each in stops]
+    runs = [ListedRun(str(n), "run", START, cases=each) for n, each in enumerate(cases)]
+    [found] = case_histories(runs)
+    return found
+
+
+def corners(path: str) -> list[tuple[float, float]]:
+    return [(float(x), float(y)) for x, y in re.findall(r"[ML]([\d.]+) ([\d.]+)", path)]
+
+
+def heights(path: str) -> list[float]:
+    return [y for _, y in corners(path)]
+
+
+@given(stops=st.lists(stops, min_size=1, max_size=40).filter(any))
+def test_every_run_has_its_mark_and_everything_lies_inside(
+    stops: list[tuple[str, float | None] | None],
+) -> None:
+    drawn = strip(history(*stops))
+    run = [each for each in stops if each is not None]
+    assert sum(path.count("M") for path in drawn.marks.values()) == len(run)
+    assert {shape(word) for word, _ in run} == set(drawn.marks)
+    places = [place for path in (*drawn.marks.values(), drawn.line) for place in corners(path)]
+    assert all(0.0 < x < width(len(stops)) and 0.0 < y < HEIGHT for x, y in places)
+
+
+def test_a_longer_distance_lies_higher_and_the_range_fills_the_height() -> None:
+    low, high, middle = heights(strip(history(("pass", 400.0), ("pass", 500.0), ("pass", 450.0))).line)
+    assert low > middle > high
+    assert middle == pytest.approx((low + high) / 2.0, abs=0.1)
+
+
+def test_a_change_of_a_tenth_of_a_permille_looks_flat() -> None:
+    first, second = heights(strip(history(("pass", 500.0), ("pass", 500.05))).line)
+    assert abs(first - second) < 1.0
+
+
+def test_equal_distances_lie_on_one_level() -> None:
+    assert len(set(heights(strip(history(*[("pass", 500.0)] * 3)).line))) == 1
+
+
+def test_words_say_what_the_drawing_shows() -> None:
+    found = history(("pass", 470.0), None, ("fail", 480.0), ("fail", 475.0))
+    assert summary(found) == "3 runs: 1 pass, 2 fail; the verdict turned 1 time; distance 470.0 .. 480.0 m"
+
+
+@pytest.mark.parametrize(
+    ("change", "text"), [(0.0, "0"), (5.5, "+5.50"), (-0.5, "-0.50"), (0.004, "+0.004"), (-1e-9, "-1e-09")]
+)
+def test_a_change_is_0_only_where_there_is_none(change: float, text: str) -> None:
+    assert _change(change) == text

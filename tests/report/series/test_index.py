@@ -1,0 +1,26 @@
+"""Series in the index of a folder of runs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+from uictest import report, runs
+
+from .conftest import MakeSeries
+
+
+def test_a_series_stands_apart_from_a_case_of_its_id_and_leads_to_itself(
+    make_series: MakeSeries, make_result: Callable[..., Any], tmp_path: Path
+) -> None:
+    content = report.RunContent("", [make_result(id="acceptance", outcome="fail")], series=[make_series()])
+    folder = runs.publish_run(content, {}, tmp_path, ("html",)).place
+    index = (tmp_path / "index.html").read_text("utf-8")
+    links = re.findall(r'<th scope="row"><a href="([^"]+)">acceptance</a>', index)
+    assert len(links) == 2
+    page = (folder / "index.html").read_text("utf-8")
+    for link in links:
+        assert f'id="{unquote(link.partition("#")[2])}"' in page

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from uictest.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
+from uictest.report.drawn_cases import DRAWN, MOST_DRAWN, drawn_cases, worst_first
+
+MakeResult = Callable[..., CaseResult]
+MakeVerdict = Callable[..., Verdict]
+
+
+def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    flips = Sensitivity(
+        "d", "s", 0.0, 1.0, (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
+    )
+    results = [
+        make_result(id="wide", criteria=(make_verdict(margin=200.0),)),
+        make_result(id="narrow", criteria=(make_verdict(margin=2.0),)),
+        make_result(id="flips", criteria=(make_verdict(margin=200.0, sensitivity=(flips,)),)),
+        make_result(id="nothing", criteria=()),
+        make_result(id="expected", outcome="fail", expect="fail"),
+        make_result(id="missed", outcome="invalid"),
+    ]
+    assert [result.id for result in worst_first(results)] == [
+        "missed",
+        "expected",
+        "flips",
+        "narrow",
+        "wide",
+        "nothing",
+    ]
+
+
+def _ids(results: list[CaseResult]) -> list[str]:
+    return [result.id for result in results]
+
+
+def test_a_page_draws_from_every_scenario_in_turn(make_result: MakeResult, make_verdict: MakeVerdict) -> None:
+    """A hundred narrow cases of one scenario leave room for the only one of another."""
+    narrow = [
+        make_result(id=f"a{n}", scenario="a.yaml", criteria=(make_verdict(margin=1.0 + n),))
+        for n in range(100)
+    ]
+    wide = make_result(id="b", scenario="b.yaml", criteria=(make_verdict(margin=200.0),))
+    missed = [make_result(id=f"c{n}", scenario="c.yaml", outcome="fail") for n in range(2)]
+    drawn = _ids(drawn_cases([*narrow, wide, *missed]))
+    assert len(drawn) == DRAWN
+    assert drawn[:5] == ["c0", "c1", "a0", "b", "a1"]
+
+
+def test_chosen_cases_are_drawn_before_all_others(make_result: MakeResult) -> None:
+    results = [make_result(id=f"case-{n}", outcome="fail" if n < 50 else "pass") for n in range(100)]
+    drawn = _ids(drawn_cases(results, {"case-98", "case-99"}))
+    assert drawn[:2] == ["case-98", "case-99"]
+    assert len(drawn) == DRAWN
+
+
+def test_more_cases_are_drawn_if_more_are_chosen_and_no_page_without_end(make_result: MakeResult) -> None:
+    results = [make_result(id=f"case-{n}") for n in range(100)]
+    assert len(drawn_cases(results, {f"case-{n}" for n in range(30)})) == 30
+    assert len(drawn_cases(results, {result.id for result in results})) == MOST_DRAWN

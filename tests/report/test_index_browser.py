@@ -1,0 +1,112 @@
+"""The index of a folder of runs, and the pages of studies, in the browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uictest import report, runs
+from uictest.evaluation import CaseResult
+from uictest.studies import (
+    Study,
+    StudyFindings,
+    StudyQuantity,
+    StudyResult,
+    StudyValue,
+    write_figures,
+    write_pages,
+)
+
+from .chromium import emulate, resize, run, wait
+from .test_accessibility import appearances, violations
+
+
+@pytest.fixture
+def index(tmp_path: Path, make_result: Callable[..., CaseResult]) -> Path:
+    """Three runs of which the second fails, a sweep that is not finished, and a folder of somebody."""
+    for outcome in ("pass", "fail", "pass"):
+        results = [make_result(id="slip-120", outcome=outcome), make_result(id="dry-120")]
+        manifest = report.RunManifest(command=("uictest", "run", outcome), versions={"uictest": "0.1.0"})
+        runs.publish_run(report.RunContent("", results, manifest), {}, tmp_path / "reports", ("html",))
+    (tmp_path / "reports" / "mine").mkdir()
+    runs.publish_run(report.RunContent("", [make_result(id="dry-120")]), {}, tmp_path / "reports", ())
+    return tmp_path / "reports" / "index.html"
+
+
+@pytest.fixture
+def study_page(tmp_path: Path) -> Path:
+    """A study with a value that holds, one that misses, one that is only shown, and a figure."""
+    quantities = (
+        StudyQuantity("time", "braking time", "s", "17.6 s", 16.5, 19.0, reason="ours"),
+        StudyQuantity("share", "share", "%", "below 2 %", upper=2.0, below=True, reason="paper"),
+        StudyQuantity("count", "actuations", digits=0),
+    )
+    values = {"time": StudyValue(18.1, 17.9, 18.3), "share": StudyValue(2.5), "count": StudyValue(11.0)}
+
+    def draw(figure: Any) -> None:
+        figure.subplots().plot([0.0, 1.0], [1.0, 0.0])
+
+    findings = StudyFindings(values, {"data": {"time_s": [0.0]}}, {"figure": draw}, ("Made up.",))
+    result = StudyResult(
+        Study("made-up", "A made-up study", "17.6 s", quantities, lambda _: findings), findings
+    )
+    pytest.importorskip("matplotlib")
+    write_figures(tmp_path, result)
+    write_pages(tmp_path, [result], [], ["reproduce"])
+    return tmp_path / "made-up" / "index.html"
+
+
+def shown(browser: Any, page: Path, scheme: str = "light", width: int = 1400) -> None:
+    resize(browser, width)
+    emulate(browser, scheme)
+    browser.get(page.as_uri())
+
+
+@appearances
+def test_the_index_breaks_no_rule_of_accessibility(
+    browser: Any, index: Path, scheme: str, width: int
+) -> None:
+    shown(browser, index, scheme, width)
+    assert violations(browser) == []
+    assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
+
+
+@appearances
+def test_the_pages_of_studies_break_no_rule_of_accessibility(
+    browser: Any, study_page: Path, scheme: str, width: int
+) -> None:
+    for page in (study_page, study_page.parents[1] / "index.html"):
+        shown(browser, page, scheme, width)
+        assert violations(browser) == []
+        assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_the_cases_are_filtered(browser: Any, index: Path) -> None:
+    shown(browser, index)
+    visible = "return [...document.querySelectorAll('.history tbody tr')].filter((row) => !row.hidden).length"
+    assert run(browser, visible) == 2
+    run(browser, "document.querySelector('.history-filter [name=notable]').click()")
+    assert run(browser, visible) == 1
+    assert run(browser, "return document.querySelector('.count').textContent") == "1 of 2 shown"
+
+
+def test_a_mark_opens_the_case_in_its_run(browser: Any, index: Path) -> None:
+    shown(browser, index)
+    run(
+        browser,
+        """
+        const strip = document.querySelector('svg.strip');
+        const {left, top, width} = strip.getBoundingClientRect();
+        strip.dispatchEvent(new MouseEvent('click',
+          {bubbles: true, clientX: left + width * 1.5 / 4, clientY: top + 5}));
+        """,
+    )
+    address = wait(browser, "return location.hash && location.href")
+    second = sorted(
+        (path.parent for path in index.parent.glob("*/index-entry.json")),
+        key=lambda folder: (folder / "index-entry.json").stat().st_mtime_ns,
+    )[1]
+    assert address == f"{second.as_uri()}/index.html#case-slip-120"

@@ -1,0 +1,156 @@
+"""Two recordings over each other and their difference beneath, in a browser."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest import comparison
+from uictest.recording import Recording
+
+from .chromium import resize, run, wait
+
+NOTHING = "\N{EN DASH}"
+READY = "return document.querySelector('.laid-over[data-ready]') !== null"
+
+
+@pytest.fixture
+def laid_over_page(tmp_path: Path, make_recording: Callable[..., Recording]) -> Path:
+    """The stop of the fixture, and one 9 km/h faster that is recorded at half the rate, to 30 s."""
+    first, whole = make_recording(), make_recording(1701)
+    second = Recording({name: each[:1501] for name, each in whole.channels.items()}, whole.units)
+    second["speed"][:] += 2.5
+    second["distance"][:] += 2.5 * second["time"]
+    tolerances = comparison.Tolerances.read(["speed=10", "1%"])
+    chosen = ["speed", "slide_1", "valve_command_1"]
+    compared = comparison.compare_recordings(first, second, ("one", "other"), tolerances, chosen)
+    page = tmp_path / "comparison.html"
+    page.write_text(comparison.comparison_html(compared), encoding="utf-8")
+    return page
+
+
+def _open(browser: Any, page: Path, width: int = 1400) -> None:
+    resize(browser, width)
+    browser.get(page.as_uri() + "#case-Recordings")
+    wait(browser, READY)
+
+
+def _at_cursor(browser: Any) -> dict[str, list[str]]:
+    """Return the cells at the cursor by channel: unit, A, B, B - A, per cent of A."""
+    rows: dict[str, list[str]] = run(
+        browser,
+        "return Object.fromEntries([...document.querySelectorAll('.at-cursor tbody tr')].map((row) =>"
+        " [row.cells[0].textContent, [...row.cells].slice(1).map((cell) => cell.textContent)]))",
+    )
+    return rows
+
+
+def test_the_difference_stands_beneath_each_channel_on_its_axis(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page)
+    traces = run(
+        browser,
+        "return document.querySelector('.panels-plot').data.filter((each) => each.mode === 'lines')"
+        ".map((each) => [each.name, each.xaxis, each.yaxis, each.line.dash])",
+    )
+    assert [name for name, *_ in traces] == ["A", "B", "B - A"] * 3
+    assert {x for _, x, *_ in traces} == {"x"}
+    assert [y for _, _, y, _ in traces] == ["y", "y", "y2", "y3", "y3", "y4", "y5", "y5", "y6"]
+    dashes = {name: dash for name, *_, dash in traces}
+    assert dashes["A"] != dashes["B"]
+    band, worst = run(
+        browser,
+        "const {data, layout} = document.querySelector('.panels-plot'); return ["
+        "layout.shapes.filter((each) => each.yref === 'y2').map((each) => [each.type, each.y0, each.y1]),"
+        "data.filter((each) => each.mode === 'markers' && each.yaxis === 'y2').map((each) => each.y[0])]",
+    )
+    assert band == [["rect", -10, 10]]
+    assert worst == [pytest.approx(9.0, abs=1e-3)]
+
+
+def test_one_cursor_reads_both_sides_their_difference_and_its_share(
+    browser: Any, laid_over_page: Path
+) -> None:
+    _open(browser, laid_over_page)
+    slider = browser.find_element("css selector", ".laid-over input[type=range]")
+    slider.send_keys("\ue011" + "\ue014" * 500)  # home, then arrow right to the middle: 17 s
+    assert browser.find_element("css selector", ".slider output").text == "17.00 s"
+    speed = 120 - 17 * 3.6
+    assert _at_cursor(browser) == {
+        "Speed": ["km/h", f"{speed:.2f}", f"{speed + 9:.2f}", "9.00", f"{100 * 9 / speed:.3g}"],
+        "Slide of wheelset 1": ["%", "0.000", "0.000", "0.000", NOTHING],
+        "Valve command of wheelset 1": ["1", "0.0000", "0.0000", "0.0000", NOTHING],
+    }
+
+
+def test_behind_its_end_a_side_has_no_value(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page)
+    browser.find_element("css selector", ".laid-over input[type=range]").send_keys("\ue010")  # end: 34 s
+    assert _at_cursor(browser)["Speed"] == ["km/h", "0.00", NOTHING, NOTHING, NOTHING]
+
+
+def test_over_distance_both_sides_stand_at_the_same_place(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page)
+    run(
+        browser,
+        "const choice = document.querySelector('[data-choice=across]'); choice.value = 'distance';"
+        "choice.dispatchEvent(new Event('change'))",
+    )
+    title = "return document.querySelector('.panels-plot').layout.xaxis.title.text"
+    assert wait(browser, f"{title}.startsWith('distance') && ({title[7:]})").endswith("m")
+    slider = browser.find_element("css selector", ".laid-over input[type=range]")
+    slider.send_keys("\ue011" + "\ue014" * 300)
+    place = float(browser.find_element("css selector", ".slider output").text.removesuffix(" m"))
+    # v2 = v0**2 - 2 a s on the first side; its distance is a sum of samples, to some metres.
+    a, b = (float(cell) for cell in _at_cursor(browser)["Speed"][1:3])
+    assert a == pytest.approx(3.6 * np.sqrt((120 / 3.6) ** 2 - 2.0 * place), rel=0.01)
+    assert b > a
+
+
+def test_a_largest_difference_leads_to_its_instant(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page)
+    run(browser, "[...document.querySelectorAll('.laid-over .moment')].at(-1).click()")
+    found = wait(browser, "return document.querySelector('.slider output').textContent")
+    button = run(browser, "return [...document.querySelectorAll('.laid-over .moment')].at(-1).textContent")
+    assert button.removeprefix("at ") in (found, found.replace(".00", ""))
+
+
+def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page)
+    run(
+        browser,
+        "URL.createObjectURL = (blob) => {blob.text().then((text) => {window.saved = text;}); return '#';};"
+        "document.querySelector('.laid-over .tables button').click()",
+    )
+    text = wait(browser, "return window.saved")
+    assert "Sampled every 10 ms in A and every 20 ms in B." in text.splitlines()[2]
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    by_line: dict[str, dict[float, float]] = {}
+    for row in rows:
+        assert row["unit"] == "km/h"
+        by_line.setdefault(row["line"], {})[float(row["time_s"])] = float(row["value"])
+    assert list(by_line) == ["A", "B", "B - A"]
+    for time, apart in by_line["B - A"].items():
+        assert apart == pytest.approx(9.0, abs=0.01)
+        assert by_line["B"][time] == pytest.approx(max(120 - 3.6 * time, 0.0) + 9.0, abs=0.01)
+
+
+def test_on_a_phone_nothing_is_wider_than_the_window(browser: Any, laid_over_page: Path) -> None:
+    _open(browser, laid_over_page, 400)
+    assert run(browser, "return document.documentElement.scrollWidth") <= 400
+
+
+def test_on_paper_each_channel_is_a_drawing_that_fits(browser: Any, laid_over_page: Path) -> None:
+    browser.get(laid_over_page.as_uri())
+    names = run(
+        browser,
+        "return [...document.querySelectorAll('.laid-over svg.panels')]"
+        ".map((each) => each.viewBox.baseVal.height)",
+    )
+    assert len(names) == 3
+    # Of 960 across: less than a third of a page of A4.
+    assert max(names) < 960 * 267 / 182 / 3

@@ -1,0 +1,61 @@
+"""Shipped data that were changed are found, in a working tree as in an installed package."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+import uictest
+from uictest import selftest
+from uictest.selftest import package_data
+from uictest.selftest.data_digests import data_digests
+from uictest.selftest.reference import stored_data_digests
+
+PACKAGE = Path(uictest.__file__).parent
+CRITERIA = "library/criteria/uic-541-05-appendix-b.yaml"
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A copy of the shipped data, and what Python and editors leave beside them."""
+    for name in stored_data_digests():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(PACKAGE / name, tmp_path / name)
+    left = tmp_path / "library" / "__pycache__" / "__init__.cpython-311.pyc"
+    left.parent.mkdir()
+    left.write_bytes(b"")
+    (tmp_path / "library" / ".swap").write_bytes(b"")
+    return tmp_path
+
+
+def finding(monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops) -> selftest.Finding:
+    monkeypatch.setattr(package_data, "data_digests", lambda: data_digests(package))
+    check = next(each for each in selftest.all_checks(stops) if each.id == "shipped-data")
+    return selftest.examine(stops, [check]).findings[0]
+
+
+def test_the_data_of_this_version_pass(
+    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
+) -> None:
+    assert CRITERIA in stored_data_digests()
+    assert finding(monkeypatch, package, stops).status == "pass"
+
+
+def test_a_changed_limit_in_the_library_of_criteria_is_found_and_named(
+    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
+) -> None:
+    file = package / CRITERIA
+    file.write_bytes(file.read_bytes().replace(b"0", b"1", 1))
+    found = finding(monkeypatch, package, stops)
+    assert (found.status, found.found, found.reason) == ("fail", 1.0, f"{CRITERIA} was changed")
+
+
+def test_files_that_are_missing_or_new_are_named(
+    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
+) -> None:
+    (package / CRITERIA).unlink()
+    (package / "library/criteria/own.yaml").write_text("")
+    found = finding(monkeypatch, package, stops)
+    assert found.reason == f"library/criteria/own.yaml is not part of it, {CRITERIA} is missing"

@@ -1,0 +1,134 @@
+"""Cases of a sweep outside of what was validated: by column as one by one."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from uictest.campaign import parts_of_cases
+from uictest.report import domain_notes
+from uictest.scenario import load as load_scenarios
+from uictest.sweeps import Plan, full_cases
+from uictest.sweeps.running.table import number_column, text_column
+from uictest.sweeps.summaries.domain import OUTSIDE, DomainTally
+from uictest.validation import Domain, Validation, ValidationReference, conditions_of, domains_of
+
+from ..conftest import Load
+
+
+def rows_of(plan: Plan, indices: list[int]) -> pa.Table:
+    """Return the columns that a chunk has of its cases."""
+    settings = plan.settings(np.array(indices))
+    columns = {"index": pa.array(indices, pa.int64())}
+    for key, column in settings.items():
+        columns[text_column(key)] = column.written
+    for key in plan.numeric_keys:
+        columns[number_column(key)] = pa.array(settings[key].numbers, pa.float64())
+    return pa.table(columns)
+
+
+def reference(*stops: tuple[str, ...]) -> ValidationReference:
+    """Return a validation of which every stop is `stop.yaml` with some changes; alike ones make a domain."""
+    domains: tuple[Domain, ...] = domains_of(
+        [conditions_of(parts_of_cases([case])[case.id])]
+        for changes in stops
+        for case in load_scenarios([Path("stop.yaml")], changes)
+    )
+    validation = Validation("my-train", "", "0", 0.95, {}, (), (), (), domains)
+    return ValidationReference(validation, "validation.json", "00")
+
+
+STOPS = (
+    ("rail.friction=0.09",),
+    ("rail.friction=0.11", "brake.command=90 %"),
+    ("rail.friction=0.10", "controller=slip-band", "initial_speed=40 km/h"),
+    ("rail.friction=0.10", "controller=slip-band", "initial_speed=25 km/h"),
+)
+SAMPLE = "sample:\n  size: 40\n  parameters:\n"
+LISTS = "grid:\n  brake.command: [80 %, 90 %, 100 %]\n"
+PLANS = {
+    "listed numbers": f"{LISTS}  rail.friction: [0.08, 0.09, 0.10, 0.11, 0.12]\n",
+    "drawn numbers": f"{SAMPLE}    rail.friction: {{uniform: [0.08, 0.12]}}\n"
+    "    initial_speed: {uniform: [20 km/h, 45 km/h]}\n",
+    "names": "grid:\n  controller: [threshold, slip-band]\n  brake.command: [80 %, 100 %]\n"
+    "  initial_speed: [25 km/h, 30 km/h, 45 km/h]\n",
+    "settings": "grid:\n  rig.wsp: [active, bypassed]\n  brake.position: [R, P]\n",
+    "a number of one wheelset": "grid:\n  vehicle.wheelsets.2.wheel_radius: [0.45 m, 0.46 m]\n",
+    "friction of the condition": "grid:\n  rail.friction: [null, 0.1]\n"
+    "  rail.condition.friction: [0.05, 0.09, 0.1]\n",
+    "points along the track": "grid:\n  rail.friction:\n"
+    "    - points: [{position: 0 m, friction: 0.1}, {position: 50 m, friction: 0.05}]\n    - 0.1\n",
+    "what says nothing of the conditions": "grid:\n  seed: [0, 1, 2]\n  rail.friction: [0.1]\n",
+    "numbers inside of another part": "grid:\n  controller: [slip-band, threshold]\n"
+    "  controller.cycle_time: [10 ms, 20 ms]\n",
+}
+
+
+@pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
+def test_by_column_is_what_each_case_alone_comes_to(load: Load, plan: str) -> None:
+    compare_with_each_alone(load(plan), reference(*STOPS))
+
+
+def test_friction_that_the_condition_gives_is_a_column_like_any_other(load: Load) -> None:
+    scenario = Path("stop.yaml")
+    scenario.write_text(scenario.read_text().replace(", friction: 0.1", ""))
+    plan = load(f"{SAMPLE}    rail.condition.friction: {{uniform: [0.05, 0.15]}}\n")
+    compare_with_each_alone(plan, reference(("rail.condition.friction=0.1",), ("rail.friction=0.12",)))
+
+
+def test_friction_that_changes_over_time_spans_its_factors(load: Load) -> None:
+    scenario = Path("stop.yaml")
+    points = "[{time: 0 s, factor: 1}, {time: 5 s, factor: 1.5}]"
+    scenario.write_text(
+        f"{scenario.read_text()}".replace("0.1}", f"0.1, friction_over_time: {{points: {points}}}}}")
+    )
+    plan = load("grid:\n  rail.friction: [0.08, 0.1]\n")
+    compare_with_each_alone(plan, reference(("rail.friction=0.09",)))
+
+
+def compare_with_each_alone(plan: Plan, validated: ValidationReference) -> None:
+    """Compare texts and counts with those of every case alone, over two chunks."""
+    indices = list(range(plan.size))
+    alone = [
+        {each.key for each in domain.outside}
+        for domain in validated.domains_of(parts_of_cases(full_cases(plan, indices))).values()
+    ]
+    tally = DomainTally(plan, validated)
+    halves = [half for half in (indices[: plan.size // 2], indices[plan.size // 2 :]) if half]
+    tables = [tally.with_column(rows_of(plan, half)) for half in halves]
+    texts = [text for table in tables for text in table[OUTSIDE].to_pylist()]
+    assert [set(text.split()) for text in texts] == alone
+    result = tally.result()
+    assert result.outside == sum(map(bool, alone))
+    cases = Counter({each.deviation.key: 0 for each in result.conditions})
+    for each in result.conditions:
+        cases[each.deviation.key] += each.cases
+    assert cases == Counter(key for keys in alone for key in keys)
+
+
+def test_a_condition_spans_the_numbers_of_its_cases(load: Load) -> None:
+    plan = load("grid:\n  initial_speed: [30 km/h, 50 km/h, 70 km/h]\n  rail.friction: [0.1, 0.2]\n")
+    tally = DomainTally(plan, reference(("rail.friction=0.1",)))
+    for index in range(plan.size):
+        tally.with_column(rows_of(plan, [index]))
+    result = tally.result()
+    assert (result.outside, [each.cases for each in result.conditions]) == (5, [4, 3])
+    speed = result.conditions[0].deviation
+    assert speed.found == pytest.approx((50 / 3.6, 70 / 3.6))
+    [note] = domain_notes(result, plan.size)
+    assert note == (
+        "5 of 6 cases outside of what my-train validated: initial_speed 70 km/h > 30 km/h in 4;"
+        " rail.friction 0.2 > 0.1 in 3"
+    )
+
+
+def test_a_sweep_inside_of_what_was_validated_says_so(load: Load) -> None:
+    plan = load("grid:\n  rail.friction: [0.1]\n")
+    tally = DomainTally(plan, reference(("rail.friction=0.1",)))
+    assert tally.with_column(rows_of(plan, [0]))[OUTSIDE].to_pylist() == [""]
+    assert list(domain_notes(tally.result(), 1)) == ["0 of 1 case outside of what my-train validated"]
+    assert list(domain_notes(None, 1)) == []

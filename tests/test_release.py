@@ -1,0 +1,80 @@
+"""A release: one version, stated in one place and named alike wherever a user copies it from."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+import yaml
+
+import uictest
+
+REPOSITORY = Path(__file__).parents[1]
+VERSION = uictest.__version__
+_NAMED = re.compile(r"(?:uictest@v|rev: v|uictest-)(\d+\.\d+\.\d+)")
+
+
+def read(name: str) -> str:
+    return (REPOSITORY / name).read_text("utf-8")
+
+
+def test_the_installed_version_is_that_of_the_sources() -> None:
+    assert metadata.version("uictest") == VERSION
+
+
+def test_the_changelog_and_the_known_errors_begin_with_it() -> None:
+    headings = re.findall(r"^## \[(\S+)\](?: - \d{4}-\d{2}-\d{2})?$", read("CHANGELOG.md"), re.MULTILINE)
+    assert next(each for each in headings if each != "Unreleased") == VERSION
+    assert re.findall(r"^## (\d\S*)$", read("docs/known-errors.md"), re.MULTILINE)[0] == VERSION
+
+
+def test_it_is_cited_with_its_date() -> None:
+    citation = yaml.safe_load(read("CITATION.cff"))
+    assert citation["version"] == VERSION
+    assert f"## [{VERSION}] - {citation['date-released']}\n" in read("CHANGELOG.md")
+
+
+@pytest.mark.parametrize("name", ["docs/ci.md", "docs/trust.md", "examples/ci/github.yml", "scripts/sbom.py"])
+def test_what_users_copy_names_it(name: str) -> None:
+    assert set(_NAMED.findall(read(name))) == {VERSION}
+
+
+@pytest.fixture(scope="session")
+def distributions(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the sdist and the wheel that is built from it."""
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run([sys.executable, "-m", "build", "--outdir", folder, REPOSITORY], check=True)
+    return folder
+
+
+def interpreters() -> list[str]:
+    """Return the Pythons of this machine that can run uictest."""
+    named = (shutil.which(f"python3.{minor}") for minor in range(11, 16))
+    # A shim of a version manager can be there without its version.
+    return [
+        each for each in named if each and subprocess.run([each, "-V"], capture_output=True).returncode == 0
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", [".whl", ".tar.gz"])
+@pytest.mark.parametrize("python", interpreters(), ids=lambda path: Path(path).name)
+def test_it_works_in_a_clean_environment(
+    distributions: Path, tmp_path: Path, python: str, suffix: str
+) -> None:
+    [package] = (each for each in distributions.iterdir() if each.name.endswith(suffix))
+    subprocess.run([python, "-m", "venv", tmp_path / "env"], check=True)
+    programs = tmp_path / "env" / "bin"
+    subprocess.run([programs / "python", "-m", "pip", "install", "--quiet", package], check=True)
+    work = tmp_path / "work"
+    work.mkdir()
+    for arguments in (["init"], ["check", "scenarios"], ["run", "scenarios"], ["selftest"]):
+        subprocess.run([programs / "uictest", *arguments], cwd=work, check=True)
+    assert (work / "reports" / "latest" / "index.html").stat().st_size > 1_000_000
+    shown = subprocess.run([programs / "uictest", "--version"], capture_output=True, text=True, check=True)
+    assert shown.stdout == f"uictest {VERSION}\n"
