@@ -143,15 +143,17 @@ def test_what_runs_refer_to_is_known_from_every_working_folder(
     assert fates(reports, 1, newest) == {other.name: "", source.name: said, baseline.name: said}
 
 
-def test_a_file_that_was_given_by_an_absolute_path_is_known_by_its_content(
-    publish: Publish, reports: Path
+@pytest.mark.parametrize("given", ["...", "reports/latest/recordings"])
+@pytest.mark.parametrize("name", ["a.parquet", "slip[friction=0.09,command=100].parquet"])
+def test_a_file_is_known_by_its_content_where_its_path_no_longer_leads_to_it(
+    publish: Publish, reports: Path, given: str, name: str
 ) -> None:
     source, alike = publish(), publish()
     for run in (source, alike):
         (run / "recordings").mkdir()
-        (run / "recordings" / "a.parquet").write_text(run.name)
+        (run / "recordings" / name).write_text(run.name)
     digest = hashlib.sha256(source.name.encode()).hexdigest()
-    newest = publish(inputs={".../a.parquet": digest})
+    newest = publish(inputs={f"{given}/{name}": digest})
     assert fates(reports, 1, newest) == {alike.name: "", source.name: f"{newest.name} refers to it"}
 
 

@@ -49,11 +49,10 @@ class _Reference:
         # Whatever it is relative to: no other folder has the name of a run.
         if started_in(folder.name) and folder.name in self.path.parts:
             return True
-        # Of an absolute path, a manifest has the last name alone.
-        files = folder.rglob(self.path.name) if self.sha256 and self.path.parts[:1] == ("...",) else ()
-        return any(
-            hashlib.sha256(file.read_bytes()).hexdigest() == self.sha256 for file in files if file.is_file()
-        )
+        # Of an absolute path, a manifest has the last name alone, and `latest` leads elsewhere by now.
+        files = folder.rglob("*") if self.sha256 else ()
+        alike = (file for file in files if file.name == self.path.name and file.is_file())
+        return any(hashlib.sha256(file.read_bytes()).hexdigest() == self.sha256 for file in alike)
 
     @cached_property
     def _place(self) -> Path:
