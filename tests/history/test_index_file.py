@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import threading
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlsplit
@@ -15,7 +16,7 @@ from uictest import recording
 from uictest.folder_lock import FolderLock
 from uictest.history import index_file, refresh_index
 
-from .conftest import Publish, case
+from .conftest import Publish, case, part
 
 HOSTILE = "<script>alert(1)</script>'\"&\u202e"
 
@@ -189,3 +190,12 @@ def test_runs_that_end_at_once_all_stand_in_the_index(reports: Path) -> None:
     assert [process.wait() for process in processes] == [0, 0, 0]
     page = (reports / "index.html").read_text("utf-8")
     assert [f"case-{each}-{n}" in page for each in range(3) for n in range(4)] == [True] * 12
+
+
+def test_of_a_recorded_stop_the_index_says_what_it_does_not_compare(publish: Publish, reports: Path) -> None:
+    stop = replace(case("a"), scenario="a.mf4", parts={"conditions": part("conditions", "")})
+    for result in (stop, stop, case("b"), case("b")):
+        publish(result, command=("evaluate", "a.mf4"), inputs={"a.mf4": "00"})
+    page = (reports / "index.html").read_text("utf-8")
+    assert page.count("same recording and versions; preparation not compared") == 1
+    assert page.count("same inputs, same versions") == 1

@@ -28,6 +28,9 @@ _CASES_SHOWN: Final = 1000
 _UNFOLDED: Final = 20
 """Runs in the table that is open at first."""
 _UNLISTED_SHOWN: Final = 50
+_UNCHANGED: Final = "same inputs, same versions"
+_UNCHANGED_RECORDED: Final = "same recording and versions; preparation not compared"
+"""Filter, raster, trigger and channel map of a recorded stop are not part of the entry of its run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +177,8 @@ def _inputs(history: CaseHistory) -> str:
     )
     if changed is None:
         return "not known"
-    return ", ".join(changed) or "same inputs, same versions"
+    unchanged = _UNCHANGED_RECORDED if "recording" in history.entry(now).parts_by_kind else _UNCHANGED
+    return ", ".join(changed) or unchanged
 
 
 def _bounds(listing: Listing, shown: int, cases: int) -> list[str]:
