@@ -3,8 +3,12 @@
 import ctypes
 import math
 import os
+import signal
+import subprocess
+import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 from uictest.controllers import Config, Inputs, Outputs
@@ -20,6 +24,14 @@ class Bad:
             raise ValueError("told to")
         if self.fault == "leave":
             raise SystemExit(0)
+
+    def __del__(self) -> None:
+        if self.fault == "immortal":
+            time.sleep(3600.0)
+        if self.fault == "hang-later":
+            # The main thread then waits for the next stop.
+            signal.signal(signal.SIGALRM, lambda number, frame: time.sleep(3600.0))
+            signal.setitimer(signal.ITIMER_REAL, 0.5)
 
     def reset(self) -> None:
         if self.fault == "reset":
@@ -39,6 +51,13 @@ class Bad:
 def spin() -> None:
     while True:
         pass
+
+
+def hold_the_interpreter() -> None:
+    """Start a process of its own, then hang in a call that no other thread can run beside."""
+    sleeper = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(3600)"])
+    Path("started.txt").write_text(str(sleeper.pid), "utf-8")
+    ctypes.PyDLL(None).sleep(3600)
 
 
 def fail() -> None:
@@ -76,6 +95,8 @@ FAULTS = {
     "crash": lambda: ctypes.string_at(0),
     "hang": lambda: time.sleep(3600.0),
     "spin": spin,
+    "hold": hold_the_interpreter,
+    "memory": lambda: bytearray(1 << 40),
     "exit": lambda: os._exit(3),
     "raise": fail,
     "end": end,

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
+import re
+import signal
 import subprocess
 import sys
 import time
@@ -32,6 +35,7 @@ IN_PYTHON = {
     "crash": "crashed with SIGSEGV (cycle 700)",
     "exit": "ended its process with exit code 3 (cycle 700)",
     "raise": "step failed: ValueError: told to (bad.py, line {line}) (cycle 700)",
+    "memory": "step failed: MemoryError (bad.py, line {line}) (cycle 700)",
     "end": "step failed: SystemExit: 0 (bad.py, line {line}) (cycle 700)",
     "nothing": "step failed: step returned NoneType, expected Outputs (cycle 700)",
     "nan": "step failed: hold[0] is nan, expected 0 or 1 (cycle 700)",
@@ -74,6 +78,7 @@ def line_of(fault: str) -> int:
         "raise": 'raise ValueError("told to")',
         "mute": "raise MuteError",
         "end": "raise SystemExit(0)",
+        "memory": "bytearray(1 << 40)",
     }[fault]
     return max(number for number, line in enumerate(text, start=1) if raising in line)
 
@@ -142,11 +147,45 @@ def test_a_second_close_leaves_files_of_others_alone() -> None:
         os.close(each)
 
 
-def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path) -> None:
-    """The parent is killed while its child hangs in a step; no temporary file is left."""
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [("immortal", "destroy did not return within 3 s"), ("hang-later", "what runs outside of its calls")],
+)
+def test_a_controller_that_hangs_after_its_stop_is_ended(
+    stop_of: StopOf, monkeypatch: pytest.MonkeyPatch, fault: str, message: str
+) -> None:
+    """In its destructor, or while its process waits for the next stop."""
+    with Workers() as own:
+        own.run(stop_of())  # a slow machine starts the process before the limits count
+        monkeypatch.setattr(worker, "OPENING_LIMIT", 3.0)
+        monkeypatch.setattr(worker, "IDLE_LIMIT", 3.0)
+        with pytest.raises(ControllerError, match=re.escape(message)):
+            own.run(stop_of(fault, limit="3 s"))
+            time.sleep(2.0)
+            own.run(stop_of(fault, limit="3 s"))
+        monkeypatch.undo()
+        own.run(stop_of())
+
+
+def test_a_process_that_takes_no_request_is_ended(stop_of: StopOf, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A block of stops is more than the memory between two processes takes up."""
+    monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
+    asked = Worker(("python", "", ""))
+    os.kill(asked._process.pid, signal.SIGSTOP)
+    with pytest.raises(ControllerError, match="its process took no request within 1 s"):
+        asked.run_block(block_of_stops([stop_of()] * 256))
+    assert not asked.usable
+
+
+@pytest.mark.parametrize("fault", ["hang", "hold"])
+def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path, fault: str) -> None:
+    """The parent is killed while its child hangs in a step: no process and no temporary file is left.
+
+    A controller that holds the interpreter lets no thread of the child run, and has started a process.
+    """
     temporary = folder / "temporary"
     temporary.mkdir()
-    stop_of("hang", limit="600 s")
+    stop_of(fault, limit="600 s")
     program = (
         "from pathlib import Path; from uictest import rig; from uictest.scenario import load\n"
         "rig.simulate(load([Path('stop.yaml')])[0])"
@@ -154,9 +193,15 @@ def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path) -> None:
     environment = {**os.environ, "TMPDIR": str(temporary)}
     parent = subprocess.Popen([sys.executable, "-c", program], cwd=folder, env=environment)
     child = waited_for(lambda: next(iter(children_of(parent.pid)), 0))
+    guard = waited_for(lambda: next(iter(children_of(child)), 0))
+    processes = [child, guard]
+    if fault == "hold":
+        started = folder / "started.txt"
+        processes.append(waited_for(lambda: int(started.read_text("utf-8") or 0) if started.exists() else 0))
     parent.kill()
     parent.wait()
-    assert waited_for(lambda: not Path(f"/proc/{child}").exists() or is_zombie(child))
+    for process in processes:
+        assert waited_for(lambda process=process: not Path(f"/proc/{process}").exists() or is_zombie(process))
     assert list(temporary.iterdir()) == []
 
 
@@ -206,6 +251,23 @@ def test_a_file_that_changes_after_it_was_read_is_not_run(
         file.write("# changed\n")
     with pytest.raises(ControllerError, match=r"^bad\.py has changed since the scenario was read$"):
         workers.run(inputs)
+
+
+def test_a_library_that_changes_while_it_is_loaded_is_not_run(
+    stop_of: StopOf, library: Compile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = library()
+    inputs = stop_of(library="libbad.so")
+    load = ctypes.CDLL
+
+    def replaced(location: str) -> ctypes.CDLL:
+        with path.open("ab") as file:
+            file.write(b"another build")
+        return load(location)
+
+    monkeypatch.setattr(ctypes, "CDLL", replaced)
+    with pytest.raises(ControllerError, match=r"^libbad\.so has changed since the scenario was read$"):
+        run_in_process(inputs)
 
 
 def test_a_fault_in_a_block_ends_its_own_stop_alone(

@@ -86,12 +86,12 @@ def open_controller(program: ControllerProgram, config: Config) -> ControllerIns
 def _loaded(location: str, sha256: str) -> Any:
     """Return a library whose functions are there and have their types."""
     path = Path(location)
-    if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
-        raise ControllerError(f"{path.name} has changed since the scenario was read")
+    _check_content(path, sha256)
     try:
         library = ctypes.CDLL(location)
     except OSError as error:
         raise ControllerError(f"{path.name} cannot be loaded: {_without(location, error)}") from error
+    _check_content(path, sha256)  # the loader has read the file anew
     missing = [f"uictest_{name}" for name in _FUNCTIONS if not hasattr(library, f"uictest_{name}")]
     if missing:
         raise ControllerError(f"{path.name} does not export {', '.join(missing)}")
@@ -102,6 +102,11 @@ def _loaded(location: str, sha256: str) -> Any:
     if found != ABI_VERSION:
         raise ControllerError(f"{path.name} has ABI version {found}, expected {ABI_VERSION}")
     return library
+
+
+def _check_content(path: Path, sha256: str) -> None:
+    if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+        raise ControllerError(f"{path.name} has changed since the scenario was read")
 
 
 def _without(location: str, error: OSError) -> str:

@@ -38,6 +38,10 @@ class PythonInstance(CalledInstance):
         outputs: Outputs = self._controller.step(inputs)
         return outputs
 
+    def close(self) -> None:
+        """Let go of the object: a destructor that does not return is then one of the calls to it."""
+        self._controller = None
+
 
 def open_controller(program: ControllerProgram, config: Config) -> PythonInstance:
     """Load the file, once per process, and create an object of the class. Raises ControllerError."""

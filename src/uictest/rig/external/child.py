@@ -1,18 +1,12 @@
-"""The program of a child process: it runs stops with controllers from outside, or drives such a controller
-through given cycles, one after the other.
-
-    python -m uictest.rig.external.child EXCHANGE LIFELINE FOLDER
+"""What a child process does: it runs stops with controllers from outside, or drives such a controller through
+given cycles, one after the other.
 
 Requests come through standard input, answers go through standard output; what a controller prints goes to
-standard error. EXCHANGE is a file descriptor of the memory that the parent watches. The process ends when
-LIFELINE, a pipe that the parent holds open, is closed, and then removes FOLDER, which has temporary files.
+standard error.
 """
 
 import mmap
 import os
-import shutil
-import sys
-from threading import Thread
 from typing import Any, BinaryIO, Final
 
 import numpy as np
@@ -26,9 +20,14 @@ from uictest.rig.external.messages import Message, StreamEndedError, read_messag
 from uictest.rig.external.stop_messages import block_of, finished_message, run_message, stop_of
 
 
-def serve(exchange_file: int, lifeline: int, temporary_folder: str) -> None:
-    """Answer requests until there are no more."""
-    Thread(target=_end_with, args=(lifeline, temporary_folder), daemon=True).start()
+def serve(exchange_file: int) -> None:
+    """Answer requests until there are no more.
+
+    Args:
+        exchange_file: descriptor of the memory that the parent watches, records of
+            :data:`~uictest.controllers.EXCHANGE`.
+
+    """
     requests, answers = _private_streams()
     memory: Any = mmap.mmap(exchange_file, 0)
     if hasattr(mmap, "MADV_DONTFORK"):
@@ -39,8 +38,6 @@ def serve(exchange_file: int, lifeline: int, temporary_folder: str) -> None:
         try:
             request = read_message(requests)
         except StreamEndedError:
-            # The parent is gone: this process may end before the thread that waits for that has cleared up.
-            shutil.rmtree(temporary_folder, ignore_errors=True)
             return
         memory[:] = bytes(len(memory))
         answer = _answer(request, exchanges)
@@ -79,14 +76,3 @@ def _private_streams() -> tuple[BinaryIO, BinaryIO]:
     os.dup2(2, 1)
     os.close(nothing)
     return requests, answers
-
-
-def _end_with(lifeline: int, temporary_folder: str) -> None:
-    """End the process, whatever it does, once the parent is gone; it can no longer remove the folder."""
-    os.read(lifeline, 1)
-    shutil.rmtree(temporary_folder, ignore_errors=True)
-    os._exit(1)
-
-
-if __name__ == "__main__":
-    serve(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])

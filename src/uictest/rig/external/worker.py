@@ -44,11 +44,20 @@ LARGEST_BLOCK: Final = 256
 OPENING_LIMIT: Final = 60.0
 """Longest time to load, create and reset a controller, s; chosen: Python files may import large packages."""
 ANSWER_LIMIT: Final = 60.0
-"""Longest time from the first byte of an answer to its last, s; chosen: most take milliseconds."""
+"""Longest time to take a request, or from the first byte of an answer to its last, s; chosen: most take
+milliseconds."""
+IDLE_LIMIT: Final = 300.0
+"""Longest time in which a child neither calls a controller nor answers, s; chosen: it starts in a second, and
+between two cycles the rig takes microseconds."""
 _LONGEST_WAIT: Final = 0.1
 """Time between two looks at a child that has not answered, s; chosen."""
-_CHILD: Final = "uictest.rig.external.child"
-_NAMES: Final = {STEPPING: "step", OPENING: "loading, create or reset", CLOSING: "destroy"}
+_CHILD: Final = "uictest.rig.external.guard"
+_NAMES: Final = {
+    STEPPING: "step",
+    OPENING: "loading, create or reset",
+    CLOSING: "destroy",
+    NOT_CALLED: "what runs outside of its calls (a destructor, a thread)",
+}
 
 ProgramKey = tuple[str, str, str]
 """What programs share that may run in one process: kind, location, SHA-256."""
@@ -81,9 +90,9 @@ class Worker:
             shared.truncate(LARGEST_BLOCK * EXCHANGE.itemsize)
             self._memory = mmap.mmap(shared.fileno(), 0)
             self._exchanges: Any = np.frombuffer(self._memory, EXCHANGE)
-            self._process, self._answers, lifeline = _started(shared.fileno(), self._folder.name)
+            self._process, self._channel, lifeline = _started(shared.fileno(), self._folder.name)
         # Only once: the numbers of a closed pipe and of a collected process may be those of others soon.
-        self._release = weakref.finalize(self, _end, self._process, self._answers, lifeline, self._folder)
+        self._release = weakref.finalize(self, _end, self._process, self._channel, lifeline, self._folder)
         self.usable = True
         """Whether another stop may be run on it."""
 
@@ -118,27 +127,34 @@ class Worker:
         return answer
 
     def _asked(self, request: Message, time_limits: Sequence[float]) -> Message:
-        requests: Any = self._process.stdin
         try:
-            write_message(requests, request.head, request.blocks)
+            self._request(request)
             self._wait(time_limits)
-            with self._answers.makefile("rb") as answers:
+            with self._channel.makefile("rb") as answers:
                 return read_message(answers)
         except (BrokenMessageError, TimeoutError):
             raise self._lost("its process sent something else than an answer") from None
         except (StreamEndedError, BrokenPipeError, ConnectionResetError):
             raise self._lost(self._ending()) from None
 
+    def _request(self, request: Message) -> None:
+        with self._channel.makefile("wb") as requests:
+            try:
+                write_message(requests, request.head, request.blocks)
+            except TimeoutError:
+                raise self._lost(f"its process took no request within {ANSWER_LIMIT:g} s") from None
+
     def _wait(self, time_limits: Sequence[float]) -> None:
-        """Wait for an answer; a controller that does not return in time is an error."""
+        """Wait for an answer; a child that does not get on in time, whatever it does, is an error."""
         state, since = self._state(), monotonic()
-        while not select([self._answers], [], [], min(_LONGEST_WAIT, *time_limits))[0]:
+        while not select([self._channel], [], [], min(_LONGEST_WAIT, *time_limits))[0]:
             now = self._state()
             if now != state:
                 state, since = now, monotonic()
             place, calling, _ = state
-            limit = time_limits[place] if calling == STEPPING else max(OPENING_LIMIT, time_limits[place])
-            if calling != NOT_CALLED and monotonic() - since > limit:
+            least = {STEPPING: 0.0, NOT_CALLED: IDLE_LIMIT}.get(calling, OPENING_LIMIT)
+            limit = max(least, time_limits[place])
+            if monotonic() - since > limit:
                 raise self._lost(f"{_NAMES[calling]} did not return within {limit:g} s")
 
     def _state(self) -> tuple[int, int, int]:
@@ -168,16 +184,16 @@ class Worker:
 
 
 def _started(exchange_file: int, temporary_folder: str) -> tuple[Any, socket, int]:
-    """Start a child; return it, what its answers come through, and the pipe that keeps it alive."""
+    """Start a child; return it, what it is talked to through, and the pipe that keeps it alive."""
     end, lifeline = os.pipe()
-    answers, its_answers = socketpair()
-    answers.settimeout(ANSWER_LIMIT)
+    channel, its_channel = socketpair()
+    channel.settimeout(ANSWER_LIMIT)
     try:
         process = subprocess.Popen(
             # -P: modules of the working folder are not ours, whatever they are called.
             [sys.executable, "-P", "-m", _CHILD, str(exchange_file), str(end), temporary_folder],
-            stdin=subprocess.PIPE,
-            stdout=its_answers.fileno(),
+            stdin=its_channel.fileno(),
+            stdout=its_channel.fileno(),
             pass_fds=(exchange_file, end),
             # Signals of the terminal are for this process, which ends the child and what that has started.
             start_new_session=True,
@@ -185,21 +201,19 @@ def _started(exchange_file: int, temporary_folder: str) -> tuple[Any, socket, in
         )
     except BaseException:
         os.close(lifeline)
-        answers.close()
+        channel.close()
         raise
     finally:
         os.close(end)
-        its_answers.close()
-    return process, answers, lifeline
+        its_channel.close()
+    return process, channel, lifeline
 
 
-def _end(process: Any, answers: socket, lifeline: int, folder: tempfile.TemporaryDirectory[str]) -> None:
-    """End a child and whatever it has started."""
+def _end(process: Any, channel: socket, lifeline: int, folder: tempfile.TemporaryDirectory[str]) -> None:
+    """End a child, its guard and whatever it has started."""
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    for stream in (process.stdin, answers):
-        with suppress(OSError):
-            stream.close()
+    channel.close()
     os.close(lifeline)
     folder.cleanup()
