@@ -27,14 +27,23 @@ from dataclasses import dataclass
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-ROOMS = {
-    "physics": ("physics", "rig"),
-    "measures": ("measures", "rig", "evaluation"),
-    "controllers": ("controllers", "rig"),
-    "evaluation": ("evaluation",),
-    "sweeps": ("sweeps",),
+PACKAGE = REPOSITORY / "src/uictest"
+_OTHER_TESTS = {
+    "controllers": ("rig",),
+    "ensemble": ("evaluation",),
+    "faults": ("rig",),
+    "folder_lock": ("user_cache", "sweeps"),
+    "gym": ("stepping",),
+    "library": ("scenario",),
+    "measures": ("rig", "evaluation"),
+    "physics": ("rig",),
+    "record": ("rig",),
+    "runs": ("api",),
+    "series_measures": ("series",),
+    "statistics": ("series_measures", "comparison", "sweeps"),
+    "validation": ("cli/commands/test_validate.py",),
 }
-"""Rooms that can be mutated, and the rooms whose tests are run for each, nearest first."""
+"""Room -> what else its tests are found in, nearest first, besides the folder or file called as the room."""
 _ONE_SOURCE = ("test_compiled.py", "test_cuda.py", "test_lanes.py", "test_native.py")
 """Tests that hold processors against each other: they run one source, so a change of it shows in none."""
 _OTHER_OPERATOR: dict[type[ast.AST], type[ast.AST]] = {
@@ -148,18 +157,38 @@ def _with(node: ast.AST, **fields: object) -> ast.AST:
     return type(node)(**{**kept, **fields})
 
 
-def chosen_places(rooms: Sequence[str], count: int, seed: int) -> list[Place]:
+def rooms() -> list[str]:
+    """Return every room of the package that has code: its folders and its single files."""
+    names = [path.stem for path in sorted(PACKAGE.iterdir()) if path.suffix in ("", ".py")]
+    return [name for name in names if not name.startswith("__") and _files_of(name)]
+
+
+def _files_of(room: str) -> list[Path]:
+    file = PACKAGE / f"{room}.py"
+    return [file] if file.is_file() else sorted((PACKAGE / room).rglob("*.py"))
+
+
+def tests_of(room: str) -> list[str]:
+    """Return the folders and files with the tests of a room, nearest first."""
+    own = (
+        f"tests/{room}",
+        f"tests/test_{room}.py",
+        *(f"tests/{each}" for each in _OTHER_TESTS.get(room, ())),
+    )
+    return [path for path in own if (REPOSITORY / path).exists()]
+
+
+def chosen_places(names: Sequence[str], count: int, seed: int) -> list[Place]:
     """Return so many places, the rooms in turn; no two in the same line."""
     generator = random.Random(seed)
     shuffled: dict[str, list[Place]] = {}
-    for room in rooms:
-        files = sorted((REPOSITORY / "src/uictest" / room).rglob("*.py"))
-        texts = {path.relative_to(REPOSITORY).as_posix(): path.read_text("utf-8") for path in files}
+    for room in names:
+        texts = {path.relative_to(REPOSITORY).as_posix(): path.read_text("utf-8") for path in _files_of(room)}
         shuffled[room] = [place for file, text in texts.items() for place in places_in(file, text)]
         generator.shuffle(shuffled[room])
     chosen: dict[tuple[str, int], Place] = {}
     while len(chosen) < count and any(shuffled.values()):
-        for room in rooms:
+        for room in names:
             while shuffled[room] and len(chosen) < count:
                 place = shuffled[room].pop()
                 if chosen.setdefault((place.file, place.line), place) is place:
@@ -183,10 +212,9 @@ def named_places(names: Sequence[str]) -> list[Place]:
 def test_stages(place: Place, whole: bool) -> list[list[str]]:
     """Return what is given to pytest, stage by stage: the module's own tests first."""
     module = Path(place.file).relative_to("src/uictest")
-    room = module.parts[0]
     own = Path("tests", module.parent, f"test_{module.stem}.py")
     stages = [[str(own)]] if (REPOSITORY / own).exists() else []
-    stages += [[f"tests/{each}"] for each in ROOMS.get(room, (room,))]
+    stages += [[each] for each in tests_of(Path(module.parts[0]).stem)]
     return stages + ([["tests"]] if whole else [])
 
 
@@ -272,7 +300,7 @@ def _try_all(places: Sequence[Place], copy: Copy, whole: bool, report: Callable[
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("rooms", nargs="*", metavar="ROOM", help=f"one of {', '.join(ROOMS)}; all of them")
+    parser.add_argument("rooms", nargs="*", metavar="ROOM", help="a room of src/uictest; all of them")
     parser.add_argument("--count", type=int, default=60, help="how many places [60]")
     parser.add_argument("--seed", type=int, default=0, help="of the choice of places [0]")
     parser.add_argument(
@@ -282,18 +310,18 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--no-check", dest="check", action="store_false", help="the tests are known to pass")
     parser.add_argument("--seconds", type=float, default=900.0, help="limit for one run of tests [900]")
     options = parser.parse_args()
-    if unknown := set(options.rooms) - set(ROOMS):
-        parser.error(f"no such room: {', '.join(sorted(unknown))}; there are {', '.join(ROOMS)}")
+    if unknown := set(options.rooms) - set(rooms()):
+        parser.error(f"no such room: {', '.join(sorted(unknown))}; there are {', '.join(rooms())}")
     return options
 
 
 def main() -> int:
     """Try the places and print the table; exit 1 where one survives, 3 where the tests fail unchanged."""
     options = _arguments()
-    rooms = options.rooms or list(ROOMS)
-    places = (
-        named_places(options.place) if options.place else chosen_places(rooms, options.count, options.seed)
-    )
+    if options.place:
+        places = named_places(options.place)
+    else:
+        places = chosen_places(options.rooms or rooms(), options.count, options.seed)
     with tempfile.TemporaryDirectory(prefix="uictest-mutate-") as folder:
         copy = Copy(Path(folder), options.seconds)
         stages = {stage[0] for place in places for stage in test_stages(place, options.whole)}

@@ -2,10 +2,12 @@
 
 import ast
 import re
+import sys
 from collections.abc import Callable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import pytest
@@ -112,3 +114,15 @@ def resolves(module: object, name: str) -> bool:
 def test_no_file_is_too_long() -> None:
     lengths = {name: len(path.read_text("utf-8").splitlines()) for name, path in MODULES.items()}
     assert {name: length for name, length in lengths.items() if length > LONGEST} == {}
+
+
+def test_every_room_can_be_mutated_and_has_tests() -> None:
+    """`scripts/mutate.py` finds the code of each room and what tests it."""
+    script = spec_from_file_location("mutate", PACKAGE.parents[1] / "scripts/mutate.py")
+    assert script is not None
+    assert script.loader is not None
+    mutate = sys.modules[script.name] = module_from_spec(script)
+    script.loader.exec_module(mutate)
+    rooms = {module.split(".")[1] for module in MODULES if module.count(".")} - {"__main__"}
+    assert set(mutate.rooms()) == rooms
+    assert [room for room in mutate.rooms() if not mutate.tests_of(room)] == []

@@ -4,7 +4,7 @@ from dataclasses import astuple
 
 import pytest
 
-from uictest.faults import FAULT_KINDS, Effects, FaultKind
+from uictest.faults import FAULT_KINDS, SPEED_SENSOR, Effects, FaultKind
 from uictest.scenario.yaml import parse_quantity
 from uictest.units import KINDS
 
@@ -27,6 +27,16 @@ def test_every_fault_changes_something(row: FaultKind) -> None:
     assert astuple(row.effects(value)) != astuple(Effects())
     if row.value is None or row.value.without:
         assert astuple(row.effects(None)) != astuple(Effects())
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_a_lost_sensor_alone_reports_its_fault(row: FaultKind) -> None:
+    """With or without a value that it reads."""
+    values = [None] if row.value is None or row.value.without else []
+    if row.value is not None:
+        values += [float(parse_quantity(row.value.at_most, row.value.kind))]
+    reports = {row.effects(value).speed_valid == 0.0 for value in values}
+    assert reports == {(row.part, row.name) == (SPEED_SENSOR, "lost")}
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)

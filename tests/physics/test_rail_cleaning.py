@@ -51,6 +51,12 @@ def test_a_rolling_wheel_cleans_nothing(distance: float) -> None:
     assert cleaned_share(0.0, 1e6, distance, 0.0, 2.0) == 0.0
 
 
+@given(shares, lengths, st.floats(-1e3, 0.0))
+def test_a_loss_below_zero_by_rounding_cleans_nothing(share: float, distance: float, loss: float) -> None:
+    rolling = cleaned_share(share, 0.0, distance, 1.0 / 5300.0, 2.0)
+    assert cleaned_share(share, loss, distance, 1.0 / 5300.0, 2.0) == rolling
+
+
 @given(shares, shares, shares)
 def test_each_wheelset_adds_to_what_it_finds(share: float, arrived: float, carry_over: float) -> None:
     """Of what is not clean on arrival, a wheelset cleans its share."""

@@ -129,23 +129,36 @@ def test_a_stop_that_failed_to_run_is_an_error(planned: series.Series, judge: Ju
 def test_a_criterion_of_stops_with_a_bound_of_its_own_is_judged_by_their_verdicts(
     load: Load, judge: Judge, write: Write
 ) -> None:
-    own = """schema: uictest/criteria/1
-name: own
-criteria:
-  - {id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}
-"""
-    write("own.yaml", own)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    over = _locks(load, judge, write, {})
+    assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 2, 3)
+
+
+def test_the_verdict_of_a_stop_that_does_not_count_decides_nothing(
+    load: Load, judge: Judge, write: Write
+) -> None:
+    over = _locks(load, judge, write, {2.5: "invalid"})
+    assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("pass", 0.5, 2, 2)
+
+
+def _locks(
+    load: Load, judge: Judge, write: Write, outcomes: dict[float, evaluation.Outcome]
+) -> series.SeriesVerdict:
+    """The verdict over a dry and two wet stops whose wheels lock for 0, 0.5 and 2.5 s."""
+    criterion = "{id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}"
+    write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria: [{criterion}]\n")
+    wet = "{scenario: wet.yaml, set: {rail.friction: [0.07, 0.08]}}"
+    (planned,) = load(f"dry: dry.yaml\nwet: {wet}\nvalid_stops: 50 %\ncriteria: own.yaml\n")
     cases = []
-    for each, longest in zip(judge(planned, [460.0, 500.0]).cases, (0.0, 2.5), strict=True):
+    for each, longest in zip(judge(planned, [460.0, 500.0, 510.0]).cases, (0.0, 0.5, 2.5), strict=True):
         status: evaluation.Status = "pass" if longest <= 1.0 else "fail"
         verdict = evaluation.Verdict(
             "locks", "requirement", longest, "s", None, 1.0, 1.0 - longest, status, ""
         )
-        case = replace(each.case, criteria=(verdict,), outcome=status, repeats=None)
+        outcome = outcomes.get(longest, status)
+        case = replace(each.case, criteria=(verdict,), outcome=outcome, repeats=None)
         cases.append(replace(each, case=case))
     (over,) = series.judge_series(planned, cases).criteria
-    assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 1, 2)
+    return over
 
 
 def test_a_failed_requirement_of_a_stop_counts_and_lowers_the_share(
