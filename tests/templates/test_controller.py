@@ -35,7 +35,7 @@ def part(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 
 def test_it_conforms_untouched(part: Path) -> None:
     examination = conformance.examine(
-        conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]), {})
+        conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]))
     )
     judged = [each for each in examination.findings if each.id != "in-time"]  # the machine's, not its own
     assert {each.status for each in judged} == {"pass"}, judged
@@ -52,7 +52,7 @@ def test_both_languages_give_the_same_answers(tmp_path: Path) -> None:
     answers = []
     for language in ("python", "c"):
         part = load_controller(str(written(language, tmp_path / language)))  # type: ignore[arg-type]
-        with Bench(conformance.subject_of(language, part, {})) as bench:
+        with Bench(conformance.subject_of(language, part)) as bench:
             answers.append([each.drives[0].outputs for each in bench.every_situation()])
     for one, other in zip(*answers, strict=True):
         assert one.tobytes() == other.tobytes()
