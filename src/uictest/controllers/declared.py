@@ -69,12 +69,13 @@ def nothing_declared(given: Mapping[str, Any]) -> Problem:
     names = ", ".join(given)
     lines = ", ".join(f"{name}: {_line(value)}" for name, value in given.items())
     hint = (
-        f"write in its part `declared_parameters: {{{lines}}}`, with the unit of each; or"
-        " `free_parameters: true` to accept any name"
+        f"write `declared_parameters: {{{lines}}}` in its part, or `free_parameters: true` to accept any name"
     )
     return Problem(next(iter(given)), f"the controller declares no parameters, given: {names}", hint)
 
 
 def _line(value: Any) -> str:
-    unit = ', unit: "1"' if _kind(value) == "a number" else ""
-    return f"{{default: {json.dumps(value)}{unit}}}"
+    kind = _kind(value)
+    return (
+        "{default: NUMBER, unit: UNIT}" if kind == "a number" else f"{{default: {kind.split()[-1].upper()}}}"
+    )

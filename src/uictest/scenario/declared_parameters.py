@@ -5,11 +5,12 @@ description of an FMU. A library in C and a controller in the built-in form are 
 """
 
 import ast
+import io
 import lzma
 import re
 import zipfile
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import partial
 from importlib.machinery import PathFinder
@@ -21,6 +22,7 @@ from uictest.controllers import Problem, installed_module, nothing_declared, par
 from uictest.scenario.files import Files
 from uictest.scenario.parts.declared_parameter import DeclaredParameter
 from uictest.scenario.parts.external_controller import ExternalController
+from uictest.scenario.program_files import read_program
 from uictest.scenario.yaml import (
     COMMAND_LINE,
     Diagnostic,
@@ -111,16 +113,20 @@ def _declared_by_program(controller: ExternalController, files: Files) -> Declar
         return {}
     if controller.kind == "registered":
         source = _source_of_module(installed_module(controller.reference))
-        declared = _once(source, files, _of_python) if source else None
-        return declared or None  # in the built-in form it declares them in code
-    path = Path(getattr(controller, controller.kind).location)
-    if controller.kind == "fmu" and controller.parameters:
-        return _once(path, files, _of_fmu)
-    return _once(path, files, _of_python) if controller.kind == "python" else None
+        # A controller in the built-in form declares them in code.
+        return (_declared_in(source, "python", files) or None) if source else None
+    if controller.kind == "python" or (controller.kind == "fmu" and controller.parameters):
+        return _declared_in(Path(getattr(controller, controller.kind).location), controller.kind, files)
+    return None
 
 
-def _once(path: Path, files: Files, read: Callable[[Path], Declared | None]) -> Declared | None:
-    declared: Declared | None = files.once(f"parameters:{path}", partial(read, path))
+def _declared_in(path: Path, kind: str, files: Files) -> Declared | None:
+    try:
+        content = read_program(files, kind, path).content
+    except OSError:
+        return None
+    read = partial(_of_python, path, content) if kind == "python" else partial(_of_fmu, content)
+    declared: Declared | None = files.once(f"parameters:{path}", read)
     return declared
 
 
@@ -136,8 +142,7 @@ def _source_of_module(name: str) -> Path | None:
     return Path(origin) if origin is not None and origin.endswith(".py") else None
 
 
-def _of_python(path: Path) -> Declared | None:
-    content = path.read_bytes()
+def _of_python(path: Path, content: bytes) -> Declared | None:
     if not _ASSIGNED.search(content):
         return {}
     if len(content) > LARGEST_SOURCE:
@@ -165,27 +170,26 @@ def _assigned(statement: ast.stmt) -> ast.expr | None:
     return statement.value if named else None
 
 
-def _tree(value: ast.expr | None, document: Document) -> Node:
+def _tree(value: ast.expr, document: Document) -> Node:
     """Return a literal of Python as the tree of a file, so that its errors have their places."""
-    place = Place(document, getattr(value, "lineno", 1), getattr(value, "col_offset", 0) + 1)
+    place = Place(document, value.lineno, value.col_offset + 1)
     if isinstance(value, ast.Dict):
         entries: dict[str, Entry] = {}
         for key, inner in zip(value.keys, value.values, strict=True):
-            name = _tree(key, document)
-            if not isinstance(name, Scalar) or not isinstance(name.value, str):
-                raise single_error(name.place, "the keys of a declaration are texts", NAME, _HINT)
-            entries[name.value] = Entry(name.place, _tree(inner, document))
+            if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
+                raise single_error(place, "the keys of a declaration are texts", NAME, _HINT)
+            key_place = Place(document, key.lineno, key.col_offset + 1)
+            entries[key.value] = Entry(key_place, _tree(inner, document))
         return Map(entries, place)
     if isinstance(value, ast.List | ast.Tuple):
         return Sequence(tuple(_tree(each, document) for each in value.elts), place)
     try:
-        literal = ast.literal_eval(value)  # type: ignore[arg-type]
+        literal = ast.literal_eval(value)
     except (ValueError, TypeError, RecursionError):
         literal = ...
     if literal is None or isinstance(literal, str | int | float):
         return Scalar(literal, str(literal), place)
-    found = quoted(ast.unparse(value)) if value is not None else "**"
-    message = f"{found} is no literal: the file is read, not run"
+    message = f"{quoted(ast.unparse(value))} is no literal: the file is read, not run"
     raise single_error(place, message, NAME, f"{_HINT}, or {_IN_PART}")
 
 
@@ -196,10 +200,10 @@ _UNREADABLE: Final = (
 """What a file raises that is no FMU; who loads it says so."""
 
 
-def _of_fmu(path: Path) -> Declared | None:
+def _of_fmu(content: bytes) -> Declared | None:
     """Return the parameters in the description of an FMU; None where it cannot be read."""
     try:
-        with zipfile.ZipFile(path) as archive:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
             if archive.getinfo("modelDescription.xml").file_size > LARGEST_DESCRIPTION:
                 return None
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
