@@ -133,13 +133,16 @@ def _declared_in(path: Path, kind: str, files: Files) -> Declared | None:
 def _source_of_module(name: str) -> Path | None:
     """Return the file of a module that is installed; none of its packages is imported."""
     folders: Any = None
-    origin: str | None = None
+    origin = ""
     for place in range(1, name.count(".") + 2):
-        found = PathFinder.find_spec(".".join(name.split(".")[:place]), folders)
+        try:
+            found = PathFinder.find_spec(".".join(name.split(".")[:place]), folders)
+        except KeyError:  # a package without a file inside another one is found only once that is imported
+            return None
         if found is None:
             return None
-        folders, origin = found.submodule_search_locations, found.origin
-    return Path(origin) if origin is not None and origin.endswith(".py") else None
+        folders, origin = found.submodule_search_locations, found.origin or ""
+    return Path(origin) if origin.endswith(".py") else None
 
 
 def _of_python(path: Path, content: bytes) -> Declared | None:
