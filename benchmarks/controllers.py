@@ -146,7 +146,7 @@ def outside(written: str, twin: str) -> str:
     scenario: Scenario = load([SCENARIO], [f"controller={twin}"])[0].scenario
     names = [name for name in CONTROLLERS[twin].declared_parameters() if name != "cycle_time"]
     numbers = ", ".join(f"{name}: {float(getattr(scenario.controller, name))!r}" for name in names)
-    return f"{{{written}, parameters: {{{numbers}}}}}"
+    return f"{{{written}, parameters: {{{numbers}}}, free_parameters: true}}"
 
 
 def timed(

@@ -55,7 +55,9 @@ def main() -> None:
     parser.add_argument("--fmi", type=int, choices=(2, 3), default=2, help="version of FMI")
     arguments = parser.parse_args()
     controller = yaml.safe_load(arguments.scenario.read_text("utf-8"))["controller"]
-    parameters = {name: float(value) for name, value in controller.get("parameters", {}).items()}
+    declared = {name: each["default"] for name, each in controller.get("declared_parameters", {}).items()}
+    given = declared | controller.get("parameters", {})
+    parameters = {name: float(value) for name, value in given.items()}
     build(arguments.source, parameters, arguments.output, arguments.fmi)
 
 

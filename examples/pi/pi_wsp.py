@@ -13,21 +13,36 @@ __version__ = "1.0"
 FILL, HOLD, VENT = (0, 0), (1, 0), (1, 1)  # magnets: hold, vent
 
 
+PARAMETERS = {  # what a scenario may set; the values in pi.yaml are the tuned ones
+    "kp": {"default": 1.0, "unit": "s", "range": [0, 10]},
+    "ki": {"default": 4.0, "unit": "1", "range": [0, 100]},
+    "target": {"default": 0.12, "unit": "1", "range": [0, 1], "description": "slide that is kept"},
+    "period": {"default": 0.1, "unit": "s", "range": [0.01, 1], "description": "of the pulses"},
+    "release_time": {"default": 0.5, "unit": "s", "range": [0, 60]},
+    "rolling_slide": {"default": 0.02, "unit": "1", "range": [0, 1]},
+    "minimum_speed": {"default": 1.4, "unit": "m/s", "range": [0, 30]},
+    "reference_deceleration": {"default": 2.0, "unit": "m/s2", "range": [0, 10]},
+    "sliding_deceleration": {"default": 0.8, "unit": "m/s2", "range": [0, 10]},
+    "probe_interval": {"default": 2.0, "unit": "s", "range": [0, 60]},
+    "probe_time": {"default": 0.4, "unit": "s", "range": [0, 60]},
+}
+
+
 @dataclass(frozen=True)
 class Parameters:
-    """What a scenario may set; the values in pi.yaml are the tuned ones."""
+    """What a stop is given: all of PARAMETERS."""
 
-    kp: float = 1.0  # s
-    ki: float = 4.0
-    target: float = 0.12  # slide that is kept
-    period: float = 0.1  # of the pulses, s
-    release_time: float = 0.5  # a wheelset that has rolled for so long gets its full brake back, s
-    rolling_slide: float = 0.02  # slide below which a wheelset rolls
-    minimum_speed: float = 1.4  # of the train, below which the brake is left alone, m/s
-    reference_deceleration: float = 2.0  # fastest fall of the estimated speed of the train, m/s2
-    sliding_deceleration: float = 0.8  # its fall while all wheelsets slide, until one has been let roll
-    probe_interval: float = 2.0  # from one wheelset that is let roll to the next, s
-    probe_time: float = 0.4  # after which a vented wheelset accelerates unless it rolls, s
+    kp: float
+    ki: float
+    target: float
+    period: float
+    release_time: float  # a wheelset that has rolled for so long gets its full brake back
+    rolling_slide: float  # slide below which a wheelset rolls
+    minimum_speed: float  # of the train, below which the brake is left alone
+    reference_deceleration: float  # fastest fall of the estimated speed of the train
+    sliding_deceleration: float  # its fall while all wheelsets slide, until one has been let roll
+    probe_interval: float  # from one wheelset that is let roll to the next
+    probe_time: float  # after which a vented wheelset accelerates unless it rolls
 
 
 class Wheelset:

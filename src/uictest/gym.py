@@ -28,6 +28,7 @@ Observation = NDArray[np.float64]
 Reward = Callable[[RigState, RigState], float]
 """Reward of one step from the true states before and after it."""
 
+_VALVES: Final = 4
 FILL, HOLD, VENT = 0, 1, 2
 """What an action commands of a valve."""
 LOCKED_BELOW: Final = 0.5
@@ -74,7 +75,7 @@ class RigEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
         pressure = float(parameters["compressor_cut_out"])  # absolute: above any gauge pressure of the rig
         high = np.array([speed] * 4 + [pressure] * 4 + [1.0])
         self.observation_space = spaces.Box(np.zeros(9), high, dtype=np.float64)
-        self.action_space = spaces.MultiDiscrete([3] * 4)
+        self.action_space = spaces.MultiDiscrete([3] * _VALVES)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -85,9 +86,9 @@ class RigEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
         return self._observation(inputs), _info(self.rig.state)
 
     def step(self, action: NDArray[np.int64]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Carry out one action for one controller cycle."""
+        """Carry out one action for one controller cycle. Raises ValueError for what is no action."""
         before = self.rig.state
-        commands = [int(each) for each in action]
+        commands = _commands(action)
         inputs = self.rig.step(
             hold=[each != FILL for each in commands], vent=[each == VENT for each in commands]
         )
@@ -101,6 +102,18 @@ class RigEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
     def _observation(self, inputs: Inputs) -> Observation:
         values = np.array([*inputs.wheel_speed, *inputs.cylinder_pressure, inputs.brake_demand])
         return np.clip(values, self.observation_space.low, self.observation_space.high)  # type: ignore[attr-defined]
+
+
+def _commands(action: Any) -> list[int]:
+    """Return the command of each valve; a number between two commands, or beyond them, is none of them."""
+    values = np.asarray(action)
+    whole = values.shape == (_VALVES,) and values.dtype.kind in "iu"
+    if not whole or not ((values >= FILL) & (values <= VENT)).all():
+        raise ValueError(
+            f"{action!r} is no action: it has {_VALVES} whole numbers, each {FILL} (fill), {HOLD} (hold) or"
+            f" {VENT} (vent)"
+        )
+    return [int(each) for each in values]
 
 
 def _info(state: RigState) -> dict[str, Any]:

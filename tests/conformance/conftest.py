@@ -23,6 +23,6 @@ def examine(tmp_path: Path) -> Examine:
         (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")
         part = tmp_path / "my-wsp.yaml"
         part.write_text(f"{files['my-wsp.yaml']}time_limit: {time_limit}\n", "utf-8")
-        return conformance.examine(conformance.subject_of("changed", load_controller(str(part)), {}))
+        return conformance.examine(conformance.subject_of("changed", load_controller(str(part))))
 
     return changed

@@ -26,7 +26,7 @@ def missed(examination: conformance.Examination) -> set[str]:
 
 
 def built_in(name: str) -> conformance.Examination:
-    return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}"), {}))
+    return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}")))
 
 
 def test_the_default_controller_conforms() -> None:

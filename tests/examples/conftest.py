@@ -94,6 +94,7 @@ def parameters_of() -> Callable[[Case], dict[str, float]]:
 def _external(case: Case, program: Path | str) -> ExternalController:
     common = {
         "parameters": _parameters(case),
+        "free_parameters": True,
         "cycle_time": f"{float(case.scenario.controller.cycle_time)} s",
     }
     if isinstance(program, str):

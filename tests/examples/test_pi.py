@@ -14,6 +14,7 @@ import pytest
 from uictest import rig
 from uictest.cli.entry import execute
 from uictest.scenario import load
+from uictest.scenario.yaml import plain, read_file
 from uictest.sweeps import load_sweep
 
 REPOSITORY = Path(__file__).parents[2]
@@ -55,7 +56,7 @@ def test_it_is_judged_where_it_was_not_tuned() -> None:
     assert not tuned[FRICTION] & judged[FRICTION]
     assert not tuned[SEED] & judged[SEED]
     swept = {key.rpartition(".")[2] for key in plan.keys if key.startswith("controller.parameters.")}
-    assert swept == set(cases[0].scenario.controller.parameters)  # type: ignore[attr-defined]
+    assert swept == set(plain(read_file(PI / "pi.yaml"))["parameters"])
 
 
 @pytest.fixture

@@ -66,7 +66,9 @@ def test_a_controller_in_c_that_fails_ends_its_stop_alone(serve: Serve, fault: s
     failing = f"{{fault: {fault}, at: 100}}"
     with listening(serve(BAD)) as address:
         with pytest.raises(ControllerError) as error:
-            rig.simulate(case(f"controller={{connect: '{address}', parameters: {failing}}}"))
+            rig.simulate(
+                case(f"controller={{connect: '{address}', parameters: {failing}, free_parameters: true}}")
+            )
         assert str(error.value) == message
         assert rig.simulate(case(f"controller={{connect: '{address}'}}")).controller_version == "1.2"
 

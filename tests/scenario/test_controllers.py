@@ -78,7 +78,9 @@ def test_what_to_write_instead(
 
 def test_a_file_is_identified_and_not_run(loaded: Loaded, write: Write, head: str) -> None:
     write("wsp.py", PROGRAM + b"raise SystemExit\n")
-    (case,) = loaded(f"{head}controller: {{python: wsp.py, class: Wsp, parameters: {{gain: 2}}}}\n")
+    (case,) = loaded(
+        f"{head}controller: {{python: wsp.py, class: Wsp, parameters: {{gain: 2}}, free_parameters: true}}\n"
+    )
     digest = sha256(PROGRAM + b"raise SystemExit\n").hexdigest()
     assert case.inputs["wsp.py"] == digest
     values = dict(values_in(case.scenario.controller))
@@ -163,7 +165,7 @@ def test_a_file_of_several_cases_is_read_once(
     program, read = write("wsp.py", PROGRAM), []
     original = Path.read_bytes
     monkeypatch.setattr(Path, "read_bytes", lambda path: read.append(path.name) or original(path))
-    controller = "controller: {python: wsp.py, class: Wsp}\n"
+    controller = "controller: {python: wsp.py, class: Wsp, free_parameters: true}\n"
     cases = load([write("stop.yaml", f"{head}{controller}matrix: {{controller.parameters.a: [1, 2, 3]}}\n")])
     assert [case.scenario.controller.parameters["a"] for case in cases] == [1, 2, 3]
     assert read.count(program.name) == 1

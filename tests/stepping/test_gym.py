@@ -56,6 +56,21 @@ def test_an_action_vents_its_wheelset_and_no_other(write_scenario: Write) -> Non
     assert filled > vented + 2e5
 
 
+@pytest.mark.parametrize(
+    "action",
+    [[3, 0, 0, 0], [0, -1, 0, 0], [0.0, 0.0, 2.9, 0.0], [1.0] * 4, [0] * 3, [[0] * 4], 2, [True] * 4],
+)
+def test_what_is_no_action_is_refused_and_leaves_the_stop(write_scenario: Write, action: Any) -> None:
+    """3 held, -1 held and 2.9 vented."""
+    env = made(write_scenario())
+    env.reset(seed=1)
+    before = env.rig.state
+    for given in (action, np.array(action)):
+        with pytest.raises(ValueError, match="is no action: it has 4 whole numbers"):
+            env.step(given)
+    assert env.rig.state == before
+
+
 def test_a_reward_of_ones_own(write_scenario: Write) -> None:
     def shortest(before: RigState, after: RigState) -> float:
         return before.time - after.time

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,9 @@ import pytest
 from uictest import campaign, conformance, templates
 from uictest.conformance.bench import Bench
 from uictest.scenario import load, load_controller
+from uictest.scenario.yaml import plain, read_file
+
+REPOSITORY = Path(__file__).parents[2]
 
 
 def written(language: templates.Language, folder: Path) -> Path:
@@ -35,7 +39,7 @@ def part(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 
 def test_it_conforms_untouched(part: Path) -> None:
     examination = conformance.examine(
-        conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]), {})
+        conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]))
     )
     judged = [each for each in examination.findings if each.id != "in-time"]  # the machine's, not its own
     assert {each.status for each in judged} == {"pass"}, judged
@@ -52,7 +56,7 @@ def test_both_languages_give_the_same_answers(tmp_path: Path) -> None:
     answers = []
     for language in ("python", "c"):
         part = load_controller(str(written(language, tmp_path / language)))  # type: ignore[arg-type]
-        with Bench(conformance.subject_of(language, part, {})) as bench:
+        with Bench(conformance.subject_of(language, part)) as bench:
             answers.append([each.drives[0].outputs for each in bench.every_situation()])
     for one, other in zip(*answers, strict=True):
         assert one.tobytes() == other.tobytes()
@@ -67,3 +71,27 @@ def test_make_builds_what_the_part_names(tmp_path: Path) -> None:
         (folder / name).write_text(text, "utf-8")
     subprocess.run(["make", "-s"], cwd=folder, check=True)
     assert load_controller(str(folder / "my-wsp.yaml"))
+
+
+def _controllers(node: object) -> Iterator[dict[str, object]]:
+    """Yield the controllers from outside that a shipped file names in place."""
+    if isinstance(node, dict):
+        if {"python", "library", "connect"} & node.keys():
+            yield node
+        for inner in node.values():
+            yield from _controllers(inner)
+
+
+SHIPPED = {"examples": REPOSITORY / "examples", "templates": Path(str(templates.__file__)).parent}
+
+
+@pytest.mark.parametrize("folder", SHIPPED.values(), ids=SHIPPED.keys())
+def test_what_is_shipped_declares_its_parameters(folder: Path) -> None:
+    shipped = [
+        (path, each) for path in folder.rglob("*.yaml") for each in _controllers(plain(read_file(path)))
+    ]
+    assert shipped
+    for path, controller in shipped:
+        program = path.parent / str(controller.get("python", ""))
+        declares = program.is_file() and "\nPARAMETERS = {" in program.read_text("utf-8")
+        assert declares or controller.get("declared_parameters"), path

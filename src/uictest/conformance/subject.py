@@ -1,7 +1,6 @@
 """The controller that is checked."""
 
-import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from uictest.conformance.situations import INITIAL_SPEED, WHEELSETS, wheel_radius
@@ -35,18 +34,17 @@ class Subject:
         return {"kind": self.program.kind, "name": self.name, **digest}
 
 
-def subject_of(name: str, part: Any, parameters: dict[str, Any]) -> Subject:
+def subject_of(name: str, part: Any) -> Subject:
     """Return the subject that a scenario's controller stands for.
 
     Args:
         name: what it is called in the report.
         part: the controller of a scenario.
-        parameters: what takes the place of its own parameters, or is added to them; none for one built in.
     """
     program = part.program
     radii = (wheel_radius(),) * WHEELSETS
-    given = {} if program is None else {**part.parameters, **parameters}
+    given = {} if program is None else dict(part.parameters)
     config = Config(WHEELSETS, float(part.cycle_time), INITIAL_SPEED, radii, given)
     if program is None:
         return Subject(name, config, built_in=CONTROLLERS[part.algorithm], parameters=part)
-    return Subject(name, config, program=replace(program, parameters=json.dumps(given)))
+    return Subject(name, config, program=program)

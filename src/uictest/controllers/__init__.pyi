@@ -17,6 +17,11 @@ from .contract import (
     DeclaredParameter as DeclaredParameter,
     TrainMemory as TrainMemory,
 )
+from .declared import (
+    Problem as Problem,
+    nothing_declared as nothing_declared,
+    parameter_problems as parameter_problems,
+)
 from .exchange import (
     CLOSING as CLOSING,
     EXCHANGE as EXCHANGE,
@@ -33,7 +38,11 @@ from .exchange import (
     STEPPING as STEPPING,
     WROTE_BEYOND as WROTE_BEYOND,
 )
-from .installed import installed_names as installed_names, installed_version as installed_version
+from .installed import (
+    installed_module as installed_module,
+    installed_names as installed_names,
+    installed_version as installed_version,
+)
 from .interface import (
     Config as Config,
     Inputs as Inputs,

@@ -38,3 +38,12 @@ def installed_version(name: str) -> str:
     """
     entries = installed(name)
     return shown_version(package_of(entries[0])) if len(entries) == 1 else ""
+
+
+def installed_module(name: str) -> str:
+    """Return the module that holds what is registered under a name, empty if no or several packages have it.
+
+    Only the metadata of the package are read; it is not imported.
+    """
+    entries = installed(name)
+    return entries[0].module if len(entries) == 1 else ""

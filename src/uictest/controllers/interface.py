@@ -25,7 +25,7 @@ class Config:
         cycle_time: time from one call of ``step`` to the next, s.
         initial_speed: of the train at the brake command, m/s.
         wheel_radius: radius that ``wheel_speed`` is computed with, m, one per wheelset.
-        parameters: ``parameters`` of the scenario's controller.
+        parameters: those that are declared, as the scenario gives them or with their defaults.
         case_sha256: of everything that decides the stop but the controller, see
             :func:`uictest.rig.assembly.case_sha256`; empty where there is no case.
     """

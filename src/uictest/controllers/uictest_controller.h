@@ -1,9 +1,9 @@
 /* A wheel-slide-protection controller for uictest, in C.
  *
- * A controller is a shared library that exports the functions below (`uictest_version` may be left out).
- * uictest creates a controller for every stop, resets it, calls `uictest_step` once per controller cycle, and
- * destroys it. Several controllers of one library may live at the same time, each used by one thread at a
- * time: keep all memory in the controller, none in static variables.
+ * A controller is a shared library that exports the functions below (`uictest_version` and
+ * `uictest_parameters` may be left out). uictest creates a controller for every stop, resets it, calls
+ * `uictest_step` once per controller cycle, and destroys it. Several controllers of one library may live at the
+ * same time, each used by one thread at a time: keep all memory in the controller, none in static variables.
  *
  *     gcc -O2 -fPIC -shared -o libwsp.so wsp.c        the header's folder: uictest init controller --c DIR
  *
@@ -60,6 +60,9 @@ typedef struct {
 UICTEST_EXPORT uint32_t uictest_abi_version(void);
 /* Version of the controller for the reports, such as "2.1.0". May be left out. */
 UICTEST_EXPORT const char *uictest_version(void);
+/* The parameters that it knows, a JSON object: {"pause": {"default": 0.5, "unit": "s", "range": [0, 10]}}.
+ * What a scenario gives besides, or beyond a range, ends the stop as an error. May be left out. */
+UICTEST_EXPORT const char *uictest_parameters(void);
 /* A controller, or NULL: uictest_last_error(NULL) says why. */
 UICTEST_EXPORT void *uictest_create(const uictest_config *config);
 /* Return to the state after create. 0, or any other number: uictest_last_error says why. */

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, Final
 
 from uictest.evaluation.parameters import EffectivePart, Parameter
@@ -73,7 +74,9 @@ def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePar
     above = f"{key}." if key else ""
     library = original if part.original else None
     parameters = tuple(
-        _parameter(above, place, value, library, _mark(part, place, value, original))
+        _as_declared(
+            part, place, _parameter(above, place, value, library, _mark(part, place, value, original))
+        )
         for place, value in values.items()
     )
     removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
@@ -102,6 +105,15 @@ def _mark(part: Part, place: Key, value: Value, original: Mapping[Key, Value]) -
     if isinstance(value, Quantity):
         return mark_of(value, part.sources)
     return "" if original.get(place) == value else "user"
+
+
+def _as_declared(part: Part, place: Key, parameter: Parameter) -> Parameter:
+    """Return a parameter of a controller from outside with its unit, marked where it has its default."""
+    declared = getattr(part, "declared_parameters", {}).get(place[1]) if place[0] == "parameters" else None
+    if declared is None:
+        return parameter
+    is_default = parameter.mark == "user" and getattr(part, "parameters", {})[place[1]] == declared.default
+    return replace(parameter, unit=declared.unit, mark="default" if is_default else parameter.mark)
 
 
 def _stop(scenario: Scenario) -> Iterator[Parameter]:

@@ -25,6 +25,7 @@ from .domain_wording import (
 )
 from .drawn_cases import DRAWN as DRAWN, MOST_DRAWN as MOST_DRAWN, drawn_cases as drawn_cases
 from .escaping import (
+    argument as argument,
     csv_cell as csv_cell,
     no_command as no_command,
     printable as printable,

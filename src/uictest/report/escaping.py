@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 
 from uictest.units import UNIT_SYMBOLS
 
@@ -21,6 +22,11 @@ def printable(text: str) -> str:
 def _spelled_out(character: str) -> str:
     # `isprintable` is false for exactly what can move the cursor, reverse the reading direction or hide.
     return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
+
+
+def argument(path: str) -> str:
+    """Return a path as a shell takes it for one argument, and a command for no option: `./-x.yaml`."""
+    return shlex.quote(f"./{path}" if path.startswith("-") else path)
 
 
 def csv_cell(text: str) -> str:

@@ -1,5 +1,6 @@
 from .choice import chosen_case as chosen_case
 from .controller_loading import load_controller as load_controller
+from .declared_parameters import with_parameters as with_parameters
 from .discovery import (
     OTHER_SCHEMAS as OTHER_SCHEMAS,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
@@ -18,6 +19,7 @@ from .files import Files as Files, Roots as Roots
 from .identifiers import (
     LONGEST as LONGEST,
     case_id as case_id,
+    controller_labels as controller_labels,
     short_keys as short_keys,
     value_label as value_label,
 )

@@ -1,13 +1,17 @@
 """Case ids: the scenario's name and the settings of the case, in characters safe for file names."""
 
 import re
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import PurePosixPath
-from typing import Final
+from types import MappingProxyType
+from typing import Any, Final
 
 from uictest.scenario.expansion import Setting, Variant
+from uictest.scenario.part_keys import PART_KEYS
 from uictest.scenario.parts.external_controller import PROGRAM_FILES
-from uictest.scenario.references import is_path
-from uictest.scenario.yaml import Map, Node, Scalar, Sequence
+from uictest.scenario.references import Parts, is_path
+from uictest.scenario.yaml import Map, Node, Scalar, ScenarioErrors, Sequence
 
 LONGEST: Final = 200
 """Longest id: with an extension it must still be a file name everywhere."""
@@ -15,14 +19,57 @@ LONGEST: Final = 200
 FAULTS: Final = "faults"
 """Key of the faults of a scenario."""
 
+CONTROLLER: Final = "controller"
+"""Key of the controller of a scenario."""
+
+Labels = Mapping[int, str]
+"""What ids call controllers, by the identity of their nodes."""
+NO_LABELS: Final[Labels] = MappingProxyType({})
+_DIGITS: Final = 8
+"""Of a SHA-256 that tells two programs apart."""
+
 _UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
 
 
-def case_id(name: str, variant: Variant, short: dict[str, str]) -> str:
+def case_id(name: str, variant: Variant, short: dict[str, str], labels: Labels = NO_LABELS) -> str:
     """``name`` or ``name[friction=0.10,command=90]``; ``short`` maps swept keys to their short names."""
     if not variant:
         return name
-    return f"{name}[{','.join(f'{short[setting.key]}={value_label(setting)}' for setting in variant)}]"
+    texts = [f"{short[setting.key]}={value_label(setting, labels)}" for setting in variant]
+    return f"{name}[{','.join(texts)}]"
+
+
+def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:
+    """Return what ids call the controllers among the values of one file.
+
+    That is the name of the part. Several programs of one name are `name@version`, or, where a version is
+    unknown or that of another one, `name@` and the first digits of the SHA-256. A controller that cannot be
+    resolved has no label: its error is reported where its case is.
+    """
+    programs: dict[int, tuple[str, str, str]] = {}
+    for setting in settings:
+        node = setting.value.node
+        if setting.key == CONTROLLER and id(node) not in programs:
+            with suppress(ScenarioErrors):
+                part = parts.resolve(node, PART_KEYS[CONTROLLER,].model, (CONTROLLER,)).part
+                programs[id(node)] = _program_named(part, setting)
+    return {key: _told_apart(program, {*programs.values()}) for key, program in programs.items()}
+
+
+def _program_named(part: Any, setting: Setting) -> tuple[str, str, str]:
+    """Return name, version and digits of a controller; one that is built in has a name alone."""
+    name = part.name if "name" in part.model_fields_set else _name(setting)
+    version, program = getattr(part, "version", None) or "", part.program
+    return _safe(name), _safe(version), "" if program is None else program.sha256[:_DIGITS]
+
+
+def _told_apart(program: tuple[str, str, str], programs: set[tuple[str, str, str]]) -> str:
+    name, version, digits = program
+    versions = [other_version for other, other_version, _ in programs if other == name]
+    if len(versions) == 1:
+        return name
+    distinct = all(versions) and len(set(versions)) == len(versions)
+    return "@".join(filter(None, (name, version if distinct else digits)))
 
 
 def short_keys(keys: list[str]) -> dict[str, str]:
@@ -39,10 +86,14 @@ def _shortest_tail(key: str, others: list[str]) -> str:
     return key
 
 
-def value_label(setting: Setting) -> str:
-    """The value as written, without the characters that a file name must not contain."""
-    text = _name(setting)
-    return _UNSAFE.sub("", text) or f"value{setting.number}"
+def value_label(setting: Setting, labels: Labels = NO_LABELS) -> str:
+    """The value as written in the characters of file names; of a controller, its label."""
+    label = labels.get(id(setting.value.node)) or _safe(_name(setting))
+    return label or f"value{setting.number}"
+
+
+def _safe(text: str) -> str:
+    return _UNSAFE.sub("", text)
 
 
 def _name(setting: Setting) -> str:

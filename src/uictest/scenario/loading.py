@@ -8,7 +8,14 @@ from typing import Final
 from uictest.scenario.discovery import scenario_trees
 from uictest.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.scenario.files import Files, Roots
-from uictest.scenario.identifiers import LONGEST, case_id, short_keys
+from uictest.scenario.identifiers import (
+    CONTROLLER,
+    LONGEST,
+    Labels,
+    case_id,
+    controller_labels,
+    short_keys,
+)
 from uictest.scenario.model import SCENARIO_SCHEMA, Case
 from uictest.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.scenario.rail_friction import changed_alone, overridden_alone
@@ -80,6 +87,7 @@ class _ScenarioFile:
     tree: Map
     documents: tuple[Document, ...]
     short: dict[str, str]
+    labels: Labels
     ids: dict[str, Variant] = field(default_factory=dict)
 
 
@@ -123,8 +131,10 @@ class _Loader:
         if self.overrides:
             # Cases that differed only in a key that the command line sets are the same now.
             variants = distinct(variants)
-        short = short_keys(list(dict.fromkeys(setting.key for variant in variants for setting in variant)))
-        return _ScenarioFile(path, base, documents, short), variants
+        settings = [setting for variant in variants for setting in variant]
+        short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
+        labels = controller_labels(settings, self.parts)
+        return _ScenarioFile(path, base, documents, short, labels), variants
 
     def _parent(self, reference: Scalar) -> Map:
         tree = self.files.beside(reference, "extends")
@@ -134,7 +144,7 @@ class _Loader:
     def _case(self, file: _ScenarioFile, variant: Variant) -> Case:
         scenario, documents = resolve(self._varied(file.tree, variant), self.parts)
         return Case(
-            id=self._claimed(case_id(scenario.name, variant, file.short), file, variant),
+            id=self._claimed(case_id(scenario.name, variant, file.short, file.labels), file, variant),
             scenario=scenario,
             path=Path(display_name(file.path)),
             parameters={setting.key: as_written(setting.value.node) for setting in variant},
@@ -181,6 +191,8 @@ def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> Scenario
     if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
         message, key = _twice(setting.value.node, twin.value.node), setting.key
     hint = f"remove one; the first is in line {twin.value.node.place.line}"
+    if key == CONTROLLER:
+        hint += "; or give each a `name` or a `version` of its own"
     return single_error(setting.value.node.place, message, key, hint)
 
 

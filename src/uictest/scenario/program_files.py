@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterable, Iterator
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.controllers import installed_version
 from uictest.scenario.files import Files, nearest_file
@@ -56,7 +56,7 @@ def _program_file(node: Scalar, files: Files, above: str, kind: str) -> ProgramF
         hint = nearest_file(path, "build it first, or mend the path: it starts at the folder of this file")
         raise single_error(node.place, f"no such file: {quoted(node.text)}", f"{above}{kind}", hint)
     try:
-        document, version = files.once(f"{kind}:{path}", partial(_read, path, kind))
+        document, version, _ = read_program(files, kind, path)
     except OSError as error:
         raise unreadable_error(node.place, error) from None
     return ProgramFile(node.text, str(path.resolve()), document, version)
@@ -70,11 +70,24 @@ def version_stated_for(controller: Map, programs: Iterable[ProgramFile]) -> str:
     return next((file.version for file in programs if file.version), "")
 
 
-def _read(path: Path, kind: str) -> tuple[Document, str]:
-    """Return what the file is, and the version that it states."""
+class ProgramText(NamedTuple):
+    """What the file of a program is, the version that it states, and its content where that is a text."""
+
+    document: Document
+    version: str
+    content: bytes
+
+
+def read_program(files: Files, kind: str, path: Path) -> ProgramText:
+    """Return the file of a program, read once. Raises OSError."""
+    text: ProgramText = files.once(f"{kind}:{path.resolve()}", partial(_read, path, kind))
+    return text
+
+
+def _read(path: Path, kind: str) -> ProgramText:
     content = path.read_bytes()
-    sha256 = hashlib.sha256(content).hexdigest()
-    return Document(display_name(path), path.parent, "", sha256), stated_version(kind, content)
+    document = Document(display_name(path), path.parent, "", hashlib.sha256(content).hexdigest())
+    return ProgramText(document, stated_version(kind, content), b"" if kind == "library" else content)
 
 
 def mapping_for(text: str) -> str:

@@ -7,7 +7,9 @@ from typing import Any, Final
 
 from uictest import library
 from uictest.controllers import installed_names
+from uictest.scenario.declared_parameters import with_declared_parameters
 from uictest.scenario.files import Files
+from uictest.scenario.parts.external_controller import ExternalController
 from uictest.scenario.program_files import mapping_for, program_files, version_stated_for
 from uictest.scenario.yaml import (
     LIBRARY,
@@ -104,6 +106,8 @@ class Parts:
         version = version_stated_for(tree, programs.values())
         stated = {"version": version} if version else {}
         part = validated(model, {**stated, **plain(tree), **programs}, tree, key)
+        if isinstance(part, ExternalController):
+            part = with_declared_parameters(part, tree, self.files, key)
         return part, tuple(file.document for file in programs.values())
 
     def _with_origin(self, part: Any, generations: Sequence[Map], model: Any) -> Any:

@@ -14,11 +14,14 @@ DESCRIPTIVE: Final = frozenset(
     {
         *("schema_id", "id", "name", "title", "description", "tags", "extends"),
         *("sources", "source", "clause", "scope", "provenance"),
-        *("requirements", "test_case", "validated"),
+        *("requirements", "test_case", "validated", "declared_parameters", "free_parameters"),
         *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats"),
     }
 )
-"""Fields that a stop cannot depend on: names, sources, expectations, repeats and references to results."""
+"""Fields that a stop cannot depend on: names, sources, expectations, repeats and references to results.
+
+Declarations of a controller's parameters are among them: their defaults stand in `parameters`.
+"""
 
 
 def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:

@@ -70,9 +70,11 @@ def test_parameters_are_set_as_texts_of_yaml(call: Call) -> None:
     path = program("pass")
     path.write_text(
         path.read_text().replace("config): pass", "config): assert config.parameters == {'a': 2.5}")
+        + 'PARAMETERS = {"a": {"default": 1.0, "unit": "s"}}\n'
     )
     assert call("controller", "check", path, "--set", "a=2.5").code == 1
     assert call("controller", "check", path, "--set", "a").code == 4
+    assert "no parameter b" in call("controller", "check", path, "--set", "b=2.5").err
     assert call("controller", "check", "threshold", "--set", "a=1").code == 4
 
 

@@ -40,7 +40,9 @@ TELLING = (
 
 @pytest.fixture
 def stop(scenario: Write) -> Path:
-    path = scenario("stop", "controller: {python: wsp.py, class: Wsp, parameters: {gain: 2}}\n")
+    path = scenario(
+        "stop", "controller: {python: wsp.py, class: Wsp, parameters: {gain: 2}, free_parameters: true}\n"
+    )
     (path.parent / "wsp.py").write_text(PROGRAM, "utf-8")
     return path
 

@@ -42,7 +42,7 @@ class Wsp:
 """
 CASES = """
 criteria: uictest-stop
-controller: {python: ../wsp.py, class: Wsp, time_limit: 600 s, parameters: {fault: none}}
+controller: {python: ../wsp.py, class: Wsp, time_limit: 600 s, free_parameters: true}
 matrix: {controller.parameters.fault: [%s]}
 """
 

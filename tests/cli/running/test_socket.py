@@ -55,7 +55,7 @@ wsp.main(0)
 """
 CASES = """
 criteria: uictest-stop
-controller: {connect: "%s", time_limit: 600 s, parameters: {fault: none}}
+controller: {connect: "%s", time_limit: 600 s, parameters: {fault: none}, free_parameters: true}
 matrix: {controller.parameters.fault: [%s]}
 """
 

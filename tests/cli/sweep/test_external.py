@@ -28,6 +28,9 @@ class Share:
             raise ValueError("a share below zero")
         holds = inputs.cycle % 10 < 10 * self.share
         return Outputs([holds] * 4, [0] * 4)
+
+
+PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}
 """
 """Holds in a share of all cycles: the more, the longer the stop."""
 

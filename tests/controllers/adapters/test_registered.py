@@ -6,6 +6,7 @@ import importlib
 import json
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from uictest.controllers import (
     open_controller,
 )
 from uictest.controllers.adapters import registered
-from uictest.scenario import ScenarioErrors, load, load_controller, load_part
+from uictest.scenario import ScenarioErrors, load, load_controller, load_part, with_parameters
 
 ENTRY_POINTS = """\
 [uictest.controllers]
@@ -79,6 +80,24 @@ def test_its_part_has_name_and_version_of_the_package_which_is_not_imported(pack
     part = load_controller("acme-broken")
     assert (part.version, "acme_wsp" in sys.modules) == ("acme-wsp 2.1.0", False)
     assert opened("acme-class").version == load_controller("acme-class").version
+
+
+def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported(package: Path) -> None:
+    module = package / "in_python.py"
+    module.write_text(IN_PYTHON + 'PARAMETERS = {"gain": {"default": 2.0, "unit": "1"}}\n', "utf-8")
+    part = load_controller("acme-class")
+    assert part.parameters == {"gain": 2.0}  # type: ignore[attr-defined]
+    with pytest.raises(ScenarioErrors, match="did you mean gain"):
+        with_parameters(part, {"gian": 1.0})  # type: ignore[arg-type]
+    assert "acme_wsp" not in sys.modules
+
+
+def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs(package: Path) -> None:
+    program = ControllerProgram("registered", "acme-class", "", '{"gian": 1.0}', {"parameters": "asked"})
+    config = Config(4, 0.01, 30.0, (0.46,) * 4, {"gian": 1.0})
+    with pytest.raises(ControllerError, match=r"controller.parameters.gian: .*free_parameters: true"):
+        open_controller(program, config)
+    assert open_controller(replace(program, options={"parameters": "free"}), config)
 
 
 def test_a_name_that_nobody_or_two_packages_registered_has_no_version(package: Path) -> None:

@@ -31,6 +31,11 @@ def test_what_the_shell_would_read_is_quoted() -> None:
     )
 
 
+def test_a_file_that_looks_like_an_option_is_still_a_file() -> None:
+    manifest = RunManifest(command=("uictest", "run", "--seed", "3", "--", "-x.yaml"))
+    assert rerun_command(manifest, "-x.yaml", "x") == "uictest run ./-x.yaml --seed 3 -k x"
+
+
 def test_a_recorded_stop_has_no_such_command() -> None:
     assert rerun_command(RunManifest(command=("uictest", "evaluate", "a.csv")), "a.csv", "a") == ""
     assert rerun_command(RunManifest(), "a.yaml", "a") == ""

@@ -82,4 +82,5 @@ def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own() -> None:
     assert words[:3] == ["uictest", "sweep", "my study.sweep.yaml"]
     given = dict(zip(words[3::2], words[4::2], strict=True))
     assert given == {"--set": "brake.command=80 %", "--seed": "3", "-k": "CASE", "-o": "alone/CASE"}
+    assert command_alone({"file": "-x y.sweep.yaml"}).startswith("uictest sweep './-x y.sweep.yaml' -k")
     assert command_alone({}) == "uictest sweep FILE -k 'CASE' -o 'alone/CASE'"

@@ -18,6 +18,12 @@ static const char *no_reason = "told to";
 
 uint32_t uictest_abi_version(void) { return ABI; }
 const char *uictest_version(void) { return "1.2"; }
+#ifndef STATED
+#define STATED "{\"fault\": {\"default\": \"none\"}, \"at\": {\"default\": 700, \"unit\": \"1\", \"range\": [0, 9999]}}"
+#endif
+#ifndef SILENT
+const char *uictest_parameters(void) { return STATED; }
+#endif
 
 void *uictest_create(const uictest_config *config)
 {

@@ -107,3 +107,5 @@ FAULTS = {
     "speed": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], reference_speed="fast"),  # type: ignore[arg-type]
     "bits": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], diagnosis=2**32),
 }
+
+PARAMETERS = {"fault": {"default": "none"}, "at": {"default": 700, "unit": "1"}}

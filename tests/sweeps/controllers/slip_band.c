@@ -17,6 +17,12 @@ static double number(const char *parameters, const char *name, double otherwise)
 
 uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
 
+const char *uictest_parameters(void)
+{
+    return "{\"reference_deceleration\": {}, \"minimum_speed\": {}, \"lower_slide\": {}, \"upper_slide\": {},"
+           " \"fails_at\": {\"default\": -1}}";
+}
+
 void *uictest_create(const uictest_config *config)
 {
     Controller *controller = calloc(1, sizeof *controller);

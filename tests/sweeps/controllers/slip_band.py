@@ -24,3 +24,12 @@ class SlipBand:
         hold = [protects and slide >= self.lower for slide in slides]
         vent = [protects and slide > self.upper for slide in slides]
         return Outputs(hold, vent, self.reference)
+
+
+PARAMETERS = {
+    "reference_deceleration": {"default": 1.8, "unit": "m/s2"},
+    "minimum_speed": {"default": 1.3888888888888888, "unit": "m/s"},
+    "lower_slide": {"default": 0.08, "unit": "1"},
+    "upper_slide": {"default": 0.2, "unit": "1"},
+    "fails_at": {"default": -1, "unit": "1"},
+}

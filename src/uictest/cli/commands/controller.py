@@ -91,7 +91,9 @@ def _subject(
     if part.program is None and (parameters or time_limit is not None):
         option = "--set" if parameters else "--time-limit"
         raise typer.BadParameter("for controllers from outside; this one is built in", param_hint=option)
-    subject = conformance.subject_of(reference, part, parameters)
+    if parameters and isinstance(part, scenario.ExternalController):
+        part = scenario.with_parameters(part, parameters)
+    subject = conformance.subject_of(reference, part)
     if subject.program is None or time_limit is None:
         return subject
     return replace(subject, program=replace(subject.program, time_limit=time_limit))

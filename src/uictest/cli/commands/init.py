@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import recording, runs, templates
+from uictest import recording, report, runs, templates
 from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
@@ -71,12 +71,12 @@ def init(
         if python is not None or c is not None:
             raise typer.BadParameter("write `uictest init controller` with --python or --c")
         _write_new({what / SCENARIO: _FIRST_STOP, what / SCHEMA: schema_text()})
-        message(f"Run it with 'uictest run {what / SCENARIO}'.")
+        message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
         return ExitCode.MET
     if python is not None and c is None:
         _write_controller(python, "python")
     elif c is not None and python is None:
-        _write_controller(c, "c", f"make -C {c}")
+        _write_controller(c, "c", f"make -C {report.argument(str(c))}")
     else:
         raise typer.BadParameter("write `uictest init controller` with either --python DIR or --c DIR")
     return ExitCode.MET
@@ -85,10 +85,8 @@ def init(
 def _write_controller(folder: Path, language: templates.Language, *build: str) -> None:
     """Write a first controller, and show what to do with it."""
     _write_new({folder / name: text for name, text in templates.controller_files(language).items()})
-    check, run = (
-        f"uictest controller check {folder / 'my-wsp.yaml'}",
-        f"uictest run {folder / 'slip-120.yaml'}",
-    )
+    part, stop = (report.argument(str(folder / name)) for name in ("my-wsp.yaml", "slip-120.yaml"))
+    check, run = f"uictest controller check {part}", f"uictest run {stop}"
     message("\n".join(["Next:", *(f"    {each}" for each in (*build, check, run))]))
 
 

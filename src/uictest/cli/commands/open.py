@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import history, runs
+from uictest import history, report, runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data, message
@@ -86,7 +86,8 @@ def _page(folder: Path, *, last: bool) -> Path:
 def _page_of_run(parent: Path, run: history.ListedRun, name: str) -> Path:
     if not run.page:
         raise runs.InvalidInputError(
-            f"{parent / name} has no page: uictest report {parent / name} --format html writes it"
+            f"{parent / name} has no page: uictest report {report.argument(str(parent / name))} --format html"
+            " writes it"
         )
     return (parent / name / Path(run.page).name).absolute()
 

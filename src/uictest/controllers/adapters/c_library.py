@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
+from uictest.controllers.adapters.declared_values import reject_undeclared
 from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
 from uictest.controllers.exchange import ABI_VERSION, WHEELSETS
 from uictest.controllers.interface import Config
@@ -46,7 +47,7 @@ class LibraryInstance:
 
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
-        self.version = _version(library)
+        self.version = _stated_text(library, "version") or ""
         self._handle = library.uictest_create(ctypes.byref(_c_config(config, parameters)))
         if not self._handle:
             raise ControllerError(f"uictest_create failed: {_last_error(library, None) or 'no reason given'}")
@@ -79,7 +80,9 @@ class LibraryInstance:
 
 def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:
     """Load the library, once per process, and create a controller. Raises ControllerError."""
-    return LibraryInstance(_loaded(program.location, program.sha256), config, program.parameters)
+    library = _loaded(program.location, program.sha256)
+    reject_undeclared(program, _stated_text(library, "parameters"))
+    return LibraryInstance(library, config, program.parameters)
 
 
 @cache
@@ -125,10 +128,11 @@ def _c_config(config: Config, parameters: str) -> _Config:
     )
 
 
-def _version(library: Any) -> str:
-    function = getattr(library, "uictest_version", None)
+def _stated_text(library: Any, name: str) -> str | None:
+    """Return what a function that may be left out states of the library; None where it is left out."""
+    function = getattr(library, f"uictest_{name}", None)
     if function is None:
-        return ""
+        return None
     function.restype = ctypes.c_char_p
     return _text(function())
 

@@ -1,18 +1,54 @@
-"""Parameters of a controller in the built-in form: what a scenario has written, in SI units."""
+"""Parameters that are known only once a program runs: of the built-in form, and as a program states them."""
 
+import json
 import math
 import re
-from collections.abc import Mapping
-from difflib import get_close_matches
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from types import SimpleNamespace
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from uictest.controllers.adapters.instance import ControllerError
 from uictest.controllers.contract import Controller, DeclaredParameter
+from uictest.controllers.declared import nothing_declared, parameter_problems, unknown_parameter
+from uictest.controllers.program import ControllerProgram
 from uictest.units import KINDS
 
 _WRITTEN: Final = re.compile(r"\s*([-+]?[0-9]+(?:\.[0-9]+)?(?:[eE][-+]?[0-9]{1,3})?)\s*(\S.*?)?\s*")
+
+
+class StatedDeclaration(NamedTuple):
+    """A declaration that a program has stated itself."""
+
+    default: Any = None
+    unit: str = ""
+    range: Sequence[float] | None = None
+    description: str = ""
+
+
+def reject_undeclared(program: ControllerProgram, stated: str | None) -> None:
+    """Raise ControllerError where a program that runs is given what it does not declare.
+
+    `stated` is the JSON in which it states its parameters, None where it states none.
+    """
+    mode, given = program.options.get("parameters"), json.loads(program.parameters)
+    if stated is None:
+        problems = [nothing_declared(given)] if mode == "asked" and given else []
+    else:
+        problems = [*parameter_problems(_stated(stated), given, free=mode == "free")]
+    if problems:
+        raise ControllerError("; ".join(f"controller.parameters.{each.name}: {each}" for each in problems))
+
+
+def _stated(text: str) -> dict[str, StatedDeclaration]:
+    try:
+        stated = {str(name): StatedDeclaration(**each) for name, each in json.loads(text).items()}
+        for low, high in (each.range for each in stated.values() if each.range is not None):
+            float(low), float(high)  # raise what is no number
+        return stated
+    except (ValueError, TypeError, AttributeError) as error:
+        form = '{"NAME": {"default": 1.0, "unit": "s", "range": [0, 2]}}'
+        raise ControllerError(f"its parameters are not of the form {form}: {error}") from None
 
 
 def parameter_values(
@@ -25,7 +61,7 @@ def parameter_values(
     declared = {name: each for name, each in controller.declared_parameters().items() if name != "cycle_time"}
     for name in written:
         if name not in declared:
-            raise ControllerError(_unknown(name, declared))
+            raise ControllerError(str(unknown_parameter(name, tuple(declared))))
     missing = [name for name in declared if name not in written]
     if missing:
         raise ControllerError(f"parameters without a value: {', '.join(missing)}")
@@ -33,12 +69,6 @@ def parameter_values(
     values["cycle_time"] = cycle_time
     _reject_conflicts(controller, values, {**written, "cycle_time": f"{cycle_time:g} s"})
     return values
-
-
-def _unknown(name: str, declared: Mapping[str, DeclaredParameter]) -> str:
-    near = get_close_matches(name, declared, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"accepted: {', '.join(declared)}"
-    return f"no parameter {name}; {hint}"
 
 
 def _value(name: str, written: Any, declared: DeclaredParameter) -> float:

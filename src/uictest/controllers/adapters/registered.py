@@ -5,6 +5,7 @@ from functools import cache
 from typing import Any
 
 from uictest.controllers.adapters.built_in_form import CompiledInstance
+from uictest.controllers.adapters.declared_values import reject_undeclared
 from uictest.controllers.adapters.instance import ControllerError, ControllerInstance, reason_of
 from uictest.controllers.adapters.python_class import object_of
 from uictest.controllers.contract import Controller
@@ -19,6 +20,7 @@ def open_controller(program: ControllerProgram, config: Config) -> ControllerIns
     if isinstance(registered, Controller):
         return CompiledInstance(registered, json.loads(program.parameters), config, package)
     if isinstance(registered, type):
+        reject_undeclared(program, None)
         return object_of(registered, config, package)
     kind = type(registered).__name__
     raise ControllerError(

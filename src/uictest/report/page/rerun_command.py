@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator, Sequence
 
 from uictest.report.content import RunContent
-from uictest.report.escaping import printable
+from uictest.report.escaping import argument, printable
 from uictest.report.manifest import CASES_IN_PYTHON, RunManifest
 
 _WITH_VALUE = ("--set", "--seed", "--repeat", "--trust")
@@ -39,7 +39,8 @@ def rerun_command(manifest: RunManifest, file: str, name: str) -> str:
     """
     if tuple(manifest.command[1:2]) != ("run",) or CASES_IN_PYTHON in manifest.command:
         return ""
-    return printable(shlex.join(["uictest", "run", file, *_kept(manifest.command[2:]), "-k", name]))
+    options = shlex.join([*_kept(manifest.command[2:]), "-k", name])
+    return printable(f"uictest run {argument(file)} {options}")
 
 
 def _kept(arguments: Sequence[str]) -> Iterator[str]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from uictest.measures import column_unit
+from uictest.report.escaping import argument
 from uictest.report.sweep.result import Circumstances, Flip, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
 from uictest.report.wording import counted, counts_text
@@ -26,12 +27,13 @@ def not_judged_words(outcomes: Mapping[str, int]) -> str:
 
 def command_alone(manifest: Mapping[str, Any]) -> str:
     """Return the command that runs one `CASE` of a sweep alone, as the sweep did."""
-    words = ["uictest", "sweep", str(manifest.get("file", "FILE"))]
-    words += [word for text in manifest.get("set") or () for word in ("--set", str(text))]
+    file = argument(str(manifest.get("file", "FILE")))
+    words = [word for text in manifest.get("set") or () for word in ("--set", str(text))]
     if (seed := manifest.get("seed")) is not None:
         words += ["--seed", str(seed)]
     # A folder holds the chunks of one selection: not the sweep's own folder, nor that of another case.
-    return f"{shlex.join(words)} -k 'CASE' -o 'alone/CASE'"
+    options = f"{shlex.join(words)} " if words else ""
+    return f"uictest sweep {file} {options}-k 'CASE' -o 'alone/CASE'"
 
 
 def swept_words(values: Sequence[SweptValue]) -> str:

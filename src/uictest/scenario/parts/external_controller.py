@@ -1,9 +1,7 @@
 """Controllers from outside: the program under test and what it is given."""
 
 import json
-import math
 import re
-from collections.abc import Mapping
 from pathlib import PurePosixPath
 from typing import Annotated, Any, ClassVar, Final
 
@@ -13,31 +11,13 @@ from pydantic_core import CoreSchema, PydanticCustomError
 
 from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind
 from uictest.scenario.parts.controller_part import ControllerPart
+from uictest.scenario.parts.declared_parameter import DeclaredParameter
+from uictest.scenario.parts.parameter_value import ParameterValue
 from uictest.scenario.parts.program_file import ProgramFile
 from uictest.scenario.yaml import Quantity, default, of_kind, quoted
 
 ADDRESS_PATTERN: Final = r"^tcp://[A-Za-z0-9.\-]+:([0-9]{1,5})$"
 _LARGEST_PORT: Final = 65535
-
-
-def _parameter(value: object) -> Any:
-    """Return a value of JSON; a number that remembers how it was written stays one."""
-    if isinstance(value, float) and not math.isfinite(value):
-        context = {"message": f"JSON has no number {value}", "hint": "write a finite number, or a text"}
-        raise PydanticCustomError("parameter", "{message}", context)
-    if isinstance(value, bool | int | float | str):
-        return value
-    if isinstance(value, list | tuple):
-        return tuple(_parameter(each) for each in value)
-    if isinstance(value, Mapping):
-        return {str(name): _parameter(each) for name, each in value.items()}
-    hint = "leave the parameter out" if value is None else ""
-    context = {"message": "expected a number, a text, true, false, a list or a mapping", "hint": hint}
-    raise PydanticCustomError("parameter", "{message}", context)
-
-
-_JSON: Final[dict[str, Any]] = {"type": ["number", "string", "boolean", "array", "object"]}
-ParameterValue = Annotated[Any, PlainValidator(_parameter), WithJsonSchema(_JSON)]
 
 
 def _file(value: object) -> ProgramFile:
@@ -88,6 +68,13 @@ class ExternalController(ControllerPart):
     parameters: dict[str, ParameterValue] = Field(
         default_factory=dict, description="Handed to the controller as JSON, before a stop."
     )
+    declared_parameters: dict[str, DeclaredParameter] = Field(
+        default_factory=dict,
+        description="The parameters that it knows; default: what its file declares. Others are errors.",
+    )
+    free_parameters: bool = Field(
+        default=False, description="Whether parameters that nobody has declared are accepted."
+    )
 
     @property
     def reference(self) -> str:
@@ -109,6 +96,11 @@ class ExternalController(ControllerPart):
         """What only this kind has."""
         return {}
 
+    @property
+    def _knowledge(self) -> str:
+        """What is known of its parameters: any are accepted, they are declared, or it is asked in a run."""
+        return "free" if self.free_parameters else "declared" if self.declared_parameters else "asked"
+
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Require what names the program, but for a mapping that extends another one."""
@@ -126,7 +118,7 @@ class ExternalController(ControllerPart):
             location=getattr(value, "location", "") or str(value),
             sha256=getattr(value, "sha256", ""),
             parameters=json.dumps(self.parameters),
-            options=self.options,
+            options={**self.options, "parameters": self._knowledge},
             time_limit=float(self.time_limit),
         )
 

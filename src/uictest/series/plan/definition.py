@@ -14,6 +14,7 @@ from uictest.scenario import (
     Roots,
     Variant,
     case_id,
+    controller_labels,
     expand,
     short_keys,
 )
@@ -106,9 +107,11 @@ class _Reader:
 
     def series(self, variant: Variant, inputs: dict[str, str]) -> Series:
         """Return one series. Raises ScenarioErrors."""
-        keys = [setting.key for each in self.variants for setting in each]
+        settings = [setting for each in self.variants for setting in each]
+        labels = controller_labels(settings, Parts(self.files))
         own = [Override(each.key, each.value.key, (each.value.node,)) for each in variant]
-        name = case_id(self.file.name, variant, short_keys(list(dict.fromkeys(keys))))
+        short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
+        name = case_id(self.file.name, variant, short, labels)
         reader = StopReader(name, self.file.criteria, self.files, self.common, [*own, *self.fixed])
         stops = reader.stops(self.tree, self.file)
         read = {shown: digest for stop in stops for shown, digest in stop.case.inputs.items()}

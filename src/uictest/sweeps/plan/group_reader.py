@@ -7,7 +7,7 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
-from uictest.scenario import CONDITION, Setting, value_label
+from uictest.scenario import CONDITION, Setting, controller_labels, value_label
 from uictest.scenario.yaml import (
     Diagnostic,
     Document,
@@ -57,6 +57,7 @@ class GroupReader:
         self._base = base
         self.diagnostics: list[Diagnostic] = []
         self.documents: list[Document] = []
+        self._labels: dict[int, str] = {}
 
     def listed(self, entries: Mapping[str, Entry]) -> ListedGroup | None:
         """Return the group in which the given lists change together; None if they cannot."""
@@ -100,6 +101,10 @@ class GroupReader:
 
     def _rows(self, columns: Sequence[_Column]) -> list[_Row]:
         """Return the rows that the scenario accepts, and report the first of those that it does not."""
+        settings = [
+            Setting(key, Entry(entry.key, node), 1) for key, entry, nodes in columns for node in nodes
+        ]
+        self._labels |= controller_labels(settings, self._base.parts)
         rows: list[_Row] = []
         first: tuple[Diagnostic, ...] = ()
         more = 0
@@ -127,8 +132,9 @@ class GroupReader:
         """Return the values of a row. Raises ScenarioErrors, empty unless `explained`."""
         contents = self._plain_quantities(row, explained) or self._resolved(row)
         return tuple(
-            ParameterValue(as_written(entry.node), contents[key], value_label(Setting(key, entry, number)))
+            ParameterValue(as_written(entry.node), contents[key], value_label(setting, self._labels))
             for key, entry in row.items()
+            for setting in (Setting(key, entry, number),)
         )
 
     def _resolved(self, row: Mapping[str, Entry]) -> dict[str, Any]:

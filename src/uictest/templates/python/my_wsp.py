@@ -1,12 +1,21 @@
 """A first WSP controller: a band of slide around the speed of the fastest wheelset.
 
 It fills the brake cylinder of a wheelset below a lower slide, vents it above an upper one, and holds its
-pressure between them. Every number is a parameter in my-wsp.yaml; none of them is tuned.
+pressure between them. Every number is a parameter; none of them is tuned.
 """
 
 from uictest.controllers import Config, Inputs, Outputs
 
 __version__ = "0.1.0"
+PARAMETERS = {  # read without running this file: a scenario may give these and no others
+    "lower_slide": {"default": 0.05, "unit": "1", "range": [0, 1]},  # below it the brake is filled
+    "upper_slide": {"default": 0.15, "unit": "1", "range": [0, 1]},  # above it the brake is vented
+    "reference_deceleration": {"default": 1.8, "unit": "m/s2", "range": [0, 10]},  # fastest fall of its speed
+    "blind_deceleration": {"default": 0.8, "unit": "m/s2", "range": [0, 10]},  # while every wheelset slides
+    "minimum_speed": {"default": 1.4, "unit": "m/s", "range": [0.1, 30]},  # below it there is no protection
+    "longest_vent": {"default": 5.0, "unit": "s", "range": [0, 60]},
+    "pause": {"default": 0.5, "unit": "s", "range": [0, 60]},  # of filling after the longest vent
+}
 
 
 class MyWsp:

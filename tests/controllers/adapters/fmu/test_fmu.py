@@ -274,10 +274,10 @@ def test_names_that_do_not_fit_are_refused(
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"treshold": 1.0}, "has no parameter treshold: did you mean threshold?"),
+        ({"treshold": 1.0}, "has no parameter treshold; did you mean threshold?"),
         (
             {"wheel_speed_1": 1.0},
-            "has no parameter wheel_speed_1: it has fault, at, threshold, late, steps, on",
+            "has no parameter wheel_speed_1; accepted: fault, at, threshold, late, steps, on",
         ),
         ({"steps": 1.5}, "has parameter steps of type {whole}, found 1.5"),
         ({"steps": 2**40}, "has parameter steps of type {whole}, found 1099511627776"),

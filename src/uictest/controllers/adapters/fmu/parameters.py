@@ -1,16 +1,14 @@
 """Parameters of the scenario as parameters of an FMU."""
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from math import prod
-from typing import Any, Final
+from typing import Any
 
 from uictest.controllers.adapters.fmu.access import BoundVariable
 from uictest.controllers.adapters.fmu.names import FLOATS
 from uictest.controllers.adapters.fmu.slave import Slave
 from uictest.controllers.adapters.instance import ControllerError
-
-_SHOWN: Final = 8
+from uictest.controllers.declared import unknown_parameter
 
 
 def bound_parameters(
@@ -26,17 +24,10 @@ def bound_parameters(
     values: dict[str, Sequence[Any]] = {}
     for name, value in parameters.items():
         if name not in own:
-            raise ControllerError(_unknown(name, list(own)))
+            raise ControllerError(f"has {unknown_parameter(name, tuple(own))}")
         values[name] = _values(slave, own[name], value)
         bound.append(BoundVariable(own[name], tuple((name, place) for place in range(len(values[name])))))
     return bound, values
-
-
-def _unknown(name: str, names: Sequence[str]) -> str:
-    near = get_close_matches(name, names, n=1)
-    more = ", ..." if len(names) > _SHOWN else ""
-    hint = f"did you mean {near[0]}?" if near else f"it has {', '.join(names[:_SHOWN]) or 'none'}{more}"
-    return f"has no parameter {name}: {hint}"
 
 
 def _values(slave: Slave, variable: Any, value: Any) -> list[Any]:

@@ -1,0 +1,81 @@
+"""What a controller from outside is given, against the parameters that it declares."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any, Final, NamedTuple
+
+_SHOWN: Final = 8
+"""Names that a message lists at most; chosen."""
+
+
+Declaration = Any
+"""One declared parameter: ``default`` (None where the program keeps its own), ``unit``, and the ends of its
+``range`` or None."""
+
+
+class Problem(NamedTuple):
+    """What is wrong with one parameter that a controller is given, and what to write."""
+
+    name: str
+    message: str
+    hint: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.message}; {self.hint}" if self.hint else self.message
+
+
+def unknown_parameter(name: str, known: Sequence[str]) -> Problem:
+    """Return the problem of a name that is not declared, with the nearest of those that are."""
+    near = get_close_matches(name, known, n=1)
+    more = ", ..." if len(known) > _SHOWN else ""
+    hint = f"did you mean {near[0]}?" if near else f"accepted: {', '.join(known[:_SHOWN]) or 'none'}{more}"
+    return Problem(name, f"no parameter {name}", hint)
+
+
+def parameter_problems(
+    declared: Mapping[str, Declaration], given: Mapping[str, Any], *, free: bool = False
+) -> Iterator[Problem]:
+    """Yield names that are not declared, unless any are accepted, and values of another kind or range."""
+    for name, value in given.items():
+        if name in declared:
+            yield from _problems_of_value(name, declared[name], value)
+        elif not free:
+            yield unknown_parameter(name, tuple(declared))
+
+
+def _problems_of_value(name: str, declared: Declaration, value: Any) -> Iterator[Problem]:
+    unit = f" {declared.unit}" if declared.unit not in ("", "1") else ""
+    expected = None if declared.default is None else _kind(declared.default)
+    if expected is not None and _kind(value) != expected:
+        written = value if isinstance(value, str) else json.dumps(value)
+        hint = f"write a bare number in{unit}" if unit and expected == "a number" else ""
+        yield Problem(name, f"expected {expected}, found {_kind(value)} ({written})", hint)
+    elif declared.range is not None:
+        low, high = declared.range
+        for each in value if isinstance(value, list | tuple) else (value,):
+            if _kind(each) != "a number" or not low <= each <= high:
+                limits = f"{low:g} to {high:g}{unit}"
+                yield Problem(name, f"{each} is out of range", f"accepted: {limits}")
+
+
+def _kind(value: Any) -> str:
+    kinds = {bool: "true or false", str: "a text", int | float: "a number", list | tuple: "a list"}
+    return next((words for kind, words in kinds.items() if isinstance(value, kind)), "a mapping")
+
+
+def nothing_declared(given: Mapping[str, Any]) -> Problem:
+    """Return the problem of parameters for a controller that declares none: the lines to write."""
+    names = ", ".join(given)
+    lines = ", ".join(f"{name}: {_line(value)}" for name, value in given.items())
+    hint = (
+        f"write `declared_parameters: {{{lines}}}` in its part, or `free_parameters: true` to accept any name"
+    )
+    return Problem(next(iter(given)), f"the controller declares no parameters, given: {names}", hint)
+
+
+def _line(value: Any) -> str:
+    kind = _kind(value)
+    return (
+        "{default: NUMBER, unit: UNIT}" if kind == "a number" else f"{{default: {kind.split()[-1].upper()}}}"
+    )

@@ -1,0 +1,73 @@
+"""`uictest_parameters` of a library: asked where its code runs, in a child process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.controllers import ControllerError
+from uictest.rig import Workers
+from uictest.rig.assembly import StopInputs, assemble
+from uictest.scenario import load
+
+Compile = Callable[..., Path]
+
+
+def stop(folder: Path, controller: str) -> StopInputs:
+    path = folder / "stop.yaml"
+    head = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 40 km/h\n"
+    path.write_text(f"{head}controller: {{library: libbad.so, {controller}}}\n", "utf-8")
+    return assemble(load([path])[0])
+
+
+@pytest.mark.parametrize(
+    ("options", "controller", "message"),
+    [
+        (
+            (),
+            "parameters: {fualt: none}",
+            "controller.parameters.fualt: no parameter fualt; did you mean fault?",
+        ),
+        (
+            (),
+            "parameters: {at: 10000}",
+            "controller.parameters.at: 10000 is out of range; accepted: 0 to 9999",
+        ),
+        ((), "parameters: {fault: 1}", "controller.parameters.fault: expected a text, found a number (1)"),
+        ((), "declared_parameters: {ta: {default: 1, unit: s}}", "no parameter ta; did you mean at?"),
+        (
+            ("-DSILENT",),
+            "parameters: {at: 1}",
+            "declares no parameters, given: at; write `declared_parameters:",
+        ),
+        (('-DSTATED="[]"',), "parameters: {at: 1}", "its parameters are not of the form"),
+        (('-DSTATED="{"',), "parameters: {at: 1}", "its parameters are not of the form"),
+        (('-DSTATED="{\\"at\\": {\\"range\\": [0]}}"',), "parameters: {at: 1}", "are not of the form"),
+    ],
+)
+def test_what_a_library_does_not_state_ends_the_stop(
+    folder: Path, library: Compile, options: tuple[str, ...], controller: str, message: str
+) -> None:
+    library(*options)
+    with Workers() as workers, pytest.raises(ControllerError) as error:
+        workers.run(stop(folder, controller))
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("options", "controller"),
+    [
+        ((), "parameters: {at: 9999}"),
+        ((), "parameters: {fualt: none}, free_parameters: true"),
+        (("-DSILENT",), "parameters: {any: 1}, free_parameters: true"),
+        (("-DSILENT",), "declared_parameters: {at: {default: 9999, unit: '1'}}"),
+    ],
+)
+def test_what_it_states_or_the_part_accepts_runs(
+    folder: Path, library: Compile, options: tuple[str, ...], controller: str
+) -> None:
+    library(*options)
+    with Workers() as workers:
+        workers.run(stop(folder, controller))

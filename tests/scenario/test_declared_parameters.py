@@ -1,0 +1,243 @@
+"""Declared parameters of controllers from outside: read as text, and held against what a file gives."""
+
+import io
+import json
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.evaluation import EffectiveParts
+from uictest.scenario import Case, Diagnostic, ScenarioErrors, load_controller, with_parameters
+
+Loaded = Callable[..., list[Case]]
+Refused = Callable[..., tuple[Diagnostic, ...]]
+Write = Callable[..., Path]
+
+PYTHON = """
+PARAMETERS = {
+    "upper_slide": {"default": 0.15, "unit": "1", "range": [0, 1], "description": "vents above"},
+    "cycles": {"default": 3, "unit": "1"},
+    "mode": {"default": "fast"},
+}
+raise SystemExit  # it is read, not run
+class Wsp: ...
+"""
+LISTED = (
+    '{upper_slide: {default: 0.15, unit: "1", range: [0, 1]}, cycles: {default: 3, unit: 1},'
+    " mode: {default: fast}}"
+)
+XML = """<fmiModelDescription fmiVersion="{version}"><TypeDefinitions>{types}</TypeDefinitions>
+<ModelVariables>{variables}</ModelVariables></fmiModelDescription>"""
+FMI2 = XML.format(
+    version="2.0",
+    types='<SimpleType name="Slide"><Real unit="1" min="0" max="1"/></SimpleType>',
+    variables="""
+<ScalarVariable name="upper_slide" causality="parameter">
+<Real declaredType="Slide" start="0.15"/></ScalarVariable>
+<ScalarVariable name="cycles" causality="parameter"><Integer start="3"/></ScalarVariable>
+<ScalarVariable name="mode" causality="parameter"><String start="fast"/></ScalarVariable>
+<ScalarVariable name="hold" causality="output"><Real/></ScalarVariable>""",
+)
+FMI3 = XML.format(
+    version="3.0",
+    types='<Float64Type name="Slide" unit="1" min="0" max="1"/>',
+    variables="""
+<Float64 name="upper_slide" causality="parameter" declaredType="Slide" start="0.15"/>
+<Int32 name="cycles" causality="parameter" start="3"/>
+<String name="mode" causality="parameter"><Start value="fast"/></String>
+<Float64 name="table" causality="parameter" start="1 2 3"/>
+<Float64 name="hold" causality="output"/>""",
+)
+CONTROLLERS = {
+    "python": "python: wsp.py, class: Wsp",
+    "part's list": f"python: plain.py, class: Wsp, declared_parameters: {LISTED}",
+    "library": f"library: libwsp.so, declared_parameters: {LISTED}",
+    "socket": f"connect: 'tcp://rig:5025', declared_parameters: {LISTED}",
+    "FMI 2.0": "fmu: two.fmu",
+    "FMI 3.0": "fmu: three.fmu",
+}
+
+
+def _fmu(description: str) -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr("modelDescription.xml", description)
+    return content.getvalue()
+
+
+@pytest.fixture
+def programs(write: Write) -> None:
+    write("wsp.py", PYTHON.encode())
+    write("plain.py", b"class Wsp: ...\n")
+    write("libwsp.so", b"")
+    write("two.fmu", _fmu(FMI2))
+    write("three.fmu", _fmu(FMI3))
+
+
+@pytest.mark.usefixtures("programs")
+@pytest.mark.parametrize("controller", CONTROLLERS.values(), ids=CONTROLLERS.keys())
+class TestEveryKind:
+    def test_a_misspelt_name_is_an_error_with_the_nearest(
+        self, refused: Refused, head: str, controller: str
+    ) -> None:
+        """A run with `uper_slide` passed with the default of the controller."""
+        (error,) = refused(f"{head}controller: {{{controller}, parameters: {{uper_slide: 0.1}}}}\n")
+        assert (error.key, error.line) == ("controller.parameters.uper_slide", 4)
+        assert "no parameter uper_slide" in error.message
+        assert "upper_slide" in error.hint
+
+    @pytest.mark.parametrize("given", ["1.5", "-0.1", "15 %", "true", "[0.1]"])
+    def test_a_value_outside_of_its_declaration_is_an_error(
+        self, refused: Refused, head: str, controller: str, given: str
+    ) -> None:
+        (error,) = refused(f"{head}controller: {{{controller}, parameters: {{upper_slide: {given}}}}}\n")
+        assert error.key == "controller.parameters.upper_slide"
+        assert "out of range" in error.message or "expected a number" in error.message
+
+    def test_values_within_it_are_accepted(self, loaded: Loaded, head: str, controller: str) -> None:
+        given = "{upper_slide: 1, cycles: 4, mode: slow}"
+        (case,) = loaded(f"{head}controller: {{{controller}, parameters: {given}}}\n")
+        program = case.scenario.controller.program
+        assert program is not None
+        assert json.loads(program.parameters) == {"upper_slide": 1, "cycles": 4, "mode": "slow"}
+
+    def test_axes_of_every_sort_are_checked(self, refused: Refused, head: str, controller: str) -> None:
+        base = f"{head}controller: {{{controller}}}\n"
+        wrong = "controller.parameters.uper_slide"
+        for section in (
+            f"matrix: {{{wrong}: [0.1, 0.2]}}",
+            f"zip: {{{wrong}: [0.1], seed: [1]}}",
+            f"include: [{{{wrong}: 0.1}}]",
+        ):
+            (error,) = refused(f"{base}{section}\n")
+            assert (error.key, error.line) == (wrong, 5)
+        (error,) = refused(base, f"{wrong}=0.05,0.3")
+        assert (error.file, error.key) == ("--set", wrong)
+
+
+@pytest.mark.usefixtures("programs")
+def test_defaults_are_handed_over_and_shown(loaded: Loaded, head: str) -> None:
+    """The controller is given what the results name; whole numbers stay whole."""
+    for name in ("python", "part's list", "library", "socket"):
+        (case,) = loaded(f"{head}controller: {{{CONTROLLERS[name]}, parameters: {{cycles: 4}}}}\n")
+        program = case.scenario.controller.program
+        assert program is not None
+        assert program.parameters == '{"upper_slide": 0.15, "cycles": 4, "mode": "fast"}'
+        rows = {each.key: each for each in EffectiveParts().of(case.scenario)["controller"].parameters}
+        shown = {
+            key.rpartition(".")[2]: (row.value, row.unit, row.mark)
+            for key, row in rows.items()
+            if "parameters" in key
+        }
+        assert shown == {
+            "upper_slide": (0.15, "1", "default"),
+            "cycles": (4, "1", "user"),
+            "mode": ("fast", "", "default"),
+        }
+
+
+@pytest.mark.usefixtures("programs")
+def test_an_fmu_keeps_its_own_start_values(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{cycles: 4}}}}\n")
+    assert case.scenario.controller.parameters == {"cycles": 4}  # type: ignore[attr-defined]
+
+
+@pytest.mark.usefixtures("programs")
+@pytest.mark.parametrize("program", ["python: plain.py, class: Wsp", "connect: 'tcp://rig:1'"])
+def test_where_nothing_is_declared_the_lines_to_write_are_shown(
+    refused: Refused, loaded: Loaded, head: str, program: str
+) -> None:
+    given = "parameters: {kp: 0.5, mode: fast}"
+    (error,) = refused(f"{head}controller: {{{program}, {given}}}\n")
+    assert "declares no parameters, given: kp, mode" in error.message
+    lines = "declared_parameters: {kp: {default: NUMBER, unit: UNIT}, mode: {default: TEXT}}"
+    assert lines in error.hint
+    lines = lines.replace("NUMBER", "0.5").replace("UNIT", "s").replace("TEXT", "fast")
+    assert "free_parameters: true" in error.hint
+    (case,) = loaded(f"{head}controller: {{{program}, {lines}}}\n")
+    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}  # type: ignore[attr-defined]
+    (case,) = loaded(f"{head}controller: {{{program}, {given}, free_parameters: true}}\n")
+    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}  # type: ignore[attr-defined]
+
+
+@pytest.mark.usefixtures("programs")
+def test_what_is_known_only_in_a_run_is_left_to_it(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(f"{head}controller: {{library: libwsp.so, parameters: {{kp: 1}}}}\n")
+    program = case.scenario.controller.program
+    assert program is not None
+    assert program.options["parameters"] == "asked"
+
+
+@pytest.mark.parametrize(
+    ("declarations", "key", "message"),
+    [
+        ('{"kp": {"default": 1.0}}', "PARAMETERS.kp", "a number needs a unit"),
+        ('{"kp": {"unit": "s"}}', "PARAMETERS.kp.default", "missing key 'default'"),
+        ('{"kp": {"default": 1, "unit": "s", "rnage": [0, 1]}}', "PARAMETERS.kp.rnage", "unknown key"),
+        ('{"kp": {"default": 1, "unit": "s", "range": [2, 0]}}', "PARAMETERS.kp.range", "its smallest"),
+        ('{"kp": {"default": 3, "unit": "s", "range": [0, 2]}}', "PARAMETERS.kp.default", "out of range"),
+        ('{"kp": {"default": gain(), "unit": "s"}}', "PARAMETERS", "'gain()' is no literal"),
+        ('{"kp": 1.0}', "PARAMETERS.kp", "expected a mapping"),
+        ("[1]", "PARAMETERS", "expected a mapping"),
+        ("{1: 2}", "PARAMETERS", "are texts"),
+        ("{**other}", "PARAMETERS", "are texts"),
+    ],
+)
+def test_declarations_that_cannot_be_read_name_the_line_of_the_program(
+    refused: Refused, write: Write, head: str, declarations: str, key: str, message: str
+) -> None:
+    write("wsp.py", f"class Wsp: ...\nPARAMETERS = {declarations}\n".encode())
+    errors = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+    error = next(each for each in errors if each.key == key)
+    assert message in error.message
+    assert (error.file, error.line) == ("wsp.py", 2)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"PARAMETERS = (", b"\x00PARAMETERS", b"'''\nPARAMETERS = no example\n'''\n", b"PARAMETERS: dict\n"],
+)
+def test_a_file_without_declarations_is_no_error_of_its_own(
+    loaded: Loaded, write: Write, head: str, content: bytes
+) -> None:
+    write("wsp.py", content)
+    assert loaded(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+
+
+def test_a_large_file_is_not_parsed_for_them(write: Write, head: str, refused: Refused) -> None:
+    write("wsp.py", b"PARAMETERS = {}\n" + b"x = [1, 2, 3]\n" * 100_000)
+    (error,) = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+    assert "more than 512 KiB" in error.message
+    assert "declared_parameters" in error.hint
+
+
+@pytest.mark.parametrize("content", [b"no archive", _fmu("<fmiModel"), _fmu("nothing")])
+def test_an_fmu_that_cannot_be_read_is_left_to_whoever_loads_it(
+    loaded: Loaded, write: Write, head: str, content: bytes
+) -> None:
+    write("wsp.fmu", content)
+    assert loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{kp: 1}}}}\n")
+
+
+@pytest.mark.usefixtures("programs")
+def test_a_part_that_extends_another_inherits_its_declarations(
+    write: Write, head: str, refused: Refused
+) -> None:
+    write(
+        "ours.yaml",
+        f"schema: uictest/controller/1\nname: ours\nlibrary: libwsp.so\ndeclared_parameters: {LISTED}\n",
+    )
+    (error,) = refused(f"{head}controller: {{extends: ours.yaml, parameters: {{uper_slide: 0.1}}}}\n")
+    assert error.hint == "did you mean upper_slide?"
+
+
+@pytest.mark.usefixtures("programs")
+def test_parameters_of_a_command_line_are_checked_alike(write: Write) -> None:
+    part = load_controller(
+        str(write("ours.yaml", "schema: uictest/controller/1\npython: wsp.py\nclass: Wsp\n"))
+    )
+    assert with_parameters(part, {"cycles": 5}).parameters["cycles"] == 5  # type: ignore[arg-type]
+    with pytest.raises(ScenarioErrors, match="did you mean cycles"):
+        with_parameters(part, {"cycle": 5})  # type: ignore[arg-type]
