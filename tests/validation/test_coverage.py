@@ -60,7 +60,9 @@ def test_a_seed_depends_on_scenario_and_record_alone() -> None:
 
 def test_a_recorded_stop_is_simulated_under_its_own_seed(tmp_path: Path) -> None:
     path = tmp_path / "stop.yaml"
-    path.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\nseed: 3\nrepeat: 1000\n")
+    path.write_text(
+        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\nseed: 3\nrepeat: 1000\n"
+    )
     [case] = load([path])
     stop = as_recorded(case, "stop", 33.0, DIGESTS[1])
     assert (stop.scenario.seed, float(stop.scenario.initial_speed)) == (seed_of(3, DIGESTS[1]), 33.0)
