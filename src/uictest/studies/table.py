@@ -26,8 +26,8 @@ def study_table(result: StudyResult) -> Group:
     table.add_column("paper", overflow="fold", ratio=3)
     table.add_column("ours", overflow="fold", ratio=4)
     table.add_column("band", overflow="fold", ratio=3)
-    table.add_column("status", overflow="fold", ratio=2)
-    table.add_column("result", overflow="fold", ratio=2)
+    table.add_column("status", no_wrap=True)
+    table.add_column("result", no_wrap=True)
     for comparison in result.comparisons:
         quantity = comparison.quantity
         cells = (quantity.title, quantity.paper, ours_text(comparison), band_text(quantity), quantity.status)

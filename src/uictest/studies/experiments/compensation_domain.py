@@ -54,7 +54,7 @@ def _quantities() -> Iterator[StudyQuantity]:
     for error, setting, statistic in product(TITLES, SETTINGS, STATISTICS):
         key, title = (
             f"{error}_{statistic}_{setting}",
-            f"{TITLES[error]}, {setting}, {statistic} of all replays",
+            f"{TITLES[error]}, {setting}, {statistic} of all",
         )
         paper, band = _CLAIMS.get(key, (NOT_ASKED, None))
         # Hardware and bench were chosen while the errors of `thermal` were watched.
@@ -63,7 +63,7 @@ def _quantities() -> Iterator[StudyQuantity]:
     for position in _POSITIONS:
         yield StudyQuantity(
             _cycling_key(position),
-            f"pressure error, thermal, median where the WSP vents in position {position}",
+            f"pressure error, thermal, median in {position} where the WSP vents",
             "%",
             NOT_ASKED,
             status="selected",

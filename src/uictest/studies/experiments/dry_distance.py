@@ -56,18 +56,19 @@ class DryStop:
 
 def _quantities() -> Iterator[StudyQuantity]:
     for name, setting in COMPENSATION_SETTINGS.items():
-        title = f"difference of the distance, {name}, worst stop"
         band = OwnBand(lower=-WITHIN, upper=WITHIN, reason="ours") if setting.hysteresis else None
         yield StudyQuantity(
             name,
-            f"{title} from 100 km/h at 70 % command and above",
+            f"difference, {name}, worst from 100 km/h at 70 %",
             "%",
             NOT_ASKED,
             status="predicted",
             band=band,
             digits=2,
         )
-        yield StudyQuantity(f"{name}_all", f"{title} of all", "%", NOT_ASKED, status="predicted", digits=2)
+        yield StudyQuantity(
+            f"{name}_all", f"difference, {name}, worst of all", "%", NOT_ASKED, status="predicted", digits=2
+        )
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
@@ -82,7 +83,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
             (
                 f"Stops from {', '.join(SPEEDS)} at {', '.join(COMMANDS)} command in brake position R, "
                 f"{len(SEEDS)} seeds, each against the same stop with four calipers. The stop that differs "
-                "most is shown: of those that are fast and strong enough for the band, and of all."
+                "most is shown: of those from 100 km/h at 70 % command and above, and of all."
             ),
             *(_where(setting, worst_stop(stops, setting)) for setting in ("full", "thermal")),
         ),
