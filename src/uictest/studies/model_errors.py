@@ -17,8 +17,9 @@ from uictest.units import PERCENT
 
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}
 FILTER_MISSES = (
-    "On this rig heat makes the pressures differ, and a linear filter of third order that was trained on "
-    "other stops removes only a part of that. The paper's number is one of its own stop."
+    "On this rig heat makes the pressures differ. A linear filter of third order follows that only in part, "
+    "and less where its response to a step may not turn back, as that of full. The paper's number is one of "
+    "its own stop."
 )
 """Why the filter of the paper misses the paper's band, as studies declare it."""
 _PRESSURES = {
