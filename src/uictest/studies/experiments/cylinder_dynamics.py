@@ -46,7 +46,7 @@ QUANTITIES = (
     ),
     StudyQuantity(
         "after_in_sample",
-        "the same, a free filter fitted to this very stop",
+        "largest difference behind a free filter fitted to this very stop",
         _UNIT,
         "below 2 %",
         status="calibrated",
@@ -60,7 +60,7 @@ QUANTITIES = (
     ),
     StudyQuantity(
         "after_free",
-        "the same, a free filter fitted to the training of full",
+        "largest difference behind a free filter fitted to the training of full",
         _UNIT,
         "below 2 %",
         status="predicted",
