@@ -24,7 +24,7 @@ _VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
 _SIGN_OF_LIFE = re.compile(
     r"^uictest: (?:compiling the rig|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE
 )
-_LONGEST = 600  # seconds after which a command is taken for hanging, however busy the machine is
+_LONGEST = 1800  # seconds after which a command is taken for hanging, however busy the machine is
 
 
 def refreshed(page: str, folder: Path) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.identification import UnsuitableRecordError, identify_cylinder
+from uictest.identification import UnsuitableRecordError, fitted_freely, identify_cylinder
 from uictest.identification.transfer_function import assembled
 
 STEP = 0.0005
@@ -48,6 +48,18 @@ def test_unity_gain_at_rest_and_stability_hold_by_parametrisation():
     assert gain == pytest.approx(1.0, abs=1e-6)
     assert np.all(np.abs(result.poles) < 1.0)
     assert result.output(np.full(1000, 3e5)) == pytest.approx(3e5)
+
+
+def test_a_free_fit_follows_a_response_that_turns_back():
+    """What the bound of the shipped filter costs is seen beside it."""
+    time, tank = excitation(12.0)
+    truth = assembled(np.log([0.05, 0.02, 0.0004]), np.array([0.0, 1.0, 0.0]), STEP)
+    cylinder = truth.output(tank)
+    free = fitted_freely(time, tank, cylinder)
+    bounded = identify_cylinder(time, tank, cylinder).transfer_function
+    errors = [np.abs(each.output(tank) - cylinder).max() for each in (free, bounded)]
+    assert errors[0] < 0.01 * tank.max() < errors[1]
+    assert sum(free.numerator) / (1.0 + sum(free.denominator)) == pytest.approx(1.0, abs=1e-6)
 
 
 def test_the_response_to_a_step_never_turns_back():

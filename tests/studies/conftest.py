@@ -9,6 +9,8 @@ import pytest
 
 from uictest.studies import (
     STUDIES,
+    OwnBand,
+    SourceBand,
     StopRunner,
     Study,
     StudyFindings,
@@ -36,11 +38,24 @@ def result(stop_runner: StopRunner) -> RunStudy:
 def made_up() -> StudyResult:
     """A study of three quantities: one holds, one misses, one has no band and was not found."""
     quantities = (
-        StudyQuantity("time", "braking time", "s", "17.6 s", 16.5, 19.0, reason="ours"),
         StudyQuantity(
-            "share", "[bold]share", "%", "below 2 %", upper=2.0, below=True, digits=2, reason="paper"
+            "time",
+            "braking time",
+            "s",
+            "17.6 s",
+            status="calibrated",
+            band=OwnBand(lower=16.5, upper=19.0, reason="ours"),
         ),
-        StudyQuantity("count", "actuations", digits=0),
+        StudyQuantity(
+            "share",
+            "[bold]share",
+            "%",
+            "below 2 %",
+            status="predicted",
+            band=SourceBand(upper=2.0, below=True),
+            digits=2,
+        ),
+        StudyQuantity("count", "actuations", status="predicted", digits=0),
     )
     values = {
         "time": StudyValue(18.12, 17.9, 18.34),

@@ -3,15 +3,18 @@ from __future__ import annotations
 import pytest
 from hypothesis import assume, given, strategies as st
 
-from uictest.studies import StudyQuantity, StudyValue
-from uictest.studies.band_plot import WIDTH, band_plot
+from uictest.studies import OwnBand, StudyQuantity, StudyValue
+from uictest.studies.band_plot import WIDTH, BandPlot, band_plot
 from uictest.studies.quantity import PaperComparison
 
 numbers = st.floats(-1e6, 1e6)
 
 
-def plot_of(lower: float | None, upper: float | None, *value: float) -> object:
-    return band_plot(PaperComparison(StudyQuantity("q", "q", lower=lower, upper=upper), StudyValue(*value)))
+def plot_of(lower: float | None, upper: float | None, *value: float) -> BandPlot | None:
+    band = None if lower is None and upper is None else OwnBand(lower=lower, upper=upper, reason="ours")
+    return band_plot(
+        PaperComparison(StudyQuantity("q", "q", status="predicted", band=band), StudyValue(*value))
+    )
 
 
 @given(lower=numbers, width=st.floats(1e-3, 1e6), value=numbers)
@@ -20,7 +23,7 @@ def test_a_value_is_drawn_in_the_band_where_it_holds_and_beside_it_where_not(
 ) -> None:
     upper = lower + width
     assume(upper > lower)
-    plot = band_plot(PaperComparison(StudyQuantity("q", "q", lower=lower, upper=upper), StudyValue(value)))
+    plot = plot_of(lower, upper, value)
     assert plot is not None
     left, right = plot.band
     assert 0.0 <= left <= right <= WIDTH
@@ -31,8 +34,8 @@ def test_a_value_is_drawn_in_the_band_where_it_holds_and_beside_it_where_not(
 
 
 def test_a_band_with_one_limit_reaches_the_edge() -> None:
-    below = band_plot(PaperComparison(StudyQuantity("q", "q", upper=2.0), StudyValue(1.0, 0.5, 1.5)))
-    above = band_plot(PaperComparison(StudyQuantity("q", "q", lower=2.0), StudyValue(1.0)))
+    below = plot_of(None, 2.0, 1.0, 0.5, 1.5)
+    above = plot_of(2.0, None, 1.0)
     assert below is not None
     assert above is not None
     assert (below.band[0], above.band[1]) == (0.0, WIDTH)

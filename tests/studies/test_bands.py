@@ -1,4 +1,4 @@
-"""Every band, held by the shipped library."""
+"""Every band is held by the shipped library, or declared missed and missed."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ BOUNDED = [
     pytest.param(name, quantity.key, id=f"{name}-{quantity.key}", marks=[pytest.mark.slow] * (name in _SLOW))
     for name, study in STUDIES.items()
     for quantity in study.quantities
-    if quantity.lower is not None or quantity.upper is not None
+    if quantity.band is not None
 ]
 
 
 @pytest.mark.parametrize(("study", "key"), BOUNDED)
-def test_the_figure_lies_in_its_band(study: str, key: str, result: Callable[[str], StudyResult]) -> None:
+def test_the_figure_is_as_claimed(study: str, key: str, result: Callable[[str], StudyResult]) -> None:
     comparison = next(each for each in result(study).comparisons if each.quantity.key == key)
     found, band = ours_text(comparison), band_text(comparison.quantity)
-    assert comparison.status == "holds", f"{comparison.quantity.title}: {found}, band {band}"
+    assert not comparison.fails, f"{comparison.quantity.title}: {found}, band {band}"

@@ -12,7 +12,7 @@ from uictest.studies.catalogue import find_studies
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
-    ("cylinder-dynamics", "after_full"): (None, None),
+    ("cylinder-dynamics", "after_full"): (None, 2.0),
     ("cylinder-dynamics", "after_thermal"): (None, 2.0),
     ("cylinder-dynamics", "ratio"): (None, 0.29),
     ("force-accuracy", "module_1"): (None, 8.0),
@@ -37,16 +37,17 @@ def _quantities(name: str) -> dict[str, StudyQuantity]:
 
 @pytest.mark.parametrize(("study", "key"), list(BANDS))
 def test_every_band_is_the_one_that_was_set(study: str, key: str) -> None:
-    quantity = _quantities(study)[key]
-    assert (quantity.lower, quantity.upper) == BANDS[study, key]
+    band = _quantities(study)[key].band
+    assert band is not None
+    assert (band.lower, band.upper) == BANDS[study, key]
 
 
 @pytest.mark.parametrize("study", list(STUDIES))
 def test_keys_are_unique_and_every_band_says_where_it_comes_from(study: str) -> None:
     quantities = STUDIES[study].quantities
     assert len(_quantities(study)) == len(quantities)
-    bounded = [each for each in quantities if each.lower is not None or each.upper is not None]
-    assert all(quantity.reason for quantity in bounded)
+    bands = [quantity.band for quantity in quantities if quantity.band is not None]
+    assert all(band.reason and (band.lower, band.upper) != (None, None) for band in bands)
 
 
 @pytest.mark.parametrize("study", list(STUDIES))

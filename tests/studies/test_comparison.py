@@ -5,7 +5,19 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import StudyQuantity, StudyResult, document, lines, study_table
+from uictest.studies import (
+    OwnBand,
+    SourceBand,
+    StudyQuantity,
+    StudyResult,
+    StudyValue,
+    claims,
+    document,
+    lines,
+    misses,
+    study_table,
+    tally,
+)
 from uictest.studies.comparison import band_text, comparison_table, ours_text, paper_text
 
 
@@ -13,23 +25,28 @@ def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> 
     assert lines(made_up) == [
         "made-up: A made-up study",
         "  The data of the paper's figures and tables are not public; its text says: 17.6 s.",
-        "  holds   braking time: paper 17.6 s; ours 18.1 (17.9 .. 18.3) s; band 16.5 .. 19 s (ours)",
-        "  misses  [bold]share: paper below 2 %; ours 2.00 %; band < 2 % (paper)",
-        "  shown   actuations: paper not public; ours - (- .. -)",
+        (
+            "  holds  calibrated  braking time: paper 17.6 s; ours 18.1 (17.9 .. 18.3) s; "
+            "band 16.5 .. 19 s (ours)"
+        ),
+        "  misses  predicted  [bold]share: paper below 2 %; ours 2.00 %; band < 2 % (paper)",
+        "  shown  predicted  actuations: paper not public; ours - (- .. -)",
         "  Made up.",
     ]
 
 
 @pytest.mark.parametrize(
-    ("quantity", "text"),
+    ("band", "text"),
     [
-        (StudyQuantity("a", "a", "%", upper=8.0), "<= 8 %"),
-        (StudyQuantity("a", "a", lower=9.0), ">= 9"),
-        (StudyQuantity("a", "a", "m"), "-"),
+        (OwnBand(upper=8.0, reason="ours"), "<= 8 %"),
+        (OwnBand(upper=8.0, below=True, reason="ours"), "< 8 %"),
+        (OwnBand(lower=9.0, reason="ours"), ">= 9 %"),
+        (SourceBand(lower=0.0, upper=9.5), "0 .. 9.5 %"),
+        (None, "-"),
     ],
 )
-def test_bands_in_words(quantity: StudyQuantity, text: str) -> None:
-    assert band_text(quantity) == text
+def test_bands_in_words(band: OwnBand | SourceBand | None, text: str) -> None:
+    assert band_text(StudyQuantity("a", "a", "%", status="predicted", band=band)) == text
 
 
 def test_a_study_of_ours_claims_nothing_of_the_paper(made_up: StudyResult) -> None:
@@ -38,10 +55,12 @@ def test_a_study_of_ours_claims_nothing_of_the_paper(made_up: StudyResult) -> No
 
 def test_the_document_holds_no_number_that_json_lacks(made_up: StudyResult) -> None:
     (study,) = json.loads(document([made_up]))["studies"]
-    assert study["verdict"] == "misses"
-    assert [each["verdict"] for each in study["quantities"]] == ["holds", "misses", "shown"]
+    assert (study["result"], study["fails"]) == ("misses", True)
+    assert [each["result"] for each in study["quantities"]] == ["holds", "misses", "shown"]
+    assert [each["status"] for each in study["quantities"]] == ["calibrated", "predicted", "predicted"]
+    assert [each["band"] and each["band"]["of"] for each in study["quantities"]] == ["ours", "source", None]
     assert study["quantities"][2]["value"] is None
-    assert study["quantities"][1]["upper_excluded"]
+    assert study["quantities"][1]["band"]["upper_excluded"]
 
 
 def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
@@ -58,3 +77,45 @@ def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
 def test_every_comparison_is_a_row(made_up: StudyResult) -> None:
     table = comparison_table([made_up, made_up])
     assert {len(column) for column in table.values()} == {6}
+    assert table["status"][:3] == ["calibrated", "predicted", "predicted"]
+    assert table["result"][:3] == ["holds", "misses", "shown"]
+    assert table["band"][:3] == ["ours", "source", ""]
+
+
+def declared(made_up: StudyResult, value: float) -> StudyResult:
+    """The study, the paper's band of whose share is declared missed; `value` is the share."""
+    first, share, last = made_up.study.quantities
+    band = SourceBand(upper=2.0, below=True, declared_miss="Heat.")
+    study = replace(made_up.study, quantities=(first, replace(share, band=band), last))
+    values = {**made_up.findings.values, "share": StudyValue(value)}
+    return StudyResult(study, replace(made_up.findings, values=values))
+
+
+def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up: StudyResult) -> None:
+    result = declared(made_up, 9.56)
+    assert "  misses, declared  predicted  [bold]share: " in "\n".join(lines(result))
+    assert "  Declared missed: [bold]share. Heat." in lines(result)
+    (study,) = json.loads(document([result]))["studies"]
+    assert (study["result"], study["fails"]) == ("misses", False)
+    assert study["quantities"][1]["declared_miss"] == "Heat."
+    assert comparison_table([result])["declared_miss"] == ["", "Heat.", ""]
+    assert tally([result, made_up]) == "6 values: 2 hold, 2 miss (1 declared), 2 shown"
+    assert [line.split()[-1] for line in misses([result, made_up])] == ["result", "declared", "misses"]
+
+
+def test_a_declared_miss_that_holds_is_said(made_up: StudyResult) -> None:
+    result = declared(made_up, 1.9)
+    assert "  holds, declared missed  predicted  [bold]share: " in "\n".join(lines(result))
+    assert [line.split()[-2:] for line in misses([result])][1:] == [["declared", "missed"]]
+
+
+def test_claims_are_counted_by_status_and_result(made_up: StudyResult) -> None:
+    table = [line.split() for line in claims([made_up, declared(made_up, 9.56)])]
+    assert table == [
+        ["status", "holds", "misses", "shown"],
+        ["calibrated", "2", "0", "0"],
+        ["selected", "0", "0", "0"],
+        ["by", "construction", "0", "0", "0"],
+        ["predicted", "0", "2", "2"],
+        ["all", "2", "2", "2"],
+    ]

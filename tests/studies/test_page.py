@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from uictest.studies import Study, StudyFindings, StudyResult, run_study, write_figures, write_pages
-from uictest.studies.page import tally
 from uictest.studies.stop_runner import StopRunner
 
 ARGUMENTS = ("reproduce", "made-up")
@@ -31,7 +30,8 @@ def test_a_page_shows_the_papers_values_beside_ours(made_up: StudyResult, tmp_pa
         ("bad", "misses"),
         ("none", "shown"),
     ]
-    assert tally(made_up) == "3 values: 1 hold, 1 miss, 1 shown"
+    for text in ("calibrated", "predicted", "3 values: 1 hold, 1 miss (0 declared), 1 shown"):
+        assert text in page
 
 
 def test_markup_in_a_study_is_text(made_up: StudyResult, tmp_path: Path) -> None:

@@ -1,11 +1,23 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.studies.quantity import StudyQuantity, StudyValue, spread
+from uictest.studies.quantity import (
+    OwnBand,
+    PaperComparison,
+    SourceBand,
+    StudyQuantity,
+    StudyValue,
+    spread,
+)
+
+
+def quantity(band: OwnBand | SourceBand | None) -> StudyQuantity:
+    return StudyQuantity("error", "error", status="predicted", band=band)
 
 
 @pytest.mark.parametrize(
@@ -13,17 +25,49 @@ from uictest.studies.quantity import StudyQuantity, StudyValue, spread
     [(0.45, "holds"), (0.55, "holds"), (0.4499, "misses"), (0.5501, "misses"), (math.nan, "misses")],
 )
 def test_both_ends_of_a_band_belong_to_it(value: float, status: str) -> None:
-    assert StudyQuantity("width", "width", lower=0.45, upper=0.55).status(value) == status
+    assert quantity(OwnBand(lower=0.45, upper=0.55, reason="ours")).result(value) == status
 
 
 def test_what_must_stay_below_a_bound_may_not_reach_it() -> None:
-    assert StudyQuantity("error", "error", upper=2.0, below=True).status(2.0) == "misses"
-    assert StudyQuantity("error", "error", upper=2.0).status(2.0) == "holds"
+    assert not SourceBand(upper=2.0, below=True).contains(2.0)
+    assert SourceBand(upper=2.0).contains(2.0)
 
 
 @given(st.floats())
 def test_without_a_band_a_figure_is_only_shown(value: float) -> None:
-    assert StudyQuantity("force", "force").status(value) == "shown"
+    assert quantity(None).result(value) == "shown"
+
+
+@pytest.mark.parametrize(
+    ("band", "value", "fails"),
+    [
+        (OwnBand(upper=2.0, reason="ours"), 1.0, False),
+        (OwnBand(upper=2.0, reason="ours"), 3.0, True),
+        (SourceBand(upper=2.0), 3.0, True),
+        (SourceBand(upper=2.0, declared_miss="heat"), 3.0, False),
+        (SourceBand(upper=2.0, declared_miss="heat"), 1.0, True),
+        (SourceBand(upper=2.0, declared_miss="heat"), math.nan, True),
+        (None, 3.0, False),
+    ],
+)
+def test_a_study_fails_by_what_is_not_as_claimed(
+    band: OwnBand | SourceBand | None, value: float, fails: bool
+) -> None:
+    """A miss that nobody declared, and a declaration that is not true."""
+    assert PaperComparison(quantity(band), StudyValue(value)).fails is fails
+
+
+def test_a_band_of_ours_cannot_be_declared_missed() -> None:
+    fields: dict[str, Any] = {"upper": 2.0, "reason": "ours", "declared_miss": "heat"}
+    assert SourceBand(**fields).declared_miss == "heat"
+    with pytest.raises(TypeError, match="declared_miss"):
+        OwnBand(**fields)
+
+
+def test_every_quantity_says_what_it_is_worth() -> None:
+    fields: dict[str, Any] = {"key": "force", "title": "force"}
+    with pytest.raises(TypeError, match="status"):
+        StudyQuantity(**fields)
 
 
 @given(st.lists(st.floats(-1e9, 1e9), min_size=1))
@@ -33,6 +77,10 @@ def test_a_median_lies_within_its_range(values: list[float]) -> None:
     assert found.high is not None
     assert (found.low, found.high) == (min(values), max(values))
     assert found.low <= found.value <= found.high
+
+
+def test_no_repeat_leaves_no_median() -> None:
+    assert math.isnan(spread([]).value)
 
 
 def test_one_repeat_without_a_figure_leaves_no_median() -> None:

@@ -8,13 +8,13 @@ from uictest.studies import StopRunner, StudyFindings, StudyResult, StudyValue, 
 
 
 def test_one_figure_outside_its_band_decides(made_up: StudyResult) -> None:
-    assert [comparison.status for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
-    assert made_up.status == "misses"
+    assert [comparison.result for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
+    assert (made_up.result, made_up.fails) == ("misses", True)
 
 
 def test_a_study_without_a_band_is_only_shown(made_up: StudyResult) -> None:
     unbounded = replace(made_up.study, quantities=made_up.study.quantities[2:])
-    assert StudyResult(unbounded, made_up.findings).status == "shown"
+    assert StudyResult(unbounded, made_up.findings).result == "shown"
 
 
 def test_a_study_must_find_all_its_quantities(made_up: StudyResult) -> None:

@@ -14,6 +14,7 @@ from .compensation_file import (
 )
 from .cylinder import (
     CylinderResult as CylinderResult,
+    fitted_freely as fitted_freely,
     identify_cylinder as identify_cylinder,
     require_fit as require_fit,
 )
@@ -37,3 +38,4 @@ from .suitability import (
     held_out as held_out,
     required_sampling_time as required_sampling_time,
 )
+from .transfer_function import TransferFunction as TransferFunction

@@ -8,10 +8,7 @@ import numpy as np
 
 from uictest.identification.applications import applications
 from uictest.identification.arrays import Mask, Samples
-from uictest.identification.output_error import (
-    FitSegment,
-    refined,
-)
+from uictest.identification.output_error import FitSegment, free_weights, refined
 from uictest.identification.suitability import (
     UnsuitableRecordError,
     held_out,
@@ -85,6 +82,21 @@ def identify_cylinder(
     tank = np.concatenate([tank_pressure[braking] for braking in brakings])
     cylinder = np.concatenate([cylinder_pressure[braking] for braking in brakings])
     return _assessed(model, tank[held], cylinder[held], np.concatenate(computed)[held])
+
+
+def fitted_freely(time: Samples, tank_pressure: Samples, cylinder_pressure: Samples) -> TransferFunction:
+    """Find the third-order transfer function with the least output error over a whole record.
+
+    Nothing is held out, and only unity gain at rest and stability bound it: what such a filter can reach
+    where it was fitted. A rig cannot use it, because a step response that turns back is kept as force.
+    Arguments are those of :func:`identify_cylinder`.
+    """
+    pressures = {"tank": tank_pressure, "cylinder": cylinder_pressure}
+    step = required_sampling_time(time, pressures, _SHORTEST, _LONGEST_STEP)
+    brakings = applications(tank_pressure, cylinder_pressure, step)
+    pairs = [(tank_pressure[braking], cylinder_pressure[braking]) for braking in brakings]
+    segments = [_segment(tank, cylinder, np.ones(len(tank), bool)) for tank, cylinder in pairs]
+    return assembled(*refined(segments, step, free_weights), step)
 
 
 def require_fit(result: CylinderResult) -> None:

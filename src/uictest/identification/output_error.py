@@ -98,12 +98,15 @@ class FitSegment:
         return FitSegment(self.input[::every], self.output[::every], self.fitted[::every])
 
 
-def refined(segments: Sequence[FitSegment], step: float) -> tuple[Poles, Samples]:
+def refined(
+    segments: Sequence[FitSegment], step: float, weigh: Weigh = bounded_weights
+) -> tuple[Poles, Samples]:
     """Poles and weights with the least error of the simulated output where it is fitted.
 
     The weights follow from the poles (variable projection), so that three unknowns remain. The best poles of
     a grid and those of a linear fit are followed at a coarse sampling time, first without and then with
-    bounds on the step response; the best end is refined at the record's own sampling time.
+    bounds on the step response; the best end is refined at the record's own sampling time. With
+    `free_weights` nothing bounds the step response.
     """
     coarse = max(round(_COARSE_STEP / step), 1)
     thinned = [each.thinned(coarse) for each in segments]
@@ -111,10 +114,10 @@ def refined(segments: Sequence[FitSegment], step: float) -> tuple[Poles, Samples
     free = _error_function(thinned, coarse * step, free_weights, _COARSE_POINTS)
     starts = _starts(max(segments, key=lambda each: len(each.input)), step, free)
     ends = [_local_minimum(free, start, _COARSE_EVALUATIONS, span) for start in starts]
-    bounded_error = _error_function(thinned, coarse * step, bounded_weights, _COARSE_POINTS)
-    ends = [_local_minimum(bounded_error, end, _COARSE_EVALUATIONS, span) for end in ends]
-    best = min(ends, key=lambda poles: bounded_error(poles)[0])
-    error = _error_function(segments, step, bounded_weights, _POINTS)
+    coarse_error = _error_function(thinned, coarse * step, weigh, _COARSE_POINTS)
+    ends = [_local_minimum(coarse_error, end, _COARSE_EVALUATIONS, span) for end in ends]
+    best = min(ends, key=lambda poles: coarse_error(poles)[0])
+    error = _error_function(segments, step, weigh, _POINTS)
     poles = bounded(_local_minimum(error, best, _EVALUATIONS, span), step)
     return poles, error(poles)[1]
 

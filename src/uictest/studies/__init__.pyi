@@ -1,8 +1,13 @@
 from .catalogue import STUDIES as STUDIES
-from .comparison import lines as lines
+from .comparison import claims as claims, lines as lines, misses as misses, tally as tally
 from .document import document as document
 from .page_writing import write_pages as write_pages
-from .quantity import StudyQuantity as StudyQuantity, StudyValue as StudyValue
+from .quantity import (
+    OwnBand as OwnBand,
+    SourceBand as SourceBand,
+    StudyQuantity as StudyQuantity,
+    StudyValue as StudyValue,
+)
 from .stop_runner import StopRunner as StopRunner
 from .study import (
     Study as Study,

@@ -27,13 +27,13 @@ class BandPlot:
 
 def band_plot(comparison: PaperComparison) -> BandPlot | None:
     """Return the drawing of a quantity; None without a band or without a value."""
-    quantity, ours = comparison.quantity, comparison.ours
-    limits = [limit for limit in (quantity.lower, quantity.upper) if limit is not None]
-    if not limits or not math.isfinite(ours.value):
+    band, ours = comparison.quantity.band, comparison.ours
+    if band is None or not math.isfinite(ours.value):
         return None
+    limits = [limit for limit in (band.lower, band.upper) if limit is not None]
     ends = [end for end in (ours.low, ours.high) if end is not None and math.isfinite(end)]
     # Zero is a limit of its own for a share or a difference that must stay below a bound.
-    natural = [0.0] if quantity.lower is None and ours.value >= 0.0 else []
+    natural = [0.0] if band.lower is None and ours.value >= 0.0 else []
     shown = [*limits, *ends, *natural, ours.value]
     least, span = min(shown), (max(shown) - min(shown)) or abs(ours.value) or 1.0
 
@@ -42,11 +42,11 @@ def band_plot(comparison: PaperComparison) -> BandPlot | None:
 
     return BandPlot(
         band=(
-            0.0 if quantity.lower is None else across(quantity.lower),
-            float(WIDTH) if quantity.upper is None else across(quantity.upper),
+            0.0 if band.lower is None else across(band.lower),
+            float(WIDTH) if band.upper is None else across(band.upper),
         ),
         value=across(ours.value),
         low=across(ends[0]) if len(ends) == 2 else None,
         high=across(ends[1]) if len(ends) == 2 else None,
-        holds=comparison.status == "holds",
+        holds=comparison.result == "holds",
     )

@@ -1,10 +1,12 @@
-"""The comparison with the paper in words, for the table, the lines and the files."""
+"""The comparison with the paper in words, and the table of claims, for terminal, page and files."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
-from uictest.studies.quantity import PaperComparison, StudyQuantity
+from uictest.report import TableColumn, aligned, counted
+from uictest.studies.quantity import RESULTS, STATUSES, PaperComparison, SourceBand, StudyQuantity
 from uictest.studies.study import Study, StudyResult, Table
 
 
@@ -19,13 +21,74 @@ def ours_text(comparison: PaperComparison) -> str:
 
 def band_text(quantity: StudyQuantity) -> str:
     """Return the band, e.g. `16.5 .. 19 s`, `< 2 %`, `-` where there is none."""
-    if quantity.lower is not None and quantity.upper is not None:
-        return _with_unit(f"{quantity.lower:g} .. {quantity.upper:g}", quantity)
-    if quantity.upper is not None:
-        return _with_unit(f"{'<' if quantity.below else '<='} {quantity.upper:g}", quantity)
-    if quantity.lower is not None:
-        return _with_unit(f">= {quantity.lower:g}", quantity)
-    return "-"
+    band = quantity.band
+    if band is None:
+        return "-"
+    if band.lower is None:
+        return _with_unit(f"{'<' if band.below else '<='} {band.upper:g}", quantity)
+    upper = "" if band.upper is None else f"{band.upper:g}"
+    return _with_unit(f"{band.lower:g} .. {upper}" if upper else f">= {band.lower:g}", quantity)
+
+
+def band_origin(quantity: StudyQuantity) -> str:
+    """Return whose band it is: `source`, `ours`, or empty where there is none."""
+    if quantity.band is None:
+        return ""
+    return "source" if isinstance(quantity.band, SourceBand) else "ours"
+
+
+def result_text(comparison: PaperComparison) -> str:
+    """Return the result of a quantity, with what was declared."""
+    if comparison.is_declared_miss:
+        return "misses, declared"
+    return f"{comparison.result}, declared missed" if comparison.quantity.declared_miss else comparison.result
+
+
+def declared_misses(result: StudyResult) -> list[str]:
+    """Return why the bands that are declared missed are missed, one sentence for each reason."""
+    by_reason: dict[str, list[str]] = {}
+    for quantity in result.study.quantities:
+        if quantity.declared_miss:
+            by_reason.setdefault(quantity.declared_miss, []).append(quantity.title)
+    return [f"Declared missed: {'; '.join(titles)}. {reason}" for reason, titles in by_reason.items()]
+
+
+def tally(results: Sequence[StudyResult]) -> str:
+    """Return how many values hold, miss and are shown: `3 values: 1 hold, 1 miss (1 declared), 1 shown`."""
+    rows = [comparison for each in results for comparison in each.comparisons]
+    held, missed, shown = (sum(each.result == result for each in rows) for result in RESULTS)
+    declared = f" ({sum(each.is_declared_miss for each in rows)} declared)" if missed else ""
+    return f"{counted(len(rows), 'value')}: {held} hold, {missed} miss{declared}, {shown} shown"
+
+
+def misses(results: Sequence[StudyResult]) -> list[str]:
+    """Return the values that miss or are not as declared, as lines of a table."""
+    rows = [
+        (each.study.name, comparison)
+        for each in results
+        for comparison in each.comparisons
+        if comparison.result == "misses" or comparison.fails
+    ]
+    columns: dict[str, Sequence[str]] = {
+        "study": [name for name, _ in rows],
+        "quantity": [comparison.quantity.title for _, comparison in rows],
+        "band": [band_text(comparison.quantity) for _, comparison in rows],
+        "ours": [ours_text(comparison) for _, comparison in rows],
+        "status": [comparison.quantity.status for _, comparison in rows],
+        "result": [result_text(comparison) for _, comparison in rows],
+    }
+    return list(aligned([TableColumn(title, cells) for title, cells in columns.items()])) if rows else []
+
+
+def claims(results: Sequence[StudyResult]) -> list[str]:
+    """Return a table of how many values hold, miss and are shown, by what they are worth as evidence."""
+    rows = [comparison for each in results for comparison in each.comparisons]
+    counts = Counter((comparison.quantity.status, comparison.result) for comparison in rows)
+    columns = [TableColumn("status", [*STATUSES, "all"])]
+    for result in RESULTS:
+        column = [counts[status, result] for status in STATUSES]
+        columns.append(TableColumn(result, [str(each) for each in (*column, sum(column))], right=True))
+    return list(aligned(columns))
 
 
 def paper_text(study: Study) -> str:
@@ -42,10 +105,10 @@ def lines(result: StudyResult) -> list[str]:
     for comparison in result.comparisons:
         quantity = comparison.quantity
         parts = [f"{quantity.title}: paper {quantity.paper}", f"ours {ours_text(comparison)}"]
-        if band_text(quantity) != "-":
-            parts.append(f"band {band_text(quantity)} ({quantity.reason})")
-        shown.append(f"  {comparison.status:6}  " + "; ".join(parts))
-    return shown + [f"  {note}" for note in result.findings.notes]
+        if quantity.band is not None:
+            parts.append(f"band {band_text(quantity)} ({quantity.band.reason})")
+        shown.append(f"  {result_text(comparison)}  {quantity.status}  " + "; ".join(parts))
+    return shown + [f"  {note}" for note in (*declared_misses(result), *result.findings.notes)]
 
 
 def comparison_table(results: Sequence[StudyResult]) -> Table:
@@ -61,10 +124,13 @@ def comparison_table(results: Sequence[StudyResult]) -> Table:
         "here": [comparison.ours.value for _, comparison in rows],
         "here_low": [comparison.ours.low for _, comparison in rows],
         "here_high": [comparison.ours.high for _, comparison in rows],
-        "band_lower": [quantity.lower for quantity in quantities],
-        "band_upper": [quantity.upper for quantity in quantities],
-        "band_from": [quantity.reason for quantity in quantities],
-        "verdict": [comparison.status for _, comparison in rows],
+        "status": [quantity.status for quantity in quantities],
+        "result": [comparison.result for _, comparison in rows],
+        "band": [band_origin(quantity) for quantity in quantities],
+        "band_lower": [quantity.band and quantity.band.lower for quantity in quantities],
+        "band_upper": [quantity.band and quantity.band.upper for quantity in quantities],
+        "band_from": [quantity.band and quantity.band.reason for quantity in quantities],
+        "declared_miss": [quantity.declared_miss for quantity in quantities],
     }
 
 

@@ -7,10 +7,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.studies.quantity import PaperComparison
+from uictest.studies.quantity import Band, PaperComparison, SourceBand
 from uictest.studies.study import StudyResult
 
-SCHEMA = "uictest/studies/1"
+SCHEMA = "uictest/studies/2"
 
 
 def document(results: Sequence[StudyResult]) -> str:
@@ -23,7 +23,8 @@ def _study(result: StudyResult) -> dict[str, Any]:
         "name": result.study.name,
         "title": result.study.title,
         "source": result.study.paper,
-        "verdict": result.status,
+        "result": result.result,
+        "fails": result.fails,
         "quantities": [_quantity(comparison) for comparison in result.comparisons],
         "notes": list(result.findings.notes),
     }
@@ -39,11 +40,21 @@ def _quantity(comparison: PaperComparison) -> dict[str, Any]:
         "value": _finite(ours.value),
         "low": _finite(ours.low),
         "high": _finite(ours.high),
-        "lower": quantity.lower,
-        "upper": quantity.upper,
-        "upper_excluded": quantity.below,
-        "band_from": quantity.reason,
-        "verdict": comparison.status,
+        "status": quantity.status,
+        "result": comparison.result,
+        "band": None if quantity.band is None else _band(quantity.band),
+        "declared_miss": quantity.declared_miss,
+        "fails": comparison.fails,
+    }
+
+
+def _band(band: Band) -> dict[str, Any]:
+    return {
+        "of": "source" if isinstance(band, SourceBand) else "ours",
+        "lower": band.lower,
+        "upper": band.upper,
+        "upper_excluded": band.below,
+        "reason": band.reason,
     }
 
 

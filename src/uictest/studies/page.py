@@ -13,13 +13,22 @@ from markupsafe import Markup
 from uictest import report
 from uictest.report.page import render
 from uictest.studies import band_plot
-from uictest.studies.comparison import band_text, ours_text, paper_text
-from uictest.studies.quantity import BandStatus, PaperComparison
+from uictest.studies.comparison import (
+    band_text,
+    claims,
+    declared_misses,
+    ours_text,
+    paper_text,
+    result_text,
+    tally,
+)
+from uictest.studies.quantity import PaperComparison
 from uictest.studies.study import Study, StudyResult
 
 STUDY_MARK: Final = "uictest/study-page/1"
 STUDIES_MARK: Final = "uictest/studies-page/1"
-_TONES: Final[Mapping[BandStatus, str]] = {"holds": "good", "misses": "bad", "shown": "none"}
+_TONES: Final[Mapping[str, str]] = {"holds": "good", "misses": "odd", "shown": "none"}
+"""Of results; one that fails its study is `bad`."""
 _TYPES: Final = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
@@ -44,6 +53,7 @@ class QuantityRow:
     comparison: PaperComparison
     ours: str
     band: str
+    result: str
     plot: band_plot.BandPlot | None
 
 
@@ -57,7 +67,8 @@ def study_html(result: StudyResult, figures: Sequence[StudyFigure], manifest: re
         result=result,
         study=result.study,
         paper=paper_text(result.study),
-        tally=tally(result),
+        tally=tally([result]),
+        declared=declared_misses(result),
         rows=[_row(each) for each in result.comparisons],
         figures=figures,
         content={"manifest": manifest},
@@ -76,19 +87,12 @@ def studies_html(
         mark=STUDIES_MARK,
         results=results,
         earlier=earlier,
-        missed=sum(each.status == "misses" for each in results),
+        failed=sum(each.fails for each in results),
+        claims=claims(results),
         tally=tally,
         content={"manifest": manifest},
         **_words(),
     )
-
-
-def tally(result: StudyResult) -> str:
-    """Return how many values hold, miss, and are only shown, e.g. `3 values: 2 hold, 1 shown`."""
-    statuses = [comparison.status for comparison in result.comparisons]
-    words = {"holds": "hold", "misses": "miss", "shown": "shown"}
-    counts = [f"{statuses.count(status)} {word}" for status, word in words.items() if status in statuses]
-    return f"{report.counted(len(statuses), 'value')}: {', '.join(counts)}" if counts else "no value"
 
 
 def _words() -> dict[str, Any]:
@@ -102,5 +106,9 @@ def _words() -> dict[str, Any]:
 
 def _row(comparison: PaperComparison) -> QuantityRow:
     return QuantityRow(
-        comparison, ours_text(comparison), band_text(comparison.quantity), band_plot.band_plot(comparison)
+        comparison,
+        ours_text(comparison),
+        band_text(comparison.quantity),
+        result_text(comparison),
+        band_plot.band_plot(comparison),
     )

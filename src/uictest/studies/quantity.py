@@ -1,19 +1,70 @@
-"""A quantity of a study: its value, the text of the paper, and the band in which it must lie."""
+"""A quantity of a study: its value, the text of the paper, what it is worth, and the band."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from statistics import median
-from typing import Literal
+from typing import Final, Literal, get_args
 
-BandStatus = Literal["holds", "misses", "shown"]
+Status = Literal["calibrated", "selected", "by construction", "predicted"]
+"""What a value is worth as evidence.
+
+`calibrated`: it was a target of the calibration, or a number was set by hand with it in view. `selected`: it
+is the best of a search, or something was chosen while it was watched. `by construction`: it follows from what
+was put in. `predicted`: nothing was fitted to it; of our own model.
+"""
+Result = Literal["holds", "misses", "shown"]
 """`shown`: there is no band, the value is only shown."""
+STATUSES: Final[tuple[Status, ...]] = get_args(Status)
+RESULTS: Final[tuple[Result, ...]] = get_args(Result)
 
 NOT_PUBLIC = "not public"
 """Replaces the paper's value where its text gives none."""
 NOT_ASKED = "not asked"
 """Replaces the paper's value where only we ask the question."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Band:
+    """Values that hold: an :class:`OwnBand` or a :class:`SourceBand`.
+
+    Args:
+        lower: least value that holds, itself included.
+        upper: greatest value that holds; itself excluded where `below` is set.
+        below: whether the value must stay below the upper bound.
+        reason: where the band comes from.
+    """
+
+    lower: float | None = None
+    upper: float | None = None
+    below: bool = False
+    reason: str
+
+    def contains(self, value: float) -> bool:
+        """Return whether a value lies in the band; NaN never does."""
+        above_lower = self.lower is None or value >= self.lower
+        below_upper = self.upper is None or value < self.upper or (value == self.upper and not self.below)
+        return above_lower and below_upper and not math.isnan(value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnBand(Band):
+    """A band that we chose, also one about a number of the paper: the study fails where it misses."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceBand(Band):
+    """A band that the paper states for its own method or test; ours may miss it, if that is declared.
+
+    Args:
+        declared_miss: why ours misses it; empty where it holds. A declared miss that holds fails the study,
+            so that declarations stay true.
+    """
+
+    reason: str = "paper"
+    declared_miss: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,30 +76,30 @@ class StudyQuantity:
         title: its name for people.
         unit: unit of all its values; empty for a pure number.
         paper: its value in the text of Lee and Kang (2015), in words.
-        lower: least value that holds, itself included.
-        upper: greatest value that holds; itself excluded where `below` is set.
-        below: whether the value must stay below the upper bound.
+        status: what it is worth as evidence.
+        band: in which it must lie; None where it is only shown.
         digits: digits shown behind the decimal point.
-        reason: where the band comes from.
     """
 
     key: str
     title: str
     unit: str = ""
     paper: str = NOT_PUBLIC
-    lower: float | None = None
-    upper: float | None = None
-    below: bool = False
+    _: KW_ONLY
+    status: Status
+    band: OwnBand | SourceBand | None = None
     digits: int = 1
-    reason: str = ""
 
-    def status(self, value: float) -> BandStatus:
-        """Return whether a value lies in the band; NaN never does."""
-        if self.lower is None and self.upper is None:
+    def result(self, value: float) -> Result:
+        """Return whether a value lies in the band."""
+        if self.band is None:
             return "shown"
-        above_lower = self.lower is None or value >= self.lower
-        below_upper = self.upper is None or value < self.upper or (value == self.upper and not self.below)
-        return "holds" if above_lower and below_upper else "misses"
+        return "holds" if self.band.contains(value) else "misses"
+
+    @property
+    def declared_miss(self) -> str:
+        """Why the band of the paper is missed; empty where that is not declared."""
+        return self.band.declared_miss if isinstance(self.band, SourceBand) else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +112,8 @@ class StudyValue:
 
 
 def spread(values: Sequence[float]) -> StudyValue:
-    """Return the median of repeats with their range; a NaN among them makes all three NaN."""
-    if any(value != value for value in values):
+    """Return the median of repeats with their range; NaN where there is none, or a NaN is among them."""
+    if not values or any(value != value for value in values):
         return StudyValue(float("nan"), float("nan"), float("nan"))
     return StudyValue(float(median(values)), float(min(values)), float(max(values)))
 
@@ -80,6 +131,19 @@ class PaperComparison:
     ours: StudyValue
 
     @property
-    def status(self) -> BandStatus:
+    def result(self) -> Result:
         """Whether our value, of repeats the median, lies in the band."""
-        return self.quantity.status(self.ours.value)
+        return self.quantity.result(self.ours.value)
+
+    @property
+    def is_declared_miss(self) -> bool:
+        """Whether it misses and that is declared; a value that is not a number is never declared."""
+        declared = bool(self.quantity.declared_miss) and not math.isnan(self.ours.value)
+        return declared and self.result == "misses"
+
+    @property
+    def fails(self) -> bool:
+        """Whether the study fails by it: a miss that is not declared, or a declared miss that holds."""
+        if self.quantity.declared_miss:
+            return not self.is_declared_miss
+        return self.result == "misses"

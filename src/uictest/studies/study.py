@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.studies.quantity import BandStatus, PaperComparison, StudyQuantity, StudyValue
+from uictest.studies.quantity import PaperComparison, Result, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 
 if TYPE_CHECKING:
@@ -76,10 +76,15 @@ class StudyResult:
         return [PaperComparison(quantity, values[quantity.key]) for quantity in self.study.quantities]
 
     @property
-    def status(self) -> BandStatus:
+    def result(self) -> Result:
         """`misses` if any quantity does, `shown` if none has a band, else `holds`."""
-        statuses = {comparison.status for comparison in self.comparisons}
-        return "misses" if "misses" in statuses else "holds" if "holds" in statuses else "shown"
+        results = {comparison.result for comparison in self.comparisons}
+        return "misses" if "misses" in results else "holds" if "holds" in results else "shown"
+
+    @property
+    def fails(self) -> bool:
+        """Whether a quantity misses and that is not declared, or holds although a miss is declared."""
+        return any(comparison.fails for comparison in self.comparisons)
 
 
 def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:

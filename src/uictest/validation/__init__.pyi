@@ -29,5 +29,10 @@ from .report import (
     tally as tally,
     validation_lines as validation_lines,
 )
-from .stops import ComparedStop as ComparedStop, as_recorded as as_recorded, figures_of as figures_of
+from .stops import (
+    ComparedStop as ComparedStop,
+    as_recorded as as_recorded,
+    figures_of as figures_of,
+    seed_of as seed_of,
+)
 from .summary import StopUnderConditions as StopUnderConditions, validation_of as validation_of

@@ -31,6 +31,8 @@ _ALWAYS: Final = ("initial_speed", "brake.command", "rail.friction", "rail.gradi
 _DISTANCE: Final = "braking_distance_m"
 _SETTINGS: Final = ("brake.position", "rig.wsp", "rig.topology", "rig.compensation")
 _OF_DIFFERENCES: Final = ("bias", "deviation", "bias_low", "bias_high", "limits_low", "limits_high")
+_DRAWS: Final = "one seed per stop"
+"""How the simulations behind the intervals of a validation were drawn, as figures.csv says it."""
 _TABLE: Final = ("stops", "recorded", "bias", "interval of bias", "spread", "limits of agreement", "bias, %")
 
 
@@ -151,12 +153,24 @@ def remarks(validation: Validation) -> Iterator[str]:
             f"bias: mean of simulated minus recorded; intervals with {percent} by Student's t, for stops that"
             " are independent; limits of agreement: of one further stop"
         )
+    if stops:
+        yield f"simulated draws: {_draws(validation)}"
     if any(stop.repeats == 1 for stop in validation.counted):
         yield "a simulation under one seed is one draw where wheelsets slide; `repeat` compares medians"
     if stops and validation.not_compared:
         # What only one side has says nothing; a reader must know that it was not forgotten.
         columns = dict.fromkeys(map(_column_of, validation.not_compared))
         yield f"not compared, as no counted stop has both: {', '.join(columns)}"
+
+
+def _draws(validation: Validation) -> str:
+    """Return how the simulations were drawn, and so what the intervals are worth."""
+    if any(stop.seed is None for stop in validation.counted):
+        return "not known: stops that share a seed and a speed share a draw, and the intervals are too narrow"
+    return (
+        f"{_DRAWS}, from the seed of its scenario and the SHA-256 of its recording, whatever the other stops"
+        " are; stops.csv has it"
+    )
 
 
 def _column_of(figure: str) -> str:
@@ -172,13 +186,15 @@ def figures_csv(validation: Validation) -> str:
 
 def figures_table(validation: Validation) -> Table:
     """Return every figure with its agreement, absolute and as a share of the recorded figure."""
-    columns = ("figure", "unit", "stops", "recorded_mean")
+    columns = ("figure", "unit", "stops", "draws", "recorded_mean")
+    known = all(stop.seed is not None for stop in validation.counted)
     relative = [f"relative_{name}" for name in _OF_DIFFERENCES]
     rows: list[dict[str, Cell]] = [
         {
             "figure": each.figure,
             "unit": each.unit,
             "stops": each.stops,
+            "draws": _DRAWS if known else "not known",
             "recorded_mean": each.recorded_mean,
             **_values(each.absolute, ""),
             **({} if each.relative is None else _values(each.relative, "relative_")),
@@ -200,7 +216,7 @@ def stops_csv(validation: Validation) -> str:
 def stops_table(validation: Validation) -> Table:
     """Return one row for each figure of each stop: recorded, simulated and their difference."""
     columns = (
-        *("stop", "recording", "counted", "tuned", "not_counted"),
+        *("stop", "recording", "counted", "tuned", "not_counted", "seed", "repeats"),
         *("figure", "recorded", "simulated", "difference"),
     )
     return Table(columns, [row for stop in validation.stops for row in _rows(stop)])
@@ -213,6 +229,8 @@ def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
         "counted": stop.counted,
         "tuned": stop.tuned,
         "not_counted": stop.not_counted,
+        "seed": stop.seed,
+        "repeats": stop.repeats,
     }
     if not stop.recorded:
         yield {**shared}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -25,6 +26,7 @@ class ComparedStop:
         recorded: its figures.
         simulated: the same figures of the simulation; medians where it was repeated.
         repeats: seeds under which it was simulated.
+        seed: the first of them; None in documents that do not name it.
         tuned: whether numbers of the scenario were found with it: it then shows nothing of the model.
         not_counted: why it cannot be compared; empty where it can.
     """
@@ -36,6 +38,7 @@ class ComparedStop:
     recorded: Figures = field(default_factory=dict)
     simulated: Figures = field(default_factory=dict)
     repeats: int = 1
+    seed: int | None = None
     tuned: bool = False
     not_counted: str = ""
 
@@ -45,10 +48,24 @@ class ComparedStop:
         return not (self.tuned or self.not_counted)
 
 
-def as_recorded(case: Case, case_id: str, initial_speed: float) -> Case:
-    """Return the case of a recorded stop, simulated from its own initial speed, m/s."""
+def as_recorded(case: Case, case_id: str, initial_speed: float, digest: str) -> Case:
+    """Return the case of a recorded stop, simulated from its own initial speed, m/s, under its own seed.
+
+    `digest` is the SHA-256 of the recording as hexadecimal digits.
+    """
     speed = parse_quantity(f"{initial_speed!r} m/s", "speed")
-    return replace(case, id=case_id, scenario=case.scenario.model_copy(update={"initial_speed": speed}))
+    changes = {"initial_speed": speed, "seed": seed_of(case.scenario.seed, digest)}
+    return replace(case, id=case_id, scenario=case.scenario.model_copy(update=changes))
+
+
+def seed_of(scenario_seed: int, digest: str) -> int:
+    """Return the seed of a recorded stop: the first 31 bits of the SHA-256 of the text `SEED DIGEST`.
+
+    Stops that share a draw would have differences that are no independent draws, and intervals that are too
+    narrow. The seed depends on nothing else, so that further stops or another order change none.
+    """
+    words = hashlib.sha256(f"{scenario_seed} {digest}".encode()).digest()
+    return int.from_bytes(words[:4], "big") >> 1
 
 
 def figures_of(result: CaseResult) -> dict[str, float]:

@@ -9,14 +9,26 @@ from typing import Any
 import pytest
 
 from uictest import rig, studies
-from uictest.studies import StopRunner, Study, StudyFindings, StudyQuantity, StudyValue
+from uictest.studies import (
+    OwnBand,
+    SourceBand,
+    StopRunner,
+    Study,
+    StudyFindings,
+    StudyQuantity,
+    StudyValue,
+)
 
 Call = Callable[..., Any]
 
 
-def study(name: str, value: float) -> Study:
+OURS = OwnBand(lower=1.0, reason="ours")
+DECLARED = SourceBand(lower=1.0, declared_miss="It is shorter.")
+
+
+def study(name: str, value: float, band: OwnBand | SourceBand = OURS) -> Study:
     """A study that finds one value, which must be at least 1."""
-    quantity = StudyQuantity("value", "value found", "m", "1 m", lower=1.0, reason="ours")
+    quantity = StudyQuantity("value", "value found", "m", "1 m", status="predicted", band=band)
 
     def draw(figure: Any) -> None:
         figure.subplots().plot([0.0, value])
@@ -46,26 +58,52 @@ def test_studies_are_listed(call: Call) -> None:
 
 
 def test_exit_0_only_where_every_band_holds(call: Call) -> None:
-    assert call("reproduce", "sound").code == 0
-    assert call("reproduce").code == 1
+    answer = call("reproduce", "sound")
+    assert (answer.code, "1 study, 1 value: 1 hold, 0 miss, 0 shown; in" in answer.err) == (0, True)
+    answer = call("reproduce")
+    assert answer.code == 1
+    counts = "2 studies, 2 values: 1 hold, 1 miss (0 declared), 0 shown; not as claimed: amiss; in"
+    assert counts in answer.err
+
+
+def test_a_declared_miss_of_the_papers_band_leaves_the_exit_code_alone(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(studies.STUDIES, "amiss", study("amiss", 0.5, DECLARED))
+    answer = call("reproduce", "amiss")
+    assert answer.code == 0
+    assert "1 value: 0 hold, 1 miss (1 declared), 0 shown; in" in answer.err
+    assert "misses, declared  predicted  value found" in answer.out
+    assert "Declared missed: value found. It is shorter." in answer.out
+
+
+def test_a_declared_miss_that_holds_is_exit_1(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(studies.STUDIES, "sound", study("sound", 2.0, DECLARED))
+    answer = call("reproduce", "sound")
+    assert answer.code == 1
+    assert "holds, declared missed  predicted  value found" in answer.out
+    assert "not as claimed: sound" in answer.err
 
 
 def test_the_papers_value_stands_next_to_ours(call: Call) -> None:
     assert (
-        "holds   value found: paper 1 m; ours 2.0 m; band >= 1 m (ours)\n" in call("reproduce", "sound").out
+        "holds  predicted  value found: paper 1 m; ours 2.0 m; band >= 1 m (ours)\n"
+        in call("reproduce", "sound").out
     )
 
 
-def test_quiet_shows_only_what_misses(call: Call) -> None:
+def test_quiet_shows_only_what_misses_and_the_counts(call: Call) -> None:
     answer = call("reproduce", "-q")
-    assert "amiss" in answer.out
+    missed = answer.out.splitlines()[1]
+    assert " ".join(missed.split()) == "amiss value found >= 1 m 0.5 m predicted misses"
     assert "sound" not in answer.out
+    assert answer.out.splitlines()[-1].split() == ["all", "1", "1", "0"]
     assert answer.err == ""
 
 
 def test_json_stands_alone_on_stdout(call: Call) -> None:
     document = json.loads(call("reproduce", "--format", "json").out)
-    assert [each["verdict"] for each in document["studies"]] == ["holds", "misses"]
+    assert [each["result"] for each in document["studies"]] == ["holds", "misses"]
 
 
 def test_an_unknown_study_is_a_usage_error_with_a_hint(call: Call) -> None:

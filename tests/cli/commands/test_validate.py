@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
+from uictest.campaign import batch
 from uictest.validation import read_validation
 
 from ..conftest import FIGURES
@@ -106,6 +107,34 @@ def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: C
     [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
     assert (figure["stops"], float(figure["bias"])) == ("1", pytest.approx(5.0, abs=1e-3))
     assert "1 of 2 recorded stops counted" in answer.err
+
+
+def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(
+    validate: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One draw for all stops of a speed would make the interval of the bias too narrow."""
+    simulated: dict[str, int] = {}
+    run_case = batch.run_case
+
+    def noted(case: Any, *rest: Any) -> Any:
+        simulated[case.id.rpartition(".")[2]] = case.scenario.seed
+        return run_case(case, *rest)
+
+    monkeypatch.setattr(batch, "run_case", noted)
+    files = [record(f"r{error}.csv", SIMULATED - error) for error in (5, 10, 15)]
+    answer = validate(f"recordings: [{', '.join(files)}]")
+    seeds = dict(simulated)
+    assert len(set(seeds.values())) == 3
+    assert "simulated draws: one seed per stop, from the seed of its scenario" in answer.out
+    assert "one seed per stop" in (newest() / "validation.md").read_text("utf-8")
+    assert {row["draws"] for row in rows("figures.csv")} == {"one seed per stop"}
+    shown = {row["stop"].rpartition(".")[2]: row["seed"] for row in rows("stops.csv")}
+    assert {name: int(seed) for name, seed in shown.items()} == seeds
+    document = json.loads((newest() / "validation.json").read_text("utf-8"))
+    assert [stop["seed"] for stop in document["stops"]] == list(seeds.values())
+    simulated.clear()
+    validate(f"recordings: [{files[2]}, {files[0]}]")
+    assert simulated == {"r15": seeds["r15"], "r5": seeds["r5"]}
 
 
 def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Callable[..., Any]) -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +13,7 @@ from uictest.studies.experiments import compensation_domain
 from uictest.studies.figures.compensation_domain import worst_by_cell
 from uictest.studies.judged_conditions import JudgedConditions, judged_cases
 from uictest.studies.model_errors import ReplayErrors, SettingErrors, replay_errors
-from uictest.studies.quantity import StudyQuantity
+from uictest.studies.quantity import OwnBand, SourceBand
 
 FEW = JudgedConditions(frictions=(0.11,), positions=("R", "emergency"), wheelsets=(2,), seeds=(31,))
 QUANTITIES = {quantity.key: quantity for quantity in STUDIES["compensation-domain"].quantities}
@@ -23,12 +24,16 @@ def replays(stop_runner: StopRunner) -> list[ReplayErrors]:
     return replay_errors(stop_runner, judged_cases(stop_runner, FEW), FEW.wheelsets)
 
 
-def bounded() -> list[StudyQuantity]:
-    return [quantity for quantity in QUANTITIES.values() if quantity.upper is not None]
-
-
-def test_only_our_compensation_has_a_band() -> None:
-    assert {quantity.key: quantity.upper for quantity in bounded()} == {
+def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours() -> None:
+    banded = {key: each.band for key, each in QUANTITIES.items() if each.band is not None}
+    assert {key for key, band in banded.items() if isinstance(band, SourceBand)} == {
+        *(
+            f"pressure_error_{each}"
+            for each in ("median_full", "worst_full", "median_cylinder", "worst_cylinder")
+        ),
+        *("force_error_median_full", "force_error_worst_full"),
+    }
+    assert {key: band.upper for key, band in banded.items() if isinstance(band, OwnBand)} == {
         "pressure_error_median_thermal": 1.0,
         "pressure_error_worst_thermal": 2.0,
         "force_error_worst_thermal": 8.0,
@@ -61,13 +66,23 @@ def test_every_replay_has_a_row_for_every_setting(
         if setting == "full"
     )
     assert findings.values["pressure_error_worst_full"].value == worst
+    # None of these replays is in position P.
+    assert math.isnan(findings.values["pressure_error_venting_thermal_p"].value)
+    errors = [
+        error
+        for error, setting, position, vents in zip(
+            *(table[key] for key in ("pressure_error_percent", "setting", "position", "vents")), strict=True
+        )
+        if (setting, position, vents) == ("thermal", "R", True)
+    ]
+    assert [findings.values["pressure_error_venting_thermal_r"].value] == errors
 
 
 def test_a_cell_of_the_map_holds_the_worst_of_its_wheelsets() -> None:
     def replay(friction: float, position: str, error: float) -> ReplayErrors:
         rail, brake = SimpleNamespace(friction=friction), SimpleNamespace(position=position)
         case: Any = SimpleNamespace(scenario=SimpleNamespace(rail=rail, brake=brake))
-        return ReplayErrors(case, 1, {"full": SettingErrors(error, error, 0.0)})
+        return ReplayErrors(case, 1, True, {"full": SettingErrors(error, error, 0.0)})
 
     made_up = [replay(0.08, "P", 3.0), replay(0.08, "P", 2.0), replay(0.08, "R", 1.0), replay(0.1, "P", 4.0)]
     np.testing.assert_array_equal(worst_by_cell(made_up, "pressure_error", "full"), [[3.0, 1.0], [4.0, 0.0]])

@@ -5,15 +5,16 @@ from typing import Any
 import pytest
 
 from uictest.scenario import COMPENSATION_SETTINGS
-from uictest.studies import STUDIES, StopRunner
+from uictest.studies import STUDIES, StopRunner, run_study
 from uictest.studies.experiments import dry_distance
 from uictest.studies.experiments.dry_distance import (
     COMMANDS,
     RIGS,
     SPEEDS,
+    WITHIN,
     DryStop,
     dry_stops,
-    largest_difference,
+    worst_stop,
 )
 
 
@@ -42,11 +43,17 @@ def test_no_wheelset_slides_in_any_stop(stop_runner: StopRunner) -> None:
 def test_the_worst_stop_keeps_its_sign() -> None:
     nothing: Any = None
     made_up = [DryStop(nothing, "full", distance, 100.0) for distance in (100.1, 99.0)]
-    assert largest_difference([*made_up, DryStop(nothing, "none", 90.0, 100.0)], "full") == pytest.approx(
-        -1.0
-    )
+    worst = worst_stop([*made_up, DryStop(nothing, "none", 90.0, 100.0)], "full")
+    assert worst.difference == pytest.approx(-1.0)
 
 
 def test_every_setting_with_hysteresis_has_a_band() -> None:
-    banded = {each.key for each in STUDIES["dry-distance"].quantities if each.upper is not None}
+    banded = {each.key for each in STUDIES["dry-distance"].quantities if each.band is not None}
     assert banded == {name for name, setting in COMPENSATION_SETTINGS.items() if setting.hysteresis}
+
+
+def test_the_band_is_of_fast_and_strong_stops_and_others_differ_more(stop_runner: StopRunner) -> None:
+    """Within 0.2 % of four calipers: not `full` from 30 km/h, not `thermal` at 30 % command."""
+    values = run_study(STUDIES["dry-distance"], stop_runner).findings.values
+    for setting in ("full", "thermal"):
+        assert abs(values[setting].value) < WITHIN < abs(values[f"{setting}_all"].value)

@@ -51,6 +51,7 @@ def compared_stop(
         sha256=file.digest,
         initial_speed=float(stop.case.scenario.initial_speed),
         repeats=stop.case.scenario.repeat,
+        seed=None if file.stop is None else stop.case.scenario.seed,
         tuned=stop.planned.tuned,
         not_counted=stop.not_counted,
     )
@@ -83,7 +84,7 @@ def _stops(
         case_id = f"{planned.case.id}.{file.name}"
         case = replace(planned.case, id=case_id)
         if file.stop is not None:
-            case = validation.as_recorded(planned.case, case_id, _speed(file.stop))
+            case = validation.as_recorded(planned.case, case_id, _speed(file.stop), file.digest)
         yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
 
 

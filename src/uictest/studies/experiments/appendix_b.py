@@ -7,7 +7,7 @@ from functools import partial
 from uictest import evaluation, scenario
 from uictest.recording import Recording
 from uictest.studies.figures.appendix_b import draw
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
@@ -24,34 +24,33 @@ QUANTITIES = (
         "braking distance, position R, dry",
         "m",
         "440-490 m",
-        *DISTANCES,
-        reason="paper",
+        status="calibrated",
+        band=SourceBand(lower=DISTANCES[0], upper=DISTANCES[1]),
     ),
     StudyQuantity(
         "off_the_middle",
         "its distance from the middle of the band",
         "m",
         NOT_ASKED,
-        upper=15.0,
-        reason="ours: near the middle",
+        status="calibrated",
+        band=OwnBand(upper=15.0, reason="ours: near the middle"),
     ),
     StudyQuantity(
         "initial_adhesion",
         "deceleration in the first phase of the slip-brake test",
         "g",
         "below 0.08 g",
-        upper=0.08,
-        below=True,
+        status="calibrated",
+        band=SourceBand(upper=0.08, below=True),
         digits=4,
-        reason="paper",
     ),
     StudyQuantity(
         "minimum_slide",
         "slide that half of the wheelsets exceed",
         "%",
         "above 35 %",
-        lower=SLIDE,
-        reason="paper",
+        status="calibrated",
+        band=SourceBand(lower=SLIDE),
     ),
 )
 

@@ -8,7 +8,7 @@ from uictest.recording import Recording
 from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import identified_lines
-from uictest.studies.quantity import StudyQuantity, StudyValue
+from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
 from uictest.units import BAR, KILONEWTON
@@ -24,14 +24,13 @@ QUANTITIES = (
         "width of the loop at high force, triangular pressure",
         "bar",
         "about 0.5 bar",
-        lower=0.45,
-        upper=0.55,
+        status="calibrated",
+        band=OwnBand(lower=0.45, upper=0.55, reason="ours, about the paper's"),
         digits=3,
-        reason="paper, within 0.05 bar",
     ),
-    StudyQuantity("loop_width_stepwise", "the same, stepwise pressure", "bar", digits=3),
-    StudyQuantity("loop_width_random", "the same, random pressure", "bar", digits=3),
-    StudyQuantity("largest_force", "largest clamping force", "kN", digits=2),
+    StudyQuantity("loop_width_stepwise", "the same, stepwise pressure", "bar", status="calibrated", digits=3),
+    StudyQuantity("loop_width_random", "the same, random pressure", "bar", status="calibrated", digits=3),
+    StudyQuantity("largest_force", "largest clamping force", "kN", status="by construction", digits=2),
 )
 
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from statistics import median
 
 from uictest.studies.figures.compensation_domain import draw
 from uictest.studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
-from uictest.studies.model_errors import ReplayErrors, replay_errors
+from uictest.studies.model_errors import FILTER_MISSES, ReplayErrors, replay_errors
 from uictest.studies.neighbourhood import SETTINGS
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue
+from uictest.studies.quantity import NOT_ASKED, OwnBand, SourceBand, Status, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner, constant_friction
 from uictest.studies.study import Study, StudyFindings, Table
 
@@ -21,34 +22,57 @@ TITLES = {
     "force_error": "force error",
 }
 STATISTICS: dict[str, Callable[[Sequence[float]], float]] = {"median": median, "worst": max}
-_PAPER = {
-    "pressure_error_worst_none": "7 %",
-    "pressure_error_worst_full": "below 2 %",
-    "pressure_error_worst_thermal": "below 2 % by its filter",
-    "force_error_worst_full": "within +-8 %",
-    "force_error_worst_thermal": "within +-8 % by its models",
+_POSITIONS = ("P", "R", "emergency")
+_FILTER = SourceBand(upper=2.0, below=True, declared_miss=FILTER_MISSES)
+_FORCE = SourceBand(upper=8.0)
+_FORCE_MISSES = replace(
+    _FORCE, declared_miss="The pressure that its filter computes is off by more than the paper's was."
+)
+_CLAIMS: Mapping[str, tuple[str, OwnBand | SourceBand | None]] = {
+    "pressure_error_worst_none": ("7 %", None),
+    **{
+        f"pressure_error_{statistic}_{setting}": ("below 2 %", _FILTER)
+        for setting in ("cylinder", "full")
+        for statistic in STATISTICS
+    },
+    "pressure_error_median_thermal": (NOT_ASKED, OwnBand(upper=1.0, below=True, reason="ours")),
+    "pressure_error_worst_thermal": (
+        "below 2 % by its filter",
+        OwnBand(upper=2.0, below=True, reason="ours, of the paper's claim"),
+    ),
+    "force_error_median_full": ("within +-8 %", _FORCE),
+    "force_error_worst_full": ("within +-8 %", _FORCE_MISSES),
+    "force_error_worst_thermal": (
+        "within +-8 % by its models",
+        OwnBand(upper=8.0, reason="ours, of the paper's claim"),
+    ),
 }
-_BOUNDS = {
-    "pressure_error_median_thermal": 1.0,
-    "pressure_error_worst_thermal": 2.0,
-    "force_error_worst_thermal": 8.0,
-}
-"""Bounds that an error must stay below, %."""
+"""The paper's value of a quantity, and the band."""
 
 
 def _quantities() -> Iterator[StudyQuantity]:
     for error, setting, statistic in product(TITLES, SETTINGS, STATISTICS):
-        key = f"{error}_{statistic}_{setting}"
-        yield StudyQuantity(
-            key,
-            f"{TITLES[error]}, {setting}, {statistic}",
-            "%",
-            _PAPER.get(key, NOT_ASKED),
-            upper=_BOUNDS.get(key),
-            below=True,
-            digits=2,
-            reason="ours, of the paper's claim" if key in _BOUNDS else "",
+        key, title = (
+            f"{error}_{statistic}_{setting}",
+            f"{TITLES[error]}, {setting}, {statistic} of all",
         )
+        paper, band = _CLAIMS.get(key, (NOT_ASKED, None))
+        # Hardware and bench were chosen while the errors of `thermal` were watched.
+        status: Status = "selected" if setting == "thermal" else "predicted"
+        yield StudyQuantity(key, title, "%", paper, status=status, band=band, digits=2)
+    for position in _POSITIONS:
+        yield StudyQuantity(
+            _cycling_key(position),
+            f"pressure error, thermal, median in {position} where the WSP vents",
+            "%",
+            NOT_ASKED,
+            status="selected",
+            digits=2,
+        )
+
+
+def _cycling_key(position: str) -> str:
+    return f"pressure_error_venting_thermal_{position.lower()}"
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
@@ -60,11 +84,18 @@ def run(stop_runner: StopRunner) -> StudyFindings:
             f"{error}_{name}_{setting}": StudyValue(statistic(errors_of(replays, error, setting)))
             for error, setting in product(TITLES, SETTINGS)
             for name, statistic in STATISTICS.items()
-        },
+        }
+        | {_cycling_key(position): _cycling_median(replays, position) for position in _POSITIONS},
         tables={"errors": _table(replays)},
         drawings={"compensation-domain": partial(draw, replays)},
         notes=tuple(_notes(conditions, replays)),
     )
+
+
+def _cycling_median(replays: Sequence[ReplayErrors], position: str) -> StudyValue:
+    """Return median and range of the pressure error of `thermal` along commands that vent."""
+    venting = [each for each in replays if each.vents and each.case.scenario.brake.position == position]
+    return spread(errors_of(venting, "pressure_error", "thermal"))
 
 
 def errors_of(replays: Sequence[ReplayErrors], error: str, setting: str) -> list[float]:
@@ -97,6 +128,7 @@ def _table(replays: Sequence[ReplayErrors]) -> Table:
         "position": [stop.brake.position for stop in stops],
         "wheelset": [replay.wheelset for replay, _ in rows],
         "seed": [stop.seed for stop in stops],
+        "vents": [replay.vents for replay, _ in rows],
         "setting": [setting for _, setting in rows],
         "pressure_error_percent": [replay.errors[setting].pressure_error for replay, setting in rows],
         "true_pressure_error_percent": [

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from functools import partial
 
+import numpy as np
+
+from uictest import identification
 from uictest.recording import Recording
+from uictest.rig import bench
 from uictest.studies.figures.cylinder_dynamics import draw
-from uictest.studies.model_errors import pressure_error
-from uictest.studies.quantity import StudyQuantity, repeats_note, spread
+from uictest.studies.model_errors import FILTER_MISSES, pressure_error
+from uictest.studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR
+from uictest.units import BAR, PERCENT
 
 SEEDS = range(5)
 _EVERY = 20
@@ -26,16 +30,41 @@ QUANTITIES = (
         "largest difference of tank 2 from cylinder 1",
         _UNIT,
         "7 %",
-        lower=4.0,
-        upper=8.0,
+        # The film coefficients were set by hand for it.
+        status="calibrated",
+        band=OwnBand(lower=4.0, upper=8.0, reason="ours, about the paper's figure"),
         digits=2,
-        reason="ours, about the paper's figure",
     ),
     StudyQuantity(
         "after_full",
         "largest difference behind the cylinder dynamics (full)",
         _UNIT,
         "below 2 %",
+        status="predicted",
+        band=SourceBand(upper=AFTER, below=True, declared_miss=FILTER_MISSES),
+        digits=2,
+    ),
+    StudyQuantity(
+        "after_in_sample",
+        "largest difference behind a free filter fitted to this very stop",
+        _UNIT,
+        "below 2 %",
+        status="calibrated",
+        band=SourceBand(
+            upper=AFTER,
+            below=True,
+            declared_miss="Even fitted to this stop, by least squares, a linear filter of third order "
+            "follows the heat only in part.",
+        ),
+        digits=2,
+    ),
+    StudyQuantity(
+        "after_free",
+        "largest difference behind a free filter fitted to the training of full",
+        _UNIT,
+        "below 2 %",
+        status="predicted",
+        band=SourceBand(upper=AFTER, below=True, declared_miss=FILTER_MISSES),
         digits=2,
     ),
     StudyQuantity(
@@ -43,19 +72,18 @@ QUANTITIES = (
         "largest difference of the modelled air (thermal)",
         _UNIT,
         "below 2 % by the cylinder dynamics",
-        upper=AFTER,
-        below=True,
+        status="selected",
+        band=OwnBand(upper=AFTER, below=True, reason="ours, of the paper's claim"),
         digits=2,
-        reason="ours, of the paper's claim",
     ),
     StudyQuantity(
         "ratio",
         "the modelled air's over that of tank 2",
         "",
         "below 0.29 (2 % of 7 %)",
-        upper=0.29,
+        status="selected",
+        band=OwnBand(upper=0.29, reason="ours"),
         digits=3,
-        reason="ours",
     ),
 )
 _SETTINGS = {"before": "none", "after_full": "full", "after_thermal": "thermal"}
@@ -73,13 +101,36 @@ def run(stop_runner: StopRunner) -> StudyFindings:
         key: [pressure_error(recording, setting, top) for recording in replays]
         for key, setting in _SETTINGS.items()
     }
+    trained = fitted_filter(bench.run_test(bench.load_bench(bench.recipe_path("six-inch-cylinder"))))
+    own = stop_runner.map(fitted_filter, replays)
+    errors["after_in_sample"] = [filter_error(*pair, top) for pair in zip(replays, own, strict=True)]
+    errors["after_free"] = [filter_error(recording, trained, top) for recording in replays]
     ratios = [after / before for before, after in zip(errors["before"], errors["after_thermal"], strict=True)]
     return StudyFindings(
         {key: spread(values) for key, values in errors.items()} | {"ratio": spread(ratios)},
         tables={"pressures": _table(replays[0])},
         drawings={"cylinder-dynamics": partial(draw, replays[0], top, AFTER)},
-        notes=(repeats_note(len(SEEDS)),),
+        notes=(
+            repeats_note(len(SEEDS)),
+            (
+                "A free filter has unity gain at rest and is bounded by nothing else. Fitted to the stop "
+                "that is shown, it is the paper's procedure as we understand it."
+            ),
+        ),
     )
+
+
+def fitted_filter(recording: Recording) -> identification.TransferFunction:
+    """Return the free filter from the reading of tank 2 to that of cylinder 1 over a bench recording."""
+    return identification.fitted_freely(
+        recording["time"], recording["measured_pressure_2"], recording["cylinder_pressure_1"]
+    )
+
+
+def filter_error(recording: Recording, filtering: identification.TransferFunction, top: float) -> float:
+    """Return the largest difference of a filtered tank pressure from that of cylinder 1, % of `top` Pa."""
+    difference = filtering.output(recording["measured_pressure_2"]) - recording["cylinder_pressure_1"]
+    return float(np.abs(difference).max()) / top / PERCENT
 
 
 def _table(recording: Recording) -> Table:

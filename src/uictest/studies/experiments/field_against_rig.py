@@ -13,7 +13,7 @@ from uictest.studies.field.search import Trial, closest, search
 from uictest.studies.field.single import one_at_a_time
 from uictest.studies.field.tables import families_table, singles_table, stop_table, trials_table
 from uictest.studies.figures.field_against_rig import draw
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue
+from uictest.studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
 
@@ -25,6 +25,12 @@ _SHOWN = (
     ("minimum_deceleration", "its least deceleration", "m/s2", "0.98 m/s2", 2),
     ("maximum_deceleration", "its greatest deceleration", "m/s2", "1.52 m/s2", 2),
 )
+_COUNTED: tuple[tuple[str, str, Status], ...] = (
+    ("tried", "stops tried", "by construction"),
+    ("agreeing", "stops that agree in all four figures", "selected"),
+    ("agreeing_in_run", "stops that agree in time and distance", "selected"),
+)
+"""The search tries more stops near those that agree: how many do is its own doing."""
 
 QUANTITIES = (
     *(
@@ -33,25 +39,38 @@ QUANTITIES = (
             title,
             unit,
             paper,
-            round(REAL_TRAIN[name] - TOLERANCES[name], 3),
-            round(REAL_TRAIN[name] + TOLERANCES[name], 3),
+            status="selected",
+            band=OwnBand(
+                lower=round(REAL_TRAIN[name] - TOLERANCES[name], 3),
+                upper=round(REAL_TRAIN[name] + TOLERANCES[name], 3),
+                reason="ours: the tolerance of the search",
+            ),
             digits=digits,
-            reason="ours: the tolerance",
         )
         for name, title, unit, paper, digits in _SHOWN
     ),
     StudyQuantity(
-        "actuations", "its actuations of a WSP valve, median", paper="11, 21, 11 on its rig", digits=0
+        "actuations",
+        "its actuations of a WSP valve, median",
+        paper="11, 21, 11 on its rig",
+        status="selected",
+        digits=0,
     ),
     *(
         StudyQuantity(
-            f"misfit_{family.name}", f"least misfit, {family.title}", "tolerances", NOT_ASKED, digits=2
+            f"misfit_{family.name}",
+            f"least misfit, {family.title}",
+            "tolerances",
+            NOT_ASKED,
+            status="selected",
+            digits=2,
         )
         for family in FAMILIES
     ),
-    StudyQuantity("tried", "stops tried", paper=NOT_ASKED, digits=0),
-    StudyQuantity("agreeing", "stops that agree in all four figures", paper=NOT_ASKED, digits=0),
-    StudyQuantity("agreeing_in_run", "stops that agree in time and distance", paper=NOT_ASKED, digits=0),
+    *(
+        StudyQuantity(name, title, paper=NOT_ASKED, status=status, digits=0)
+        for name, title, status in _COUNTED
+    ),
 )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from uictest.recording import Recording
 from uictest.studies.figures.rail_cleaning import draw_maps, draw_stops
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.slip_brake_tests import (
     CLEANED,
@@ -39,39 +39,36 @@ QUANTITIES = (
         f"braking distance cleaned at {CLEANED} over not cleaned, largest",
         "",
         NOT_ASKED,
-        upper=1.0,
-        below=True,
+        status="by construction",
+        band=OwnBand(upper=1.0, below=True, reason="published direction"),
         digits=2,
-        reason="published direction",
     ),
     StudyQuantity(
         "air_ratio",
         "the same for the air consumed",
         "",
         NOT_ASKED,
-        upper=1.0,
-        below=True,
+        status="predicted",
+        band=OwnBand(upper=1.0, below=True, reason="follows from the published direction"),
         digits=2,
-        reason="follows from the published direction",
     ),
     StudyQuantity(
         "actuation_ratio",
         "the same for the actuations of the WSP valves",
         "",
         NOT_ASKED,
-        upper=1.0,
-        below=True,
+        status="predicted",
+        band=OwnBand(upper=1.0, below=True, reason="follows from the published direction"),
         digits=2,
-        reason="follows from the published direction",
     ),
     StudyQuantity(
         "trailing_share",
         "cleaned share under wheelsets 2 to 4 over that under wheelset 1, smallest",
         "",
         NOT_ASKED,
-        lower=1.0,
+        status="by construction",
+        band=OwnBand(lower=1.0, reason="published direction"),
         digits=2,
-        reason="published direction",
     ),
     *(
         StudyQuantity(
@@ -79,6 +76,7 @@ QUANTITIES = (
             f"frictions at which the test counts, {controller}, {title}",
             f"of {len(FRICTIONS)}",
             NOT_ASKED,
+            status="predicted",
             digits=0,
         )
         for controller in CONTROLLERS
@@ -89,6 +87,7 @@ QUANTITIES = (
         "distance with deep over small slides, rail not cleaned, median",
         "",
         NOT_ASKED,
+        status="predicted",
         digits=2,
     ),
     StudyQuantity(
@@ -96,6 +95,7 @@ QUANTITIES = (
         f"distance with deep over small slides, cleaned at {CLEANED}, median",
         "",
         NOT_ASKED,
+        status="predicted",
         digits=2,
     ),
 )

@@ -19,7 +19,7 @@ from uictest.studies.neighbourhood import (
     Point,
     neighbourhood,
 )
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.quantity import NOT_ASKED, Status, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT, in_unit, normal_volume
@@ -74,12 +74,19 @@ def _quantities() -> Iterator[StudyQuantity]:
         for rig_name in RIGS:
             title = f"{measure.title}, {rig_name}"
             yield StudyQuantity(
-                f"{measure.key}_{rig_name}", title, measure.unit, NOT_ASKED, digits=measure.digits
+                f"{measure.key}_{rig_name}",
+                title,
+                measure.unit,
+                NOT_ASKED,
+                status="predicted",
+                digits=measure.digits,
             )
     for error in ERRORS:
         for setting in SETTINGS:
+            # Hardware was chosen while the errors of `thermal` were watched.
+            status: Status = "selected" if setting == "thermal" else "predicted"
             yield StudyQuantity(
-                f"{error.key}_{setting}", f"{error.title}, {setting}", error.unit, NOT_ASKED, digits=1
+                f"{error.key}_{setting}", f"{error.title}, {setting}", error.unit, NOT_ASKED, status=status
             )
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from uictest.studies.actuations import APART, Counts, counts, in_bands, in_order, mean_counts
 from uictest.studies.figures.robustness import draw_points, draw_sweep
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, Point, friction_sweep, neighbourhood
-from uictest.studies.quantity import NOT_ASKED, StudyQuantity, StudyValue, spread
+from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT
@@ -26,43 +26,49 @@ QUANTITIES = (
         "points at which full is near the caliper and none clearly apart",
         "of 9",
         "11 / 11 / 21 in one stop",
-        lower=9.0,
+        status="predicted",
+        band=OwnBand(lower=9.0, reason="ours"),
         digits=0,
-        reason="ours",
     ),
     StudyQuantity(
         "full_over_caliper",
         "actuations with full compensation over those with a caliper",
         "",
         "1.0 in one stop",
-        lower=0.75,
-        upper=1.25,
+        status="predicted",
+        band=OwnBand(lower=0.75, upper=1.25, reason="ours"),
         digits=2,
-        reason="ours",
     ),
     StudyQuantity(
         "none_over_caliper",
         "actuations without compensation over those with a caliper",
         "",
         "1.9 in one stop",
-        lower=APART,
+        status="predicted",
+        band=OwnBand(lower=APART, reason="ours"),
         digits=2,
-        reason="ours",
     ),
     StudyQuantity(
         "sweep_in_order",
         f"stops of the friction sweep with none above {APART} x full, and full nearer to the caliper",
         "%",
         "11 / 11 / 21 in one stop",
-        lower=95.0,
-        reason="ours",
+        status="predicted",
+        band=OwnBand(lower=95.0, reason="ours"),
     ),
-    StudyQuantity("sweep_in_order_thermal", "the same with thermal in place of full", "%", NOT_ASKED),
+    StudyQuantity(
+        "sweep_in_order_thermal",
+        "the same with thermal in place of full",
+        "%",
+        NOT_ASKED,
+        status="predicted",
+    ),
     StudyQuantity(
         "sweep_in_bands",
         "stops of the friction sweep whose three counts lie in the bands of valve-actuations",
         "of 130",
         "11 / 11 / 21 in one stop",
+        status="predicted",
         digits=0,
     ),
 )

@@ -9,7 +9,7 @@ import numpy as np
 from uictest import rig
 from uictest.recording import Recording
 from uictest.studies.figures.slide_test import draw
-from uictest.studies.quantity import StudyQuantity, StudyValue, repeats_note, spread
+from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue, repeats_note, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
@@ -27,31 +27,44 @@ QUANTITIES = (
         "braking time",
         "s",
         "17.6 s, real train",
-        16.5,
-        19.0,
-        reason="ours, about the paper's",
+        status="calibrated",
+        band=OwnBand(lower=16.5, upper=19.0, reason="ours, about the paper's"),
     ),
     StudyQuantity(
         "braking_distance",
         "braking distance",
         "m",
         "197 m, real train",
-        185.0,
-        215.0,
-        reason="ours, about the paper's",
+        status="calibrated",
+        band=OwnBand(lower=185.0, upper=215.0, reason="ours, about the paper's"),
     ),
-    StudyQuantity("minimum_deceleration", "least deceleration", "m/s2", "0.98 m/s2, real train", digits=2),
-    StudyQuantity("maximum_deceleration", "greatest deceleration", "m/s2", "1.52 m/s2, real train", digits=2),
+    StudyQuantity(
+        "minimum_deceleration",
+        "least deceleration",
+        "m/s2",
+        "0.98 m/s2, real train",
+        status="predicted",
+        digits=2,
+    ),
+    StudyQuantity(
+        "maximum_deceleration",
+        "greatest deceleration",
+        "m/s2",
+        "1.52 m/s2, real train",
+        status="predicted",
+        digits=2,
+    ),
     StudyQuantity(
         "likeness",
         "largest difference between the mean speeds of two wheelsets",
         "km/h",
         "the four wheelset speeds look alike",
-        upper=2.0,
+        # The height of the traction link was set by hand so that all four wheelsets slide.
+        status="calibrated",
+        band=OwnBand(upper=2.0, reason="ours"),
         digits=2,
-        reason="ours",
     ),
-    StudyQuantity("maximum_slide", "largest slide of a wheelset", "%"),
+    StudyQuantity("maximum_slide", "largest slide of a wheelset", "%", status="calibrated"),
 )
 
 

@@ -22,6 +22,10 @@ def notes(
     """Yield what agrees, what does not, and which single assumption makes the plainest stop agree."""
     shown = simplest(best)
     yield f"The simplest stop: {shown.assumptions}; {_figures(shown.stop)}."
+    yield (
+        f"Its four figures are selected, from {len(trials)} stops that were tried: they agree because they "
+        "were searched for."
+    )
     yield from _agreement_notes([trial for trial in trials if trial.stop.agrees])
     for trial in best:
         if not trial.stop.agrees:

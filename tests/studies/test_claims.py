@@ -1,0 +1,69 @@
+"""What the values of studies are worth, against what was calibrated, searched for and stated by the paper."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.studies import STUDIES, SourceBand, StudyResult, claims, misses
+from uictest.studies.quantity import NOT_ASKED, NOT_PUBLIC
+
+REPOSITORY = Path(__file__).parents[2]
+TARGETS = {
+    "slide-test": {"braking_time", "braking_distance", "maximum_slide"},
+    "valve-actuations": {"caliper", "none", "full", "reference"},
+    "appendix-b": {"braking_distance", "off_the_middle", "initial_adhesion"},
+}
+"""What calibration/objective.py asks for."""
+LIMITS = {
+    "braking_distance": (440.0, 490.0),
+    "initial_adhesion": (None, 0.08),
+    "after_full": (None, 2.0),
+    "module_1": (None, 8.0),
+    "full": (None, 8.0),
+    **{f"pressure_error_{each}": (None, 2.0) for each in ("median_full", "worst_full", "worst_cylinder")},
+    **{f"force_error_{each}_full": (None, 8.0) for each in ("median", "worst")},
+}
+"""Limits that the text of the paper states for its own method and test."""
+QUANTITIES = [(name, quantity) for name, study in STUDIES.items() for quantity in study.quantities]
+
+
+def test_what_was_a_target_of_the_calibration_is_called_so() -> None:
+    found = {(name, quantity.key): quantity.status for name, quantity in QUANTITIES}
+    for study, keys in TARGETS.items():
+        assert {found[study, key] for key in keys} == {"calibrated"}
+
+
+def test_the_figures_of_the_real_train_are_the_best_of_a_search() -> None:
+    figures = ("braking_time", "braking_distance", "minimum_deceleration", "maximum_deceleration")
+    of_study = {each.key: each.status for each in STUDIES["field-against-rig"].quantities}
+    assert {of_study[key] for key in figures} == {"selected"}
+
+
+def test_a_band_of_the_paper_has_the_papers_limits_and_its_words() -> None:
+    source = [quantity for _, quantity in QUANTITIES if isinstance(quantity.band, SourceBand)]
+    assert {quantity.key for quantity in source} >= set(LIMITS)
+    for quantity in source:
+        assert quantity.paper not in (NOT_ASKED, NOT_PUBLIC)
+        if quantity.key in LIMITS and quantity.band is not None:
+            assert (quantity.band.lower, quantity.band.upper) == LIMITS[quantity.key]
+
+
+def test_only_what_nothing_was_fitted_to_is_declared_missed() -> None:
+    """A target that is missed is a calibration that failed; a filter fitted to its own stop has no target."""
+    declared = [quantity for _, quantity in QUANTITIES if quantity.declared_miss]
+    assert [each.key for each in declared if each.status != "predicted"] == ["after_in_sample"]
+    assert len(declared) > 1
+
+
+@pytest.mark.slow
+def test_the_readme_counts_what_the_program_finds(result: Callable[[str], StudyResult]) -> None:
+    """To the digit: console blocks are otherwise compared without their numbers."""
+    results = [result(name) for name in STUDIES]
+    readme = (REPOSITORY / "README.md").read_text("utf-8")
+    block = re.search(r"^\$ uictest reproduce -q\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
+    assert block is not None
+    assert block[1].splitlines() == [line.rstrip() for line in (*misses(results), *claims(results))]
