@@ -110,7 +110,7 @@ class _Sums:
     ) -> None:
         plan = selection.plan
         self.tally, self.worst = Tally(plan), WorstCases()
-        shown, bins = reported_measures(measures), self.tally.bins
+        shown, bins = reported_measures(measures, _moving_speed(plan)), self.tally.bins
         axes = None if pair is None else (bins[pair[0]], bins[pair[1]])
         self.maps = [MapSums(plan, *axes, name) for name in (MET, *measures)] if axes else []
         self.trends = [
@@ -143,6 +143,11 @@ class _Sums:
     def sampled_columns(self) -> Columns:
         """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
         return {**self._columns, MET: self.verdicts.astype(float)} if self._is_sample else {}
+
+
+def _moving_speed(plan: Plan) -> str:
+    key = "measures.moving_speed"
+    return "moving_speed" if key in plan.keys else plan.base.scenario.measures.moving_speed.text
 
 
 def _result(
