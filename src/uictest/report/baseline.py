@@ -75,7 +75,7 @@ def case_explanation(
     """Return the reasons for the outcome of a case, and the quantities out of tolerance, `most` of them."""
     outcome, *reasons = explanation(result)
     if differences:
-        outcome += ", differs from the baseline"
+        outcome += ". Differs from the baseline"
     return [outcome, *reasons, *difference_sentences(differences, most)]
 
 

@@ -137,7 +137,7 @@ def _own_root(part: evaluation.EffectivePart, told: str) -> str:
 
 
 def _given(part: evaluation.EffectivePart) -> str:
-    """Return the parameters that a controller from outside is given, but for those that were changed."""
+    """Return the parameters that a controller from outside is given, except the changed ones."""
     above = f"{part.key}.parameters."
     given = [each for each in part.parameters if each.key.startswith(above) and not each.differs]
     if not given or evaluation.program_of(part) is None:

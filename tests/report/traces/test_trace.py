@@ -16,7 +16,7 @@ MakeRecording = Callable[..., Recording]
 def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording) -> None:
     trace = trace_of(make_recording(sliding_time="5.01"))
     assert trace.curves["speed"].y[0] == pytest.approx(120.0)
-    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert trace.curves["slide_1"].y[:-1].max() == pytest.approx(40.0)
     assert trace.curves["tank_pressure_4"].y.max() == pytest.approx(3.8)
     assert trace.curves["clamping_force_2"].y.max() == pytest.approx(14.0)
     assert trace.sliding_time == 5.01
@@ -98,7 +98,7 @@ def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be(make_recording:
     whole = make_recording()
     channels = {name: samples for name, samples in whole.channels.items() if not name.startswith("slide")}
     trace = trace_of(Recording(channels, {name: whole.units[name] for name in channels}))
-    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert trace.curves["slide_1"].y[:-1].max() == pytest.approx(40.0)
     assert trace.derived == ("slide_1", "slide_2", "slide_3", "slide_4", "deceleration")
     assert trace_of(whole).derived == ("deceleration",)
 

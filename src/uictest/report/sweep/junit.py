@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 from uictest import evaluation
 from uictest.report.escaping import xml_text
 from uictest.report.junit_properties import add_suite_properties, add_test_properties
-from uictest.report.part_wording import controller_of
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 
 
@@ -29,8 +28,7 @@ def sweep_junit_xml(result: SweepResult, file: str, *, test_properties: bool = F
         _add_outcome(testcase, result, count)
         if test_properties:
             add_test_properties(testcase, result.test_case, result.requirements)
-    program, name = evaluation.program_in(result.base), controller_of(result.base)[0]
-    add_suite_properties(suite, program, (), result.requirements, [name])
+    add_suite_properties(suite, evaluation.program_in(result.base), (), result.requirements)
     for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(name, str(len(suite.findall(f"testcase/{tag}"))))
     ElementTree.indent(root)

@@ -32,7 +32,7 @@ _STOP_MEASURES: Final[tuple[_Column, ...]] = (
     ("adhesion\ng", "initial_adhesion_g", ".3f", 7, 1.0),
 )
 _WHEELSET_MEASURES: Final[tuple[_Column, ...]] = (
-    ("slide\nmax %\n> {}", "maximum_slide", ".0f", 4, 100.0),
+    ("max slide %\n> {}", "maximum_slide", ".0f", 4, 100.0),
     ("sliding\nmax s", "sliding_time_s", ".1f", 10, 1.0),
     ("locked\nmax s", "locked_time_s", ".1f", 9, 1.0),
     ("vents\nmax", "valve_actuations", "g", 8, 1.0),
