@@ -131,7 +131,7 @@ def series_explanation(result: SeriesResult) -> list[str]:
     deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
     names = [each.verdict.id for each in deciding]
     return [
-        outcome_sentence(result.outcome, result.expect, names, met=result.met),
+        outcome_sentence(result.outcome, result.expect, names),
         *([printable(result.reason)] if result.reason and not deciding else []),
         *(series_verdict_sentence(each, result.confidence) for each in deciding),
         *count_sentences(result),
