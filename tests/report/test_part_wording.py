@@ -12,9 +12,9 @@ import pytest
 
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, csv_text, junit_xml, part_lines, run_manifest
-from uictest.report.formats.csv import FORMAT as csv_format, summary_table
-from uictest.report.formats.junit import FORMAT as junit_format
-from uictest.report.formats.md import FORMAT as md_format, markdown_summary
+from uictest.report.formats.csv import FORMAT as CSV, summary_table
+from uictest.report.formats.junit import FORMAT as JUNIT
+from uictest.report.formats.md import FORMAT as MARKDOWN, markdown_summary
 from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.parameter_tables import shown_parts
@@ -240,7 +240,7 @@ def test_every_report_names_the_controller_under_test_and_its_version(
     parts = {"controller": BAND}
     content = make_content(make_result(parts=parts, outcome="fail"))
     headline = "slip-band (uictest 0.1.0)"
-    files = junit_format.files(content) | csv_format.files(content) | md_format.files(content)
+    files = JUNIT.files(content) | CSV.files(content) | MARKDOWN.files(content)
     suite = ElementTree.fromstring(files["junit.xml"])[0]
     properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
     assert properties == {"controller": "slip-band", "controller.version": "uictest 0.1.0"}

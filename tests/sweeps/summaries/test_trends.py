@@ -30,7 +30,7 @@ def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value
             sums.note(chunk)
         for chunk in chunks:
             sums.add(chunk)
-        trends |= {bins.key: each for each in sums.trends()}
+        (trends[bins.key],) = sums.trends()
     over_first, over_second = (trends[group.keys[0]] for group in (first, second))
     assert (over_first.cases, over_first.mean) == ([1, 1, 1], [0.05, 0.07, 0.09])
     assert (over_second.cases, over_second.mean) == ([1, 1], [0.09, 0.09])
