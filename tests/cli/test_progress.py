@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import io
+import re
 import threading
 
 import pytest
@@ -45,3 +47,20 @@ def test_a_wait_is_announced_once_for_all_commands(
     shown = capsys.readouterr()
     assert shown.out == ""
     assert ("uictest: compiling the rig (once per installation" in shown.err) is said
+
+
+@pytest.mark.parametrize(("choice", "no_color"), [("never", ""), ("auto", "1")])
+def test_the_bar_has_no_colour_where_none_is_wanted(
+    monkeypatch: pytest.MonkeyPatch, choice: str, no_color: str
+) -> None:
+    monkeypatch.setenv("NO_COLOR", no_color)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    stream = io.StringIO()
+    monkeypatch.setattr(stream, "isatty", lambda: True)
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setenv("CI", "")
+    with progress(2, quiet=False, colour=choice) as advance:
+        advance()
+    shown = stream.getvalue()
+    assert "1/2" in shown
+    assert not re.search(r"\x1b\[[0-9;]*m", shown)

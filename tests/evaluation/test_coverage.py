@@ -49,10 +49,12 @@ def locked(criterion, stop, wheelsets, verdict_of):
 def test_an_upper_bound_on_what_can_only_grow_is_open_until_it_is_exceeded(locked) -> None:
     kept = locked([0.0, 0.0, 0.4, 0.0], running=True, upper="1 s", wheelsets="all")
     assert (kept.status, kept.value, kept.margin) == ("inconclusive", None, None)
-    assert kept.reason == f"4 of 4 wheelsets must keep <= 1 s: 0, 0, 0.4, 0 s so far; {ENDED}"
+    assert kept.reason == f"4 of 4 wheelsets must be within the limit of 1 s: 0, 0, 0.4, 0 s so far; {ENDED}"
     broken = locked([0.0, 3.0, 0.4, 2.0], running=True, upper="1 s", wheelsets="all")
     assert (broken.status, broken.value, broken.margin) == ("fail", 3.0, -2.0)
-    assert broken.reason == (f"2 of 4 wheelsets miss <= 1 s, 4 must keep it: 0, 3, 0.4, 2 s so far; {ENDED}")
+    assert broken.reason == (
+        f"2 of 4 wheelsets not within the limit of 1 s (4 needed): 0, 3, 0.4, 2 s so far; {ENDED}"
+    )
 
 
 def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
@@ -64,7 +66,7 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
     )
     passed = verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.8))
     assert (passed.status, passed.value, passed.margin) == ("pass", 80.0, 45.0)
-    assert passed.reason == f"2 of 4 wheelsets keep >= 35 %, 2 needed: 20, 90, 30, 80 % so far; {ENDED}"
+    assert passed.reason == f"2 of 4 wheelsets at or above 35 % (2 needed): 20, 90, 30, 80 % so far; {ENDED}"
     assert verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.3)).status == "inconclusive"
 
 
@@ -143,9 +145,8 @@ def test_three_known_wheelsets_can_decide_for_four(locked) -> None:
     half = {"upper": "1 s", "wheelsets": {"at_least": "half"}}
     found = locked([0.0, math.nan, 0.2, 5.0], coverage=coverage, **half)
     assert (found.status, found.value) == ("pass", 0.2)
-    assert found.reason == (
-        "2 of 4 wheelsets keep <= 1 s, 2 needed: 0, -, 0.2, 5 s so far; not recorded: wheel_speed_2"
-    )
+    count = "2 of 4 wheelsets within the limit of 1 s (2 needed)"
+    assert found.reason == f"{count}: 0, -, 0.2, 5 s so far; not recorded: wheel_speed_2"
     every = locked([0.0, math.nan, 0.2, 0.3], coverage=coverage, upper="1 s", wheelsets="all")
     assert every.status == "inconclusive"
 

@@ -51,7 +51,7 @@ def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
     slide = verdicts["minimum-slide"]
     assert (slide.status, slide.value, slide.lower, slide.unit) == ("pass", 80.0, 35.0, "%")
     assert slide.margin == pytest.approx(45.0)
-    assert slide.reason == "2 of 4 wheelsets keep > 35 %, 2 needed: 20, 90, 30, 80 %"
+    assert slide.reason == "2 of 4 wheelsets above 35 % (2 needed): 20, 90, 30, 80 %"
     distance = verdicts["braking-distance"]
     assert (distance.status, distance.value, distance.margin) == ("not_applicable", None, None)
     assert distance.reason == "rail is wet, the criterion is for dry"

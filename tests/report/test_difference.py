@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.report import percent_text, relative_percent
-from uictest.report.difference import relative_text
+from uictest.report.baseline import difference_sentences
+from uictest.report.difference import Difference, relative_text, worst_of_wheelsets
 
 
 @pytest.mark.parametrize(
@@ -42,3 +43,25 @@ def test_a_relative_figure_gives_the_second_side_back(size: float, second: float
 
 def test_a_figure_that_says_little_is_not_written_out() -> None:
     assert [percent_text(each) for each in (None, 999.4, 1000.0, -1e9)] == ["-", "+999", "> 1000", "< -1000"]
+
+
+def test_the_trains_own_measure_is_no_wheelset_of_the_measure_of_the_same_name() -> None:
+    names = ["adhesion_utilisation", *(f"adhesion_utilisation_{n}" for n in range(1, 5))]
+    differences = [
+        Difference("case", name, 0.8, 0.7, within=False, deviation=0.1 + place, allowed=0.01)
+        for place, name in enumerate(names)
+    ]
+    train, wheelsets = worst_of_wheelsets(differences)
+    assert (train.quantity, train.remark) == ("adhesion_utilisation", "")
+    assert (wheelsets.quantity, wheelsets.remark) == ("adhesion_utilisation_4", "worst of 4 wheelsets")
+
+
+def test_of_many_differences_the_furthest_out_are_shown_and_the_others_counted() -> None:
+    differences = [
+        Difference("case", f"quantity-{n}", 1.0, 1.0 + n, within=False, deviation=float(n), allowed=0.5)
+        for n in range(1, 31)
+    ]
+    lines = difference_sentences(differences, most=3)
+    assert [line.split()[1] for line in lines[:3]] == ["quantity-30", "quantity-29", "quantity-28"]
+    assert lines[3] == "baseline: 27 more quantities out of tolerance, in results.json"
+    assert len(difference_sentences(differences)) == 30

@@ -16,7 +16,7 @@ def test_only_cases_that_are_not_met_are_annotated(make_result: MakeResult) -> N
     (line,) = case_annotations(make_result(outcome="fail", criteria=(), reason="locked"))
     properties, message = line.removeprefix("::error ").split("::")
     assert properties == "file=scenarios/dry/120.yaml,title=fail dry-120[command=90]"
-    assert message == "expected pass, got fail%0Alocked"
+    assert message == "fail. Expected: pass%0Alocked"
 
 
 def test_an_annotation_carries_the_place_in_the_file() -> None:

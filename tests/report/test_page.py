@@ -144,7 +144,7 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
     make_verdict: MakeVerdict,
     make_recording: MakeRecording,
 ) -> None:
-    reason = "0 of 4 wheelsets keep <= 1 s, 4 needed: 1.27, 1.24, 1.29, 1.32 s"
+    reason = "0 of 4 wheelsets within the limit of 1 s (4 needed): 1.27, 1.24, 1.29, 1.32 s"
     broken = make_verdict(status="fail", margin=-10.0, reason=reason)
     results = [
         make_result(id=f"wet-80-friction[friction=0.{n:03}]", outcome="fail", criteria=(broken,) * 7)
@@ -253,3 +253,21 @@ def test_the_page_says_how_many_of_the_chosen_cases_it_draws(
 def test_the_command_of_a_run_can_be_pasted(make_content: MakeContent, make_result: MakeResult) -> None:
     manifest = RunManifest(command=("uictest", "run", "-k", "a and b"), versions={})
     assert "uictest run -k 'a and b'" in Page(page_html(make_content(make_result(), manifest=manifest))).text
+
+
+def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins(
+    make_content: MakeContent,
+    make_result: MakeResult,
+    make_verdict: Callable[..., Verdict],
+    make_recording: Callable[..., Recording],
+) -> None:
+    def case(name: str, margin: float, **changes: object) -> CaseResult:
+        verdict = make_verdict(margin=margin, status="pass" if margin > 0 else "fail")
+        return make_result(id=name, criteria=(verdict,), **changes)
+
+    results = [case("wide", 24.0), case("narrow", 1.0), case("missed", -9.0, outcome="fail")]
+    traces = {each.id: trace_of(make_recording()) for each in results}
+    html = page_html(make_content(*results, traces=traces))
+    rows = re.findall(r'<tr[^>]* data-word="[^"]*"[\s\S]*?aria-label="Compare ([^"]*)"', html)
+    stops = re.findall(r'<details class="stop"[\s\S]*?<h3>([^<]*)</h3>', html)
+    assert rows == stops == ["missed", "narrow", "wide"]

@@ -12,12 +12,13 @@ import pytest
 
 from uictest.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, csv_text, junit_xml, part_lines, run_manifest
-from uictest.report.formats.csv import summary_table
-from uictest.report.formats.md import markdown_summary
+from uictest.report.formats.csv import FORMAT as CSV, summary_table
+from uictest.report.formats.junit import FORMAT as JUNIT
+from uictest.report.formats.md import FORMAT as MARKDOWN, markdown_summary
 from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.parameter_tables import shown_parts
-from uictest.report.part_wording import changed_parameters, part_sentences
+from uictest.report.part_wording import changed_parameters, controllers_text, part_sentences, slide_speed
 from uictest.report.sweep.content import SweepContent
 
 MakeResult = Callable[..., CaseResult]
@@ -221,3 +222,58 @@ def test_a_stop_links_to_the_parts_that_the_page_shows_and_to_no_other() -> None
     shown = shown_parts([{"controller": CONTROLLER}])
     assert CONTROLLER in shown
     assert PLAIN not in shown
+
+
+BAND = dataclasses.replace(PLAIN, name="slip-band", based_on="slip-band")
+
+
+def test_a_controller_of_the_library_that_is_not_the_default_is_a_change() -> None:
+    parts = {"scenario.rig": rig("one-caliper"), "controller": BAND}
+    assert changed_parameters(parts) == ["controller slip-band (default: threshold)"]
+    assert not changed_parameters(parts, ["controller"])
+    assert not changed_parameters({"controller": PLAIN})
+
+
+def test_every_report_names_the_controller_under_test_and_its_version(
+    make_result: MakeResult, make_content: MakeContent
+) -> None:
+    parts = {"controller": BAND}
+    content = make_content(make_result(parts=parts, outcome="fail"))
+    headline = "slip-band (uictest 0.1.0)"
+    files = JUNIT.files(content) | CSV.files(content) | MARKDOWN.files(content)
+    suite = ElementTree.fromstring(files["junit.xml"])[0]
+    properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
+    assert properties == {"controller": "slip-band", "controller.version": "uictest 0.1.0"}
+    assert f"controller: {headline}" in str(suite.findtext("testcase/failure"))
+    (row,) = csv.DictReader(io.StringIO(files["summary.csv"].decode()))
+    assert (row["controller"], row["controller_version"]) == ("slip-band", "uictest 0.1.0")
+    assert f"WSP controller: {headline}." in files["summary.md"].decode()
+    assert f"WSP controller: <strong>{headline}</strong>" in page_html(content)
+
+
+def test_controllers_are_named_once_and_one_that_never_acted_is_marked(make_result: MakeResult) -> None:
+    bypassed = EffectivePart(
+        "scenario.rig", "rig", "", None, (Parameter("rig.wsp", "bypassed", "", "bypassed", "user"),)
+    )
+    own, idle = ({"controller": PLAIN, "scenario.rig": each} for each in (rig("one-caliper"), bypassed))
+    outside = make_result(parts={"controller": LIBRARY}, controller_version="1.2")
+    both = [make_result(parts=own), make_result(parts=idle), outside, make_result(parts={})]
+    assert controllers_text(both, "0.2.0") == "threshold (uictest 0.2.0), wsp (version 1.2)"
+    assert controllers_text([make_result(parts=idle)], "0.2.0") == "threshold (uictest 0.2.0), bypassed"
+
+
+def test_the_largest_slide_says_above_which_speed_it_counts(
+    make_result: MakeResult, make_content: MakeContent
+) -> None:
+    moving = Parameter("measures.moving_speed", 2.78, "m/s", "10 km/h", "chosen")
+    parts = {"measures": EffectivePart("measures", "measures", "standard", "standard", (moving,))}
+    other = {
+        "measures": dataclasses.replace(
+            parts["measures"], parameters=(dataclasses.replace(moving, written="5 km/h"),)
+        )
+    }
+    assert slide_speed([make_result(parts=parts)] * 2) == "10 km/h"
+    assert slide_speed([make_result(parts=parts), make_result(parts=other)]) == "moving_speed"
+    content = make_content(make_result(parts=parts))
+    assert "slide above 10 km/h, %" in markdown_summary(content)
+    assert "Largest slide<small>above 10 km/h, %</small>" in page_html(content)

@@ -20,7 +20,7 @@ from uictest.report.traces.trace import trace_of
 from .chromium import resize, run, wait, written
 
 CASES = 300
-REASON = "0 of 4 wheelsets keep <= 1 s, 4 needed: 15.69, 16.19, 13.97, 16.95 s; and so on, " * 4
+REASON = "0 of 4 wheelsets within the limit of 1 s (4 needed): 15.69, 16.19, 13.97, 16.95 s; and so on, " * 4
 
 _SHOWN = """
 return [...document.querySelectorAll('.verdicts tbody:not([hidden]) tr:not([hidden]) th')]

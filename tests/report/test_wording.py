@@ -53,7 +53,7 @@ def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
 ) -> None:
     absent = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
     assert explanation(make_result(outcome="skipped", criteria=(absent,))) == [
-        "expected pass, got skipped",
+        "skipped. Expected: pass",
         "braking-distance (validity) not applicable: the rail is dry",
     ]
 
@@ -65,7 +65,7 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged(
         status="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
     )
     assert explanation(make_result(outcome="inconclusive", criteria=(make_verdict(), undecided))) == [
-        "expected pass, got inconclusive",
+        "inconclusive: braking-distance. Expected: pass",
         "braking-distance (validity) inconclusive: the record ends after 2 s",
     ]
 

@@ -7,21 +7,33 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from time import monotonic
+from typing import TYPE_CHECKING
 
-from uictest.cli.output import interactive, message
+from uictest.cli.output import coloured, interactive, message
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 
 Advance = Callable[[], None]
 
 
+def error_console(colour: str = "auto") -> Console:
+    """Return the console of stderr, with colours as chosen."""
+    from rich.console import Console
+
+    in_colour = coloured(colour, sys.stderr)
+    return Console(stderr=True, no_color=not in_colour, color_system="auto" if in_colour else None)
+
+
 @contextlib.contextmanager
-def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advance]:
+def progress(total: int, *, quiet: bool, unit: str = "cases", colour: str = "auto") -> Iterator[Advance]:
     """Lend a function to call after each of `total` cases, or what `unit` says; it shows them on stderr."""
     if quiet:
         yield lambda: None
     elif interactive(sys.stderr):
-        with _bar(total) as advance:
+        with _bar(total, colour) as advance:
             yield advance
     else:
         with _heartbeat(total, unit) as advance:
@@ -29,12 +41,11 @@ def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advanc
 
 
 @contextlib.contextmanager
-def _bar(total: int) -> Iterator[Advance]:
-    from rich.console import Console
+def _bar(total: int, colour: str) -> Iterator[Advance]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=error_console(colour), transient=True) as bar:
         task = bar.add_task("simulating", total=total)
         yield lambda: bar.advance(task)
 

@@ -56,6 +56,7 @@ from .repeats import (
 from .result import (
     CaseResult as CaseResult,
     NamedParts as NamedParts,
+    deciding_verdicts as deciding_verdicts,
     narrowest_margin as narrowest_margin,
     outcome_of as outcome_of,
 )

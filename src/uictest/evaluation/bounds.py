@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from uictest import scenario
-from uictest.units import in_unit, to_12_digits
+from uictest.units import in_unit, to_12_digits, value_text, with_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +45,15 @@ class Bounds:
 
     def _below(self, value: float) -> bool:
         return self.upper is None or (value < self.upper if self.strict else value <= self.upper)
+
+    def demand(self, unit: str) -> str:
+        """Return where a value must lie, for a reader: "within the limit of 1 s", "above 35 %"."""
+        if self.lower is not None and self.upper is not None:
+            return f"within the limits of {with_unit(str(self), unit)}"
+        bound = value_text(_or(self.lower, _or(self.upper, math.nan)), unit)
+        if self.strict:
+            return f"{'below' if self.lower is None else 'above'} {bound}"
+        return f"within the limit of {bound}" if self.lower is None else f"at or above {bound}"
 
     def __str__(self) -> str:
         """Return the bounds for a reader: ">= 35", "< 0.08", "440 .. 490"."""

@@ -84,14 +84,14 @@ class _PartlyKnown:
         keeping = [value for value, held in zip(self.values, holds, strict=True) if held]
         breaking = [value for value, held in zip(self.values, holds, strict=True) if held is False]
         possible = len(self.values) - len(breaking)
-        of_wheelsets, demand = f"of {len(self.values)} wheelsets", with_unit(str(self.bounds), self.unit)
+        of_wheelsets, demand = f"of {len(self.values)} wheelsets", self.bounds.demand(self.unit)
         if len(keeping) >= self.needed:
-            count = f"{len(keeping)} {of_wheelsets} keep {demand}, {self.needed} needed"
+            count = f"{len(keeping)} {of_wheelsets} {demand} ({self.needed} needed)"
             return self._decided("pass", deciding(keeping, self.bounds, self.needed), count)
         if possible < self.needed:
-            count = f"{len(breaking)} {of_wheelsets} miss {demand}, {self.needed} must keep it"
+            count = f"{len(breaking)} {of_wheelsets} not {demand} ({self.needed} needed)"
             return self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
-        return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must keep {demand}")
+        return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must be {demand}")
 
     def _holds(self, value: float, gap: MissingData | None) -> bool | None:
         """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
@@ -139,12 +139,11 @@ def _listed(missing: Sequence[MissingData]) -> str:
 
 def why_decided(values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:
     """Return why known values, in `unit`, keep or miss their bounds; `value` is the one that decides."""
-    demand = with_unit(str(bounds), unit)
     if len(values) == 1:
-        return "" if bounds.hold(value) else _missed(value, bounds, demand, unit)
+        return "" if bounds.hold(value) else _missed(value, bounds, with_unit(str(bounds), unit), unit)
     kept = sum(map(bounds.hold, values))
     listed = with_unit(", ".join(value_text(number, "1") for number in values), unit)
-    return f"{kept} of {len(values)} wheelsets keep {demand}, {needed} needed: {listed}"
+    return f"{kept} of {len(values)} wheelsets {bounds.demand(unit)} ({needed} needed): {listed}"
 
 
 def _missed(value: float, bounds: Bounds, demand: str, unit: str) -> str:

@@ -9,6 +9,7 @@ from uictest import evaluation
 from uictest.report.difference import (
     Difference,
     difference_sentence,
+    furthest_out,
     worst_of_wheelsets,
 )
 from uictest.report.escaping import printable
@@ -68,17 +69,29 @@ def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) 
     return DIFFERS if differences and result.met else result_word(result)
 
 
-def case_explanation(result: evaluation.CaseResult, differences: Sequence[Difference]) -> list[str]:
-    """Return the reasons for the outcome of a case, and the quantities out of tolerance."""
+def case_explanation(
+    result: evaluation.CaseResult, differences: Sequence[Difference], most: int | None = None
+) -> list[str]:
+    """Return the reasons for the outcome of a case, and the quantities out of tolerance, `most` of them."""
     outcome, *reasons = explanation(result)
     if differences:
-        outcome += ", differs from the baseline"
-    return [outcome, *reasons, *difference_sentences(differences)]
+        outcome += ". Differs from the baseline"
+    return [outcome, *reasons, *difference_sentences(differences, most)]
 
 
-def difference_sentences(differences: Sequence[Difference]) -> list[str]:
-    """Return one line per quantity of a case that is out of tolerance."""
-    return [f"baseline: {difference_sentence(each)}" for each in worst_of_wheelsets(differences)]
+def difference_sentences(differences: Sequence[Difference], most: int | None = None) -> list[str]:
+    """Return one line per quantity of a case that is out of tolerance.
+
+    With `most` only so many, those furthest out first, and a line that counts the others.
+    """
+    worst = worst_of_wheelsets(differences)
+    shown = worst if most is None else furthest_out(worst)[:most]
+    lines = [f"baseline: {difference_sentence(each)}" for each in shown]
+    if more := len(worst) - len(shown):
+        lines.append(
+            f"baseline: {counted(more, 'more quantity', 'more quantities')} out of tolerance, in results.json"
+        )
+    return lines
 
 
 def run_tally(results: Iterable[evaluation.CaseResult], baseline: BaselineComparison | None) -> str:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
 from uictest.report.difference import Difference
+from uictest.report.drawn_cases import worst_first
 from uictest.report.manifest import RunManifest
+from uictest.report.part_wording import controllers_text
 from uictest.report.series.wording import series_tally
 from uictest.series import SeriesResult
 
@@ -74,9 +76,9 @@ class RunContent:
         """Return the word of a case, from its expectation and the baseline."""
         return case_word(result, self.differences(result.id))
 
-    def explanation(self, result: evaluation.CaseResult) -> list[str]:
-        """Return the reasons for the outcome of a case, and its differences from the baseline."""
-        return case_explanation(result, self.differences(result.id))
+    def explanation(self, result: evaluation.CaseResult, most: int | None = None) -> list[str]:
+        """Return the reasons for the outcome of a case, and its differences from the baseline, or `most`."""
+        return case_explanation(result, self.differences(result.id), most)
 
     @property
     def tally(self) -> str:
@@ -86,6 +88,21 @@ class RunContent:
         of_series = [series_tally(self.series)] if self.series else []
         beyond = [f"{differing} series different from the baseline"] if differing else []
         return "; ".join([*of_cases, *of_series, *beyond])
+
+    @property
+    def uictest_version(self) -> str:
+        """The version of the package that made the run; empty where it is not known."""
+        return self.manifest.versions.get("uictest", "")
+
+    @property
+    def controllers(self) -> str:
+        """The controllers under test with their versions; empty where none is known."""
+        return controllers_text(self.all_results, self.uictest_version)
+
+    @property
+    def ranked(self) -> list[evaluation.CaseResult]:
+        """The cases, those not as expected or different from the baseline first, then by margin."""
+        return sorted(worst_first(self.results), key=self.passes)
 
     @property
     def all_results(self) -> list[evaluation.CaseResult]:

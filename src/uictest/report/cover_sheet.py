@@ -116,6 +116,8 @@ def _missed(content: RunContent) -> Iterator[Line]:
 
 def _provenance(content: RunContent) -> Iterator[Line]:
     manifest = content.manifest
+    if content.controllers:
+        yield "WSP controller", content.controllers
     yield "uictest", manifest.versions.get("uictest", "")
     yield "command", shlex.join(manifest.command)
     yield "seed", "of each scenario" if manifest.seed is None else str(manifest.seed)

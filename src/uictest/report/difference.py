@@ -95,11 +95,18 @@ def wheelset_quantity(measure: str, wheelset: int) -> str:
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
     """Return the differences, with only the worst wheelset for each measure of wheelsets."""
     columns = {wheelset_quantity(name, n): name for name in measures.WHEELSET_COLUMNS for n in WHEELSETS}
-    by_measure: dict[tuple[str, str], list[Difference]] = {}
+    # The train may have a measure of the same name, as `adhesion_utilisation`: it is no wheelset.
+    groups: dict[tuple[str, str, bool], list[Difference]] = {}
     for difference in differences:
-        measure = columns.get(difference.quantity, difference.quantity)
-        by_measure.setdefault((difference.case, measure), []).append(difference)
-    return list(_worst_of_each(by_measure.values()))
+        column = columns.get(difference.quantity)
+        group = difference.case, column or difference.quantity, column is not None
+        groups.setdefault(group, []).append(difference)
+    return list(_worst_of_each(groups.values()))
+
+
+def furthest_out(differences: Iterable[Difference]) -> list[Difference]:
+    """Return the differences by how many times their tolerance they are, the largest first."""
+    return sorted(differences, key=_excess, reverse=True)
 
 
 def _worst_of_each(groups: Iterable[Sequence[Difference]]) -> Iterator[Difference]:

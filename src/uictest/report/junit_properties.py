@@ -21,14 +21,20 @@ def add_suite_properties(
     program: evaluation.Program | None,
     told: Iterable[str] = (),
     requirements: Iterable[str] = (),
+    built_in: Iterable[str] = (),
+    uictest_version: str = "",
 ) -> None:
-    """Add what is known of the cases of a suite: their program and the requirements that they verify.
+    """Add what is known of the cases of a suite: their controller and the requirements that they verify.
 
-    The properties are `controller` and, where known, `controller.kind`, `.source`, `.version` and `.sha256`.
+    Without a program `built_in` names the controllers of the cases, which have the version of uictest. The
+    properties are `controller` and, where known, `controller.kind`, `.source`, `.version` and `.sha256`.
     `told` has the versions that the program said of itself in the cases of the suite, empty where it said
     none. Where its scenario or file states another one, they are `controller.told_version`.
     """
-    named = {} if program is None else _program_facts(program, told)
+    names = ", ".join(dict.fromkeys(filter(None, built_in)))
+    version = f"uictest {uictest_version}" if names and uictest_version else ""
+    own = {"controller": names, "controller.version": version}
+    named = own if program is None else _program_facts(program, told)
     _add_properties(suite, named | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)})
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from uictest import evaluation
+from uictest import controllers, evaluation
 from uictest.report.escaping import printable
 
 _PATHS = (".yaml", ".yml")
@@ -40,10 +40,13 @@ def changed_parameters(
 ) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
+    The controller under test comes first, also one of the library that is not the default.
+
     Values of the scenario itself are compared with its defaults. The keys of `varied` are left out.
     `told` as for :func:`part_sentence`.
     """
-    return [printable(change) for part in parts.values() for change in _differences(part, varied, told)]
+    controller_first = sorted(parts.values(), key=lambda part: part.kind != "controller")
+    return [printable(change) for part in controller_first for change in _differences(part, varied, told)]
 
 
 def changes_of(result: evaluation.CaseResult) -> list[str]:
@@ -55,6 +58,58 @@ def changes_line(result: evaluation.CaseResult) -> list[str]:
     """Return one line with the changed parameters of a case, none where nothing differs."""
     changed = changes_of(result)
     return [f"changed parameters: {'; '.join(changed)}"] if changed else []
+
+
+def controller_of(parts: Mapping[str, evaluation.EffectivePart], told: str = "") -> tuple[str, str]:
+    """Return the name of the controller under test and the version that it states.
+
+    Both are empty for a stop without a known controller, as a recorded one is. A built-in controller states
+    no version: it is that of uictest. `told` as for :func:`part_sentence`.
+    """
+    part = parts.get("controller")
+    if part is None:
+        return "", ""
+    program = evaluation.program_of(part, told)
+    return printable(part.name), "" if program is None else printable(program.version)
+
+
+def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: str = "") -> str:
+    """Return the controllers under test, each once: `slip-band (uictest 0.2.0)`; empty where none is known.
+
+    One whose valves are bypassed in every case is marked so: it was not tested.
+    """
+    acts: dict[str, bool] = {}
+    for result in results:
+        name, version = controller_of(result.parts, result.controller_version)
+        if not name:
+            continue
+        if evaluation.program_in(result.parts) is None:
+            version = f"uictest {uictest_version}" if uictest_version else ""
+        elif version:
+            version = f"version {version}"
+        text = f"{name} ({version})" if version else name
+        acts[text] = acts.get(text, False) or not _bypassed(result.parts)
+    return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
+
+
+def slide_speed(results: Iterable[evaluation.CaseResult]) -> str:
+    """Return the train speed above which the largest slides of some cases count: `10 km/h`.
+
+    Where it is not known, or the cases differ, it is `moving_speed`, as the measures call it.
+    """
+    known = {
+        parameter.written
+        for result in results
+        if (part := result.parts.get("measures")) is not None
+        for parameter in part.parameters
+        if parameter.key == "measures.moving_speed"
+    }
+    return printable(known.pop()) if len(known) == 1 else "moving_speed"
+
+
+def _bypassed(parts: Mapping[str, evaluation.EffectivePart]) -> bool:
+    rig = parts.get("scenario.rig")
+    return rig is not None and any(p.key == "rig.wsp" and p.written == "bypassed" for p in rig.parameters)
 
 
 def base_word(part: evaluation.EffectivePart) -> str:
@@ -82,7 +137,7 @@ def _own_root(part: evaluation.EffectivePart, told: str) -> str:
 
 
 def _given(part: evaluation.EffectivePart) -> str:
-    """Return the parameters that a controller from outside is given, but for those that were changed."""
+    """Return the parameters that a controller from outside is given, except the changed ones."""
     above = f"{part.key}.parameters."
     given = [each for each in part.parameters if each.key.startswith(above) and not each.differs]
     if not given or evaluation.program_of(part) is None:
@@ -94,6 +149,8 @@ def _differences(part: evaluation.EffectivePart, varied: Collection[str], told: 
     # A profile has no key; every verdict shows its limits.
     if part.key and part.key not in varied and (own := _own_root(part, told)):
         yield f"{part.key} {part.name} ({own})"
+    elif part.kind == "controller" and part.key not in varied and part.based_on != controllers.DEFAULT:
+        yield f"{part.key} {part.name} (default: {controllers.DEFAULT})"
     yield from _changes(part, "", varied)
 
 

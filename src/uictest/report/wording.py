@@ -78,8 +78,19 @@ def explanation(result: evaluation.CaseResult) -> list[str]:
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
     reason = [printable(result.reason)] if result.reason and alone else []
-    outcome = f"expected {result.expect}, got {result.outcome}"
+    own_outcome, verdicts = evaluation.deciding_verdicts(result.criteria)
+    if own_outcome != result.outcome:  # as over the stops of a repeated case
+        verdicts = list(_deciding(result))
+    names = [verdict.id for verdict in verdicts if verdict.status in ("fail", "inconclusive")]
+    outcome = outcome_sentence(result.outcome, result.expect, names)
     return [outcome, *repeat_sentences(result), *reason, *deciding]
+
+
+def outcome_sentence(outcome: str, expected: str, deciding: Sequence[str]) -> str:
+    """Return the outcome with the criteria that decided it: `fail: locked-wheels. Expected: pass`."""
+    by = printable(", ".join(deciding))
+    shown = f"{outcome}: {by}" if by else outcome
+    return f"{shown} (as expected)" if outcome == expected else f"{shown}. Expected: {expected}"
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:

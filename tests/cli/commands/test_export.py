@@ -79,3 +79,21 @@ def test_a_text_among_numbers_is_refused_with_its_place(call: Call, workplace: P
     assert answer.code == 4
     assert "channel 'speed' contains texts, the first in line 3, column 2" in answer.err
     assert not (workplace / "run.mat").exists()
+
+
+@pytest.mark.parametrize("arguments", [[], ["--to", "mdf"]])
+def test_a_file_is_written_in_the_format_of_its_suffix(
+    call: Call, recording: Path, arguments: list[str]
+) -> None:
+    answer = call("export", recording, *arguments, "-o", "out/stop.mf4")
+    assert (answer.code, answer.out.split()) == (0, [str(Path("out/stop.mf4"))])
+    assert read_here("mdf", Path("out/stop.mf4"), Dialect()).metadata["case"] == "a"
+
+
+def test_two_recordings_do_not_go_into_one_file(call: Call, recording: Path) -> None:
+    other = recording.with_name("b.parquet")
+    other.write_bytes(recording.read_bytes())
+    answer = call("export", recording, other, "-o", "stop.mf4")
+    assert answer.code == 4
+    assert "one file for 2 recordings" in answer.err
+    assert not Path("stop.mf4").exists()

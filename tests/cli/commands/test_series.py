@@ -69,7 +69,7 @@ def test_a_series_is_run_judged_and_reported(call: Call, campaign: Callable[...,
     assert answer.code == 0
     assert answer.out.splitlines()[0].startswith("pass small outcome=pass expect=pass k_wet=0.")
     assert "criterion small stopping-distance (requirement) pass:" in answer.out
-    assert "from 30 km/h 1 of 1 dry and 2 of 2 wet stops count" in answer.out
+    assert "Valid stops from 30 km/h: dry 1 of 1, wet 2 of 2" in answer.out
     assert "uictest: 1 series: 1 pass in" in answer.err
     files = {path.name for path in Path("reports/latest/").iterdir()}
     assert {"series.csv", "series-criteria.csv", "series-stops.csv", "summary.md", "report.xlsx"} <= files
@@ -108,7 +108,7 @@ def test_the_document_is_all_that_json_prints(call: Call, campaign: Callable[...
 
 def test_github_gets_an_annotation(call: Call, campaign: Callable[..., Path]) -> None:
     answer = call("run", campaign("101 % of the dry stop"), "--format", "github")
-    assert "::error file=scenarios/small.series.yaml,title=fail small::expected pass, got fail" in answer.out
+    assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
 
 
 def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Callable[..., Path]) -> None:

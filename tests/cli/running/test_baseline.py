@@ -82,7 +82,7 @@ def test_a_missed_case_that_differs_is_one_failure_with_both_reasons(
     suite = _suite()
     assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
     text = str(suite.findtext("testcase[@name='a']/failure"))
-    assert "expected pass, got fail" in text
+    assert text.startswith("fail. Expected: pass. Differs from the baseline\n")
     assert "baseline: outcome was pass, is fail" in text
 
 
@@ -90,7 +90,7 @@ def test_github_shows_an_error_for_each_case_that_differs(call: Call, scenario: 
     scenario("a", DIFFERENT)
     Path("scenarios/b.yaml").unlink()
     shown = call("run", "--baseline", baseline, "--format", "github").out
-    errors = [line.partition("::expected")[0] for line in shown.splitlines() if line.startswith("::error")]
+    errors = [line.partition("::fail")[0] for line in shown.splitlines() if line.startswith("::error")]
     assert errors[0] == "::error file=scenarios/a.yaml,title=differs a"
     assert errors[1].startswith("::error file=scenarios/b.yaml,title=differs b::baseline: case was pass")
 

@@ -60,7 +60,7 @@ def _shown(terminal: Terminal, colour: Colour = Colour.AUTO, *, quiet: bool = Fa
 def test_the_table_explains_what_is_not_met(terminal: Terminal) -> None:
     shown = _shown(terminal, Colour.NEVER)
     assert "[bold]a" in shown
-    assert "fail b\n  expected pass, got fail\n  locked\n" in shown
+    assert "fail b\n  fail. Expected: pass\n  locked\n" in shown
     assert "\x1b" not in shown
 
 

@@ -33,7 +33,7 @@ def test_a_missed_case_is_a_failure_whose_text_says_everything(
     suite = _suite([make_result(outcome="invalid", criteria=(broken,), reason="braking-distance: ...")])
     text = suite.findtext("testcase/failure")
     assert text is not None
-    assert "expected pass, got invalid" in text
+    assert "invalid: braking-distance. Expected: pass" in text
     assert "braking-distance (validity) fail: 500 m misses 440 .. 490 m" in text
 
 

@@ -177,7 +177,7 @@ def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_i
                 "controller.sha256": "1" * 64,
             },
         ),
-        "uictest": (["b"], {}),
+        "uictest": (["b"], {"controller": "threshold"}),
         "uictest: tcp://rig:5025": (
             ["c"],
             {
@@ -199,5 +199,5 @@ def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> N
     assert found["fail"].is_failure
     assert found["skipped"].is_skipped
     assert found["error"].is_error
-    assert "expected pass, got invalid" in found["invalid"].result[0].text
+    assert "invalid. Expected: pass" in found["invalid"].result[0].text
     assert any("<b>&" in name for name in found)

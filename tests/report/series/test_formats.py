@@ -46,7 +46,7 @@ def test_lines_tell_the_criteria_and_what_does_not_count(make_series: MakeSeries
         "criterion acceptance k-wet (requirement) pass: 0.86957 from 120 km/h, lower limit 0.8, margin"
     )
     assert "mean of 5 stops, 95 % interval 0.8" in criterion
-    assert counted.endswith("from 120 km/h 1 of 1 dry and 5 of 6 wet stops count (83.33 %, 80 % needed)")
+    assert counted.endswith("Valid stops from 120 km/h: dry 1 of 1, wet 5 of 6 (83.33 %, 80 % needed)")
     assert not_counted == "stops acceptance 1 stop invalid, not counted: energy-balance: 3 % misses < 0.1 %"
 
 
@@ -55,7 +55,7 @@ def test_a_terminal_shows_the_same_in_its_width(make_series: MakeSeries) -> None
         lines = list(series_table([make_series()], width))
         text = " ".join(" ".join(lines).split())
         assert "pass acceptance" in text
-        assert "5 of 6 wet stops count" in text
+        assert "dry 1 of 1, wet 5 of 6" in text
         assert "1 stop invalid, not counted" in text
 
 

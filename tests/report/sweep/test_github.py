@@ -16,7 +16,7 @@ def test_cases_that_are_not_met_are_annotated_and_the_sweep_is_counted(
     missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
     tally = "4 cases: 3 pass, 1 fail; 1 not as expected"
     assert list(sweep_annotations(make_sweep((missed, make_result()), "pads"))) == [
-        "::error file=scenarios/pads.sweep.yaml,title=fail b[x]::expected pass, got fail; locked",
+        "::error file=scenarios/pads.sweep.yaml,title=fail b[x]::fail. Expected: pass; locked",
         "::error file=scenarios/pads.sweep.yaml,title=invalid lost[pads]::got invalid: pads",
         f"::notice file=scenarios/pads.sweep.yaml,title=uictest sweep pads::{tally}",
     ]

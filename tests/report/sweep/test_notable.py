@@ -19,7 +19,7 @@ def test_each_case_stands_once_and_those_not_met_in_front(
     assert [case.id for case in cases] == ["a", "b", "narrow"]
     assert [case.word for case in cases] == ["error", "error", "pass"]
     assert [case.why for case in cases] == [
-        "expected pass, got error; no air",
+        "error. Expected: pass; no air",
         "got error: no air",
         "",
     ]

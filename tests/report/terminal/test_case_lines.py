@@ -27,7 +27,7 @@ def test_a_missed_case_gives_its_reason_on_the_same_line(
 
 
 def test_a_case_that_passes_against_expectation_says_so(make_result: MakeResult) -> None:
-    assert case_line(make_result(expect="fail")).endswith("reason=expected fail, got pass")
+    assert case_line(make_result(expect="fail")).endswith("reason=pass. Expected: fail")
 
 
 def test_a_crash_stands_first_on_its_line(make_result: MakeResult) -> None:

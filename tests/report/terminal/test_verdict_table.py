@@ -59,7 +59,7 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
         "fail dry-120[command=90]",
-        "  expected pass, got fail",
+        "  fail: locked. Expected: pass",
         "  locked (validity) fail: locked for 3 s",
     ]
 
@@ -86,3 +86,16 @@ def test_figures_give_way_to_the_names_of_cases(make_result: MakeResult, width: 
 
 def _name(line: str) -> str:
     return line.split("  ")[0].strip()
+
+
+def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    locked = make_verdict(measure="locked_time", status="fail", unit="s", value=9.0)
+    missed, kept = make_result(outcome="fail", criteria=(locked,)), make_result()
+    shown, not_shown = (verdict_table([missed], RunContent("run", [missed], {}).word, 50)[k] for k in (0, 1))
+    assert "locked" in _rendered(shown, 50).splitlines()[0]
+    assert "distance" in not_shown
+    table, not_shown = verdict_table([kept], RunContent("run", [kept], {}).word, 50)
+    assert "locked" not in _rendered(table, 50).splitlines()[0]
+    assert "locked" in not_shown

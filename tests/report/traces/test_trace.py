@@ -16,7 +16,7 @@ MakeRecording = Callable[..., Recording]
 def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording) -> None:
     trace = trace_of(make_recording(sliding_time="5.01"))
     assert trace.curves["speed"].y[0] == pytest.approx(120.0)
-    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert np.nanmax(trace.curves["slide_1"].y) == pytest.approx(40.0)
     assert trace.curves["tank_pressure_4"].y.max() == pytest.approx(3.8)
     assert trace.curves["clamping_force_2"].y.max() == pytest.approx(14.0)
     assert trace.sliding_time == 5.01
@@ -98,14 +98,29 @@ def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be(make_recording:
     whole = make_recording()
     channels = {name: samples for name, samples in whole.channels.items() if not name.startswith("slide")}
     trace = trace_of(Recording(channels, {name: whole.units[name] for name in channels}))
-    assert trace.curves["slide_1"].y.max() == pytest.approx(40.0)
+    assert np.nanmax(trace.curves["slide_1"].y) == pytest.approx(40.0)
     assert trace.derived == ("slide_1", "slide_2", "slide_3", "slide_4", "deceleration")
     assert trace_of(whole).derived == ("deceleration",)
 
 
-def test_a_slide_is_zero_where_the_train_hardly_runs_and_missing_where_its_speed_is() -> None:
+def test_a_slide_is_missing_where_the_train_hardly_runs_and_where_its_speed_is() -> None:
     derived = slide(np.array([10.0, 0.5, np.nan]), np.array([5.0, 0.0, 1.0]))
-    assert derived == pytest.approx([0.5, 0.0, np.nan], nan_ok=True)
+    assert derived == pytest.approx([0.5, np.nan, np.nan], nan_ok=True)
+
+
+def test_a_recorded_slide_at_rest_is_a_gap_in_its_line_and_no_point_of_its_loop() -> None:
+    time = np.arange(5.0)
+    speed = np.array([3.0, 2.0, 1.5, 0.5, 0.0])
+    channels = {
+        "time": time,
+        "speed": speed,
+        "slide_1": np.where(speed > 1.0, 0.2, 0.0),
+        "adhesion_1": np.full(5, 0.1),
+    }
+    units = {"time": "s", "speed": "m/s", "slide_1": "1", "adhesion_1": "1"}
+    trace = trace_of(Recording(channels, units))
+    assert trace.curves["slide_1"].y == pytest.approx([20.0, 20.0, 20.0, np.nan, np.nan], nan_ok=True)
+    assert trace.loops["adhesion-loop adhesion_1"].x == pytest.approx([20.0, 20.0, 20.0])
 
 
 def test_the_deceleration_of_a_constant_brake_is_constant_to_the_ends_of_the_record() -> None:

@@ -64,6 +64,8 @@ def test_one_value_alone_has_a_span() -> None:
 
 
 def test_a_figure_asked_for_is_shown_once() -> None:
-    names = [measure.name for measure in reported_measures(["braking_distance_m", "locked_time_s_3"])]
+    names = [
+        measure.name for measure in reported_measures(["braking_distance_m", "locked_time_s_3"], "10 km/h")
+    ]
     assert names.count("braking distance") == 1
     assert names[-1] == "locked_time_s_3"

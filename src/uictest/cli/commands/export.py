@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -16,31 +16,39 @@ from uictest.cli.output import data
 from uictest.cli.recordings import Files
 from uictest.recording import formats as file_formats
 
+_BY_SUFFIX: Final = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
+"""Suffix of its files -> format; engineers say MF4 for MDF 4."""
+
 
 def export(
     files: Files,
     formats: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(
-            "--to", metavar="FORMAT", help="Formats, joined by commas: mdf (or mf4), tdms, mat, csv, parquet."
+            "--to",
+            metavar="FORMAT",
+            help="Formats, joined by commas: mdf (or mf4), tdms, mat, csv, parquet."
+            " Not needed where -o names a file.",
         ),
-    ],
+    ] = None,
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.")
+        Path,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="DIR|FILE",
+            help="Folder for the files, or a file whose suffix is a format.",
+        ),
     ] = Path(),
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
     verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
-    names = _formats(formats)
-    targets = {
-        (path, name): output / f"{path.stem}{file_formats.FORMATS[name].suffix}"
-        for path in files
-        for name in names
-    }
+    targets = _targets(files, formats or [], output)
     _reject_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
-    output.mkdir(parents=True, exist_ok=True)
+    for folder in {target.parent for target in targets.values()}:
+        folder.mkdir(parents=True, exist_ok=True)
     for (path, name), target in targets.items():
         write = partial(file_formats.writer_of(name), recordings[path], target)
         runs.each_file([path], lambda _, write=write: write())  # type: ignore[misc]
@@ -48,11 +56,28 @@ def export(
     return ExitCode.MET
 
 
+def _targets(files: Sequence[Path], formats: Sequence[str], output: Path) -> dict[tuple[Path, str], Path]:
+    """Return the file for each recording and format. Raises typer.BadParameter where none is named."""
+    names, of_suffix = _formats(formats), _BY_SUFFIX.get(output.suffix.lower().removeprefix("."))
+    if of_suffix is not None and not output.is_dir() and names in ([], [of_suffix]):
+        if len(files) > 1:
+            reason = f"{output} is one file for {len(files)} recordings; name a folder, and formats with --to"
+            raise typer.BadParameter(reason, param_hint="-o")
+        return {(files[0], of_suffix): output}
+    if not names:
+        suffixes = ", ".join(each.suffix for each in file_formats.FORMATS.values())
+        reason = f"no format: name formats, or a file with a suffix ({suffixes}) with -o"
+        raise typer.BadParameter(reason, param_hint="--to")
+    return {
+        (path, name): output / f"{path.stem}{file_formats.FORMATS[name].suffix}"
+        for path in files
+        for name in names
+    }
+
+
 def _formats(texts: Sequence[str]) -> list[str]:
-    # A format is also known by the suffix of its files: engineers say MF4 for MDF 4.
-    by_suffix = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
     words = [word.strip().lower() for text in texts for word in text.split(",")]
-    names = list(dict.fromkeys(by_suffix.get(word, word) for word in words))
+    names = list(dict.fromkeys(_BY_SUFFIX.get(word, word) for word in words))
     for word in names:
         if word not in file_formats.FORMATS:
             raise typer.BadParameter(

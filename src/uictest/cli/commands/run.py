@@ -126,6 +126,7 @@ def run(
         *(batch, output, names, options.junit_file(junit, output), display),
         quiet=quiet,
         verbose=verbosity > 0,
+        colour=colour,
     )
     if published is None:
         return ExitCode.INTERRUPTED

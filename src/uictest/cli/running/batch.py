@@ -21,6 +21,7 @@ def publish_and_show(
     *,
     quiet: bool,
     verbose: bool,
+    colour: str = "auto",
 ) -> runs.Published | None:
     """Run a batch, publish its reports and show them; after an interruption, those of the finished cases.
 
@@ -28,7 +29,9 @@ def publish_and_show(
     that were.
     """
     started = perf_counter()
-    observer = TerminalObserver(display, quiet=quiet, verbose=verbose, in_process=batch.in_process)
+    observer = TerminalObserver(
+        display, quiet=quiet, verbose=verbose, in_process=batch.in_process, colour=colour
+    )
     published = runs.publish_batch(batch, output, formats, observer)
     if published is None:
         message("uictest: interrupted before the first case was finished; there is nothing to report")
@@ -60,7 +63,10 @@ def show_index_problem(problem: str) -> None:
 def write_junit(path: Path | None, content: report.RunContent) -> None:
     """Write the file of `--junitxml`, if there is to be one. Raises OSError."""
     if path is not None:
-        recording.write_text_atomic(path, report.junit_xml(content.results, content.baseline, content.series))
+        document = report.junit_xml(
+            content.results, content.baseline, content.series, uictest_version=content.uictest_version
+        )
+        recording.write_text_atomic(path, document)
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:

@@ -14,11 +14,14 @@ from uictest.cli.running.display import Display
 class TerminalObserver(runs.Observer):
     """Shows results on stdout with a display; progress, warnings and tracebacks on stderr."""
 
-    def __init__(self, display: Display, *, quiet: bool, verbose: bool, in_process: bool) -> None:
+    def __init__(
+        self, display: Display, *, quiet: bool, verbose: bool, in_process: bool, colour: str = "auto"
+    ) -> None:
         self._display = display
         self._quiet = quiet
         self._verbose = verbose
         self._in_process = in_process
+        self._colour = colour
 
     @contextmanager
     def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
@@ -28,7 +31,7 @@ class TerminalObserver(runs.Observer):
         announce_compilation(warm=rig.is_compiled(cases), quiet=self._quiet)
         stops = sum(case.scenario.repeat for case in cases)
         unit = "stops" if stops > len(cases) else "cases"
-        with progress(stops, quiet=self._quiet, unit=unit) as advance:
+        with progress(stops, quiet=self._quiet, unit=unit, colour=self._colour) as advance:
             yield advance
 
     def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:

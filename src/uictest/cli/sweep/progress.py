@@ -27,7 +27,6 @@ def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
 
 @contextlib.contextmanager
 def _bar(total: int, done: int) -> Iterator[Advance]:
-    from rich.console import Console
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
@@ -43,7 +42,8 @@ def _bar(total: int, done: int) -> Iterator[Advance]:
             return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
 
     columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True, speed_estimate_period=60.0) as bar:
+    console = steps.error_console()
+    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
         task = bar.add_task("simulating", total=total, completed=done)
         yield lambda cases: bar.advance(task, cases)
 

@@ -9,7 +9,7 @@ from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, Table, csv_text
 from uictest.report.format_registry import ReportFormat
-from uictest.report.part_wording import changes_of
+from uictest.report.part_wording import changes_of, controller_of
 from uictest.report.repeat_wording import (
     CRITERION_COLUMNS,
     SHARE_COLUMNS,
@@ -36,8 +36,10 @@ _CRITERION_FIELDS = {
 """Column -> field of a verdict."""
 
 
-def summary_table(results: Sequence[evaluation.CaseResult]) -> Table:
-    """Return one row per case: swept parameters (as written), outcome, changed parameters, measures.
+def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str = "") -> Table:
+    """Return one row per case: swept parameters (as written), outcome, controller, changes, measures.
+
+    `uictest_version` is that of built-in controllers.
 
     Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too.
     """
@@ -50,6 +52,8 @@ def summary_table(results: Sequence[evaluation.CaseResult]) -> Table:
         "outcome",
         "met",
         "reason",
+        "controller",
+        "controller_version",
         CHANGED,
         "test_case",
         REQUIREMENTS,
@@ -57,7 +61,7 @@ def summary_table(results: Sequence[evaluation.CaseResult]) -> Table:
         *STOP_COLUMNS,
         *_of_repeated(results, range_columns(STOP_COLUMNS)),
     ]
-    return Table(columns, [_summary_row(result) for result in results])
+    return Table(columns, [_summary_row(result, uictest_version) for result in results])
 
 
 def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Table:
@@ -101,7 +105,7 @@ def run_tables(content: RunContent) -> Mapping[str, Table]:
         "requirements": requirements_table(results, content.series),
     }
     return {
-        "summary": summary_table(results),
+        "summary": summary_table(results, content.uictest_version),
         "wheelsets": wheelsets_table(results),
         "criteria": criteria_table(results),
         **{name: table for name, table in optional.items() if table.rows},
@@ -113,12 +117,13 @@ def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str
     return columns if any_repeated(results) else ()
 
 
-def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
+def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
     own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
     return {
         **parameters,
         **own,
+        **controller_cells(result, uictest_version),
         CHANGED: "; ".join(changes_of(result)),
         "test_case": result.test_case,
         REQUIREMENTS: "; ".join(result.requirements),
@@ -126,6 +131,14 @@ def _summary_row(result: evaluation.CaseResult) -> dict[str, Cell]:
         **(result.measures or {}),
         **range_cells(result, STOP_COLUMNS),
     }
+
+
+def controller_cells(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
+    """Return the name of the controller under test and its version; empty where none is known."""
+    name, version = controller_of(result.parts, result.controller_version)
+    if name and not version and uictest_version and evaluation.program_in(result.parts) is None:
+        version = f"uictest {uictest_version}"
+    return {"controller": name, "controller_version": version}
 
 
 def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:

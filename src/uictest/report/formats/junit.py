@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
@@ -18,7 +19,7 @@ from uictest.report.junit_properties import (
     add_suite_properties,
     add_test_properties,
 )
-from uictest.report.part_wording import changes_line
+from uictest.report.part_wording import changes_line, controller_of, controllers_text
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
 from uictest.report.series.junit import series_testsuites
@@ -33,6 +34,7 @@ def junit_xml(
     series: Sequence[SeriesResult] = (),
     *,
     test_properties: bool = False,
+    uictest_version: str = "",
 ) -> str:
     """Return the results as a JUnit document, characters that XML forbids left out.
 
@@ -43,7 +45,7 @@ def junit_xml(
 
     It keeps to the schema that Jenkins' xUnit plugin checks against: a testcase has neither `file` nor
     properties there. With `test_properties` a testcase has properties nevertheless: those by which Polarion
-    and Xray know the test case and its requirements.
+    and Xray know the test case and its requirements. `uictest_version` is that of built-in controllers.
     """
     root = ElementTree.Element("testsuites")
     differences = baseline.differences if baseline else {}
@@ -56,14 +58,17 @@ def junit_xml(
         own.setdefault(evaluation.program_in(result.parts), []).append(result)
     for program, of_program in (own or ({} if series else {None: []})).items():
         told = dict.fromkeys(result.controller_version for result in of_program)
-        testcases = [_testcase(result, differences.get(result.id, ())) for result in of_program]
+        testcases = [
+            _testcase(result, differences.get(result.id, ()), uictest_version) for result in of_program
+        ]
         if test_properties:
             _add_test_properties(testcases, of_program)
         duration = sum(result.duration for result in of_program)
         suite = _testsuite(program, [*testcases, *(missing if program is None else ())], duration)
-        add_suite_properties(suite, program, told, _requirements(of_program))
+        names = [controller_of(result.parts)[0] for result in of_program]
+        add_suite_properties(suite, program, told, _requirements(of_program), names, uictest_version)
         root.append(suite)
-    root.extend(series_testsuites(series, test_properties=test_properties))
+    root.extend(series_testsuites(series, test_properties=test_properties, uictest_version=uictest_version))
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
@@ -93,13 +98,16 @@ def _add_test_properties(
         add_test_properties(testcase, result.test_case, requirements_of(result))
 
 
-def _testcase(result: evaluation.CaseResult, differences: Sequence[Difference]) -> ElementTree.Element:
+def _testcase(
+    result: evaluation.CaseResult, differences: Sequence[Difference], uictest_version: str
+) -> ElementTree.Element:
     element = _empty_testcase(result.id, result.scenario, result.duration)
     tag = _child_tag(result, differs=bool(differences))
     remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
     if tag is not None:
         kind = "baseline" if case_word(result, differences) == DIFFERS else ""
-        _add_child(element, tag, [*case_explanation(result, differences), *remarks], kind)
+        tested = [f"controller: {text}"] if (text := controllers_text([result], uictest_version)) else []
+        _add_child(element, tag, [*case_explanation(result, differences), *tested, *remarks], kind)
     elif remarks := [*repeat_sentences(result), *remarks]:
         ElementTree.SubElement(element, "system-out").text = xml_text("\n".join(remarks))
     return element
@@ -143,12 +151,17 @@ def _dotted(scenario: str) -> str:
 
 
 def _files(content: RunContent) -> dict[str, bytes]:
-    files = {"junit.xml": junit_xml(content.results, content.baseline, content.series)}
+    of_run = partial(
+        junit_xml,
+        content.results,
+        content.baseline,
+        content.series,
+        uictest_version=content.uictest_version,
+    )
+    files = {"junit.xml": of_run()}
     judged: list[evaluation.CaseResult | SeriesResult] = [*content.results, *content.series]
     if any(result.test_case or requirements_of(result) for result in judged):
-        files[WITH_TEST_PROPERTIES] = junit_xml(
-            content.results, content.baseline, content.series, test_properties=True
-        )
+        files[WITH_TEST_PROPERTIES] = of_run(test_properties=True)
     return {name: text.encode() for name, text in files.items()}
 
 

@@ -12,7 +12,7 @@ from uictest.report.domain_wording import domain_notices
 from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
-from uictest.report.part_wording import changes_of
+from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import VerifiedRequirement, verified_requirements
 from uictest.report.series.md import series_markdown
@@ -32,7 +32,7 @@ _REQUIREMENTS_SHOWN = 100
 """Requirements that a reader is shown here, those not met first."""
 _COLUMNS = (
     *("verdict", "case", "outcome"),
-    *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide, %", "sliding, s", "locked, s"),
+    *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide above {}, %", "sliding, s", "locked, s"),
     *("changed parameters", "why"),
 )
 _PLACE_OF_STOPS = 3
@@ -45,6 +45,7 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     What would go beyond `limit` bytes is left out, and a last line says how many cases that is.
     """
     text = f"## uictest: {content.tally}\n\n"
+    text += f"WSP controller: {prose(content.controllers)}.\n\n" if content.controllers else ""
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
     text += "".join(f"{prose(line)}.\n\n" for line in domain_notices(content.all_results))
@@ -52,9 +53,9 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     text += _baseline(content.baseline, limit // 2) if content.baseline else ""
     text += _requirements(content, limit // 4)
     repeated = any_repeated(content.results)
-    ranked = sorted(content.results, key=content.passes)
-    rows = [_row(content, result, repeated=repeated) for result in ranked]
-    columns, alignment = [*_COLUMNS], "lllrrrrrrrll"
+    rows = [_row(content, result, repeated=repeated) for result in content.ranked]
+    columns = [title.format(slide_speed(content.results)) for title in _COLUMNS]
+    alignment = "lllrrrrrrrll"
     if repeated:
         columns.insert(_PLACE_OF_STOPS, "stops")
         alignment = f"l{alignment}"

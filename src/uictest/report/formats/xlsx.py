@@ -14,7 +14,7 @@ from uictest.report.cover_sheet import COVER, insert_charts, write_cover
 from uictest.report.difference import Difference
 from uictest.report.domain_wording import domain_sentences
 from uictest.report.format_registry import ReportFormat
-from uictest.report.formats.csv import CHANGED, REQUIREMENTS, criterion_cells
+from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, criterion_cells
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changes_of
 from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
@@ -68,6 +68,7 @@ def _cases(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         subject = content.subject(result.id)
         about: Row = {"title": subject.title, "tags": " ".join(subject.tags), "scenario": result.scenario}
+        about |= controller_cells(result, content.uictest_version)
         yield {"case": result.id, **about, **result_row(result), **_against_baseline(content, result)}
 
 

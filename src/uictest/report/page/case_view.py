@@ -24,6 +24,7 @@ from uictest.report.page.stop.marks import marks_of
 from uictest.report.page.stop.overlay_view import panel_form
 from uictest.report.page.stop.packing import STEPS, packed, script_json
 from uictest.report.page.stop.sketch import Sketch, sketch_of
+from uictest.report.part_wording import slide_speed
 from uictest.report.traces.compared import COMPARED
 from uictest.report.traces.quantities import (
     LOOPS,
@@ -160,7 +161,7 @@ def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
         yield "reservoir margin", _number(measures["reservoir_margin_bar"]), "bar"
     if result.wheelsets:
         slides = [100 * wheelset["maximum_slide"] for wheelset in result.wheelsets]
-        yield "largest slide", _number(max(slides)), "%"
+        yield f"largest slide above {slide_speed([result])}", _number(max(slides)), "%"
         vents = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
         yield "valve actuations", f"{vents:g}" if vents == vents else "-", ""
     if measures is not None:

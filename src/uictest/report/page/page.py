@@ -28,7 +28,7 @@ def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
     keys = {view.result.id: view.fragment for view in drawn}
-    series = list(map(series_view, content.series))
+    series = [series_view(each) for each in sorted(content.series, key=lambda each: each.met)]
     return render(
         "run.html.j2",
         content=content,
@@ -37,6 +37,7 @@ def page_html(content: RunContent) -> str:
         keys=keys,
         case_anchor=case_anchor,
         series=series,
+        series_first=_series_first(content),
         series_keys={view.result.id: view.fragment for view in series},
         **SERIES_WORDS,
         maps=maps_of(content.results),
@@ -69,8 +70,17 @@ def page_html(content: RunContent) -> str:
     )
 
 
+def _series_first(content: RunContent) -> bool:
+    """Return whether all cases pass and a series is not as expected: what is not stands first."""
+    return all(map(content.passes, content.results)) and not all(each.met for each in content.series)
+
+
 def _drawn(content: RunContent) -> list[CaseView]:
-    traced = [result for result in content.all_results if result.id in content.traces]
+    traced = [
+        result
+        for result in sorted(worst_first(content.all_results), key=content.passes)
+        if result.id in content.traces
+    ]
     shown = {result.id for result in drawn_cases(traced, content.drawn_first)}
     commands = rerun_commands(content)
     return [

@@ -14,6 +14,7 @@ from uictest import user_cache
 from uictest.report.domain_wording import domain_notices, domain_sentences
 from uictest.report.escaping import printable
 from uictest.report.page.plotting_script import plotting_script, script_digest
+from uictest.report.part_wording import slide_speed
 
 _SCRIPTS = (
     "elements",
@@ -104,7 +105,11 @@ def _environment() -> Environment:
         bytecode_cache=TemplateCache(),
     )
     environment.filters["figure"] = _figure
-    environment.globals |= {"domain_sentences": domain_sentences, "domain_notices": domain_notices}
+    environment.globals |= {
+        "domain_sentences": domain_sentences,
+        "domain_notices": domain_notices,
+        "slide_speed": slide_speed,
+    }
     return environment
 
 

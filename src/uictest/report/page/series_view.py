@@ -19,8 +19,8 @@ from uictest.report.series.wording import (
     percent,
     series_word,
 )
-from uictest.report.wording import limits, quantity
-from uictest.series import SeriesResult, SeriesStop, observed_stops
+from uictest.report.wording import failing_first, limits, quantity
+from uictest.series import SeriesResult, SeriesStop, SeriesVerdict, observed_stops
 from uictest.series_measures import SERIES_MEASURES
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
@@ -86,6 +86,12 @@ class SeriesView:
     word: str
     plots: Sequence[DotPlot]
     units: dict[str, str]
+
+    @property
+    def criteria(self) -> list[SeriesVerdict]:
+        """The verdicts, failing ones first."""
+        by_id = {each.verdict.id: each for each in self.result.criteria}
+        return [by_id[each.id] for each in failing_first(each.verdict for each in self.result.criteria)]
 
     @property
     def fragment(self) -> str:

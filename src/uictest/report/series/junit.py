@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 from uictest import evaluation
 from uictest.report.escaping import xml_text
 from uictest.report.junit_properties import add_suite_properties, add_test_properties
+from uictest.report.part_wording import controller_of
 from uictest.report.requirements import requirements_of
 from uictest.report.series.wording import (
     count_sentences,
@@ -21,7 +22,7 @@ from uictest.series import SeriesResult, SeriesVerdict
 
 
 def series_testsuites(
-    results: Sequence[SeriesResult], *, test_properties: bool = False
+    results: Sequence[SeriesResult], *, test_properties: bool = False, uictest_version: str = ""
 ) -> Iterator[ElementTree.Element]:
     """Yield the suite of every series.
 
@@ -38,7 +39,7 @@ def series_testsuites(
         suite = ElementTree.Element(
             "testsuite", name=xml_text(f"uictest series: {result.id}"), tests=str(len(testcases))
         )
-        _add_properties(suite, result)
+        _add_properties(suite, result, uictest_version)
         suite.extend(testcases)
         for attribute, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
             suite.set(attribute, str(len(suite.findall(f"testcase/{tag}"))))
@@ -46,11 +47,13 @@ def series_testsuites(
         yield suite
 
 
-def _add_properties(suite: ElementTree.Element, result: SeriesResult) -> None:
-    """Add which program was tested, and which requirements the series and its criteria verify."""
+def _add_properties(suite: ElementTree.Element, result: SeriesResult, uictest_version: str) -> None:
+    """Add which controller was tested, and which requirements the series and its criteria verify."""
     program = evaluation.program_in(result.cases[0].case.parts) if result.cases else None
     told = dict.fromkeys(each.case.controller_version for each in result.cases)
-    add_suite_properties(suite, program, told, in_order_of_ids(requirements_of(result)))
+    names = [controller_of(each.case.parts)[0] for each in result.cases]
+    requirements = in_order_of_ids(requirements_of(result))
+    add_suite_properties(suite, program, told, requirements, names, uictest_version)
 
 
 def _add_test_properties(testcases: Sequence[ElementTree.Element], result: SeriesResult) -> None:

@@ -9,7 +9,7 @@ from typing import Final
 
 from uictest import statistics
 from uictest.report.escaping import printable
-from uictest.report.wording import CASE_WORDS, counted, limits, outcome_word, quantity
+from uictest.report.wording import CASE_WORDS, counted, limits, outcome_sentence, outcome_word, quantity
 from uictest.series import SeriesResult, SeriesVerdict
 from uictest.series_measures import Estimate, Method
 
@@ -112,7 +112,7 @@ def count_sentences(result: SeriesResult) -> Iterator[str]:
     for speed in result.speeds:
         dry, wet = (f"{each.counted} of {each.run}" for each in (speed.dry, speed.wet))
         share = f"{percent(speed.wet.share)}, {percent(result.valid_stops)} needed"
-        yield f"from {speed.speed_kmh:g} km/h {dry} dry and {wet} wet stops count ({share})"
+        yield f"Valid stops from {speed.speed_kmh:g} km/h: dry {dry}, wet {wet} ({share})"
 
 
 def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
@@ -129,8 +129,9 @@ def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
 def series_explanation(result: SeriesResult) -> list[str]:
     """Return the reasons for an outcome: expectation, stops that count, criteria that decided."""
     deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
+    names = [each.verdict.id for each in deciding]
     return [
-        f"expected {result.expect}, got {result.outcome}",
+        outcome_sentence(result.outcome, result.expect, names),
         *([printable(result.reason)] if result.reason and not deciding else []),
         *(series_verdict_sentence(each, result.confidence) for each in deciding),
         *count_sentences(result),

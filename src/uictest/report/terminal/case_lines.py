@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Final
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
@@ -21,13 +22,16 @@ from uictest.report.wording import (
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
 
+MOST_DIFFERENCES: Final = 3
+"""Quantities out of the tolerance of a baseline that a case shows on a terminal; results.json has all."""
+
 
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case, ending with the reason if it is not met or differs from the baseline."""
     words = [line_word(case_word(result, differences)), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}", *_stops(result), *_measures(result)]
     if differences or not result.met:
-        outcomes, *reasons = case_explanation(result, differences)
+        outcomes, *reasons = case_explanation(result, differences, MOST_DIFFERENCES)
         words.append(f"reason={'; '.join(reasons or [outcomes])}")
     return " ".join(words)
 
@@ -35,7 +39,7 @@ def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] =
 def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
     """Yield one line per case of the baseline that is missing, and per series that differs from it."""
     for own_id in baseline.beside_cases:
-        reason = "; ".join(difference_sentences(baseline.differences[own_id]))
+        reason = "; ".join(difference_sentences(baseline.differences[own_id], MOST_DIFFERENCES))
         yield f"{DIFFERS} {printable(own_id)} reason={reason}"
 
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest import evaluation
+from uictest.measures import MEASURES, STOP_COLUMNS
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
+from uictest.report.part_wording import slide_speed
 from uictest.report.repeat_wording import any_repeated, repeat_sentences, stops_text
+from uictest.report.terminal.case_lines import MOST_DIFFERENCES
 from uictest.report.terminal.fitted_columns import TableColumn, columns_not_shown, fitted
 from uictest.report.wording import Tone, criterion_sentences, real_time_sentences, tone
 
@@ -21,13 +24,23 @@ if TYPE_CHECKING:
     from uictest.report.content import RunContent
 
 _STYLES: Final[dict[Tone, str]] = {"good": "green", "bad": "bold red", "odd": "bold magenta"}
-_MEASURES = {
-    "distance\nm": ("braking_distance_m", ".1f", 2),
-    "time\ns": ("braking_time_s", ".1f", 5),
-    "mean\nm/s2": ("mean_deceleration_mps2", ".2f", 4),
-    "adhesion\ng": ("initial_adhesion_g", ".3f", 6),
-}
-"""Heading -> measure, its format, and the rank in which it is left out on a narrow terminal."""
+_Column = tuple[str, str, str, int, float]
+_STOP_MEASURES: Final[tuple[_Column, ...]] = (
+    ("distance\nm", "braking_distance_m", ".1f", 3, 1.0),
+    ("time\ns", "braking_time_s", ".1f", 6, 1.0),
+    ("mean\nm/s2", "mean_deceleration_mps2", ".2f", 5, 1.0),
+    ("adhesion\ng", "initial_adhesion_g", ".3f", 7, 1.0),
+)
+_WHEELSET_MEASURES: Final[tuple[_Column, ...]] = (
+    ("max slide %\n> {}", "maximum_slide", ".0f", 4, 100.0),
+    ("sliding\nmax s", "sliding_time_s", ".1f", 10, 1.0),
+    ("locked\nmax s", "locked_time_s", ".1f", 9, 1.0),
+    ("vents\nmax", "valve_actuations", "g", 8, 1.0),
+)
+"""Heading, measure, its format, the rank in which it is left out on a narrow terminal, and its scale."""
+
+_FAILING: Final = 1
+"""Rank of a column that a missed criterion rests on: it is left out last."""
 
 ALL_COLUMNS = "summary.csv and wheelsets.csv have all measures"
 
@@ -62,27 +75,35 @@ def _columns(
     columns = [
         TableColumn("case", [printable(result.id) for result in results], wraps=True),
         TableColumn("verdict", list(map(word, results))),
-        TableColumn("outcome", [result.outcome for result in results], rank=1),
+        TableColumn("outcome", [result.outcome for result in results], rank=2),
     ]
     if any_repeated(results):
         columns.insert(2, TableColumn("stops", [stops_text(result) or "-" for result in results]))
-    for title, (name, form, rank) in _MEASURES.items():
-        cells = [_cell((result.measures or {}).get(name), form) for result in results]
-        columns.append(TableColumn(title, cells, rank, right=True))
-    slides = [_largest(result, "maximum_slide") for result in results]
-    vents = [_largest(result, "valve_actuations") for result in results]
-    sliding = [_largest(result, "sliding_time_s") for result in results]
-    locked = [_largest(result, "locked_time_s") for result in results]
-    columns.append(
-        TableColumn("slide\nmax %", [_cell(s and 100.0 * s, ".0f") for s in slides], 3, right=True)
-    )
-    columns.append(TableColumn("sliding\nmax s", [_cell(each, ".1f") for each in sliding], 9, right=True))
-    columns.append(TableColumn("locked\nmax s", [_cell(each, ".1f") for each in locked], 8, right=True))
-    columns.append(TableColumn("vents\nmax", [_cell(each, "g") for each in vents], 7, right=True))
+    missed, speed = _missed_measures(results), slide_speed(results)
+    for title, name, form, rank, scale in (*_STOP_MEASURES, *_WHEELSET_MEASURES):
+        cells = [_cell(_value(result, name), form, scale) for result in results]
+        own_rank = _FAILING if name in missed else rank
+        columns.append(TableColumn(title.format(speed), cells, own_rank, right=True))
     return columns
 
 
-def _largest(result: evaluation.CaseResult, measure: str) -> float | None:
+def _missed_measures(results: Iterable[evaluation.CaseResult]) -> set[str]:
+    """Return the columns that the criteria rest on for which cases are not as expected."""
+    return {
+        column.name
+        for result in results
+        if not result.met
+        for verdict in result.criteria
+        if verdict.status in ("fail", "inconclusive")
+        and (measure := MEASURES.get(verdict.measure)) is not None
+        and (column := measure.column) is not None
+    }
+
+
+def _value(result: evaluation.CaseResult, measure: str) -> float | None:
+    """Return a measure of a stop, or the largest of its wheelsets; None where there is none."""
+    if measure in STOP_COLUMNS:
+        return (result.measures or {}).get(measure)
     return max((wheelset[measure] for wheelset in result.wheelsets), default=None)
 
 
@@ -95,7 +116,7 @@ def explanation_text(
     word = content.word(result)
     text = Text(f"{word} ", style=_STYLES[tone(word)])
     text.append(printable(result.id), style="bold")
-    lines = content.explanation(result)
+    lines = content.explanation(result, MOST_DIFFERENCES)
     if every_criterion:
         differences = difference_sentences(content.differences(result.id))
         lines = [
@@ -109,5 +130,5 @@ def explanation_text(
     return text
 
 
-def _cell(value: float | None, form: str) -> str:
-    return "-" if value is None or math.isnan(value) else format(value, form)
+def _cell(value: float | None, form: str, scale: float) -> str:
+    return "-" if value is None or math.isnan(value) else format(scale * value, form)

@@ -32,7 +32,7 @@ DECELERATION_WINDOW = 0.5
 """s: over how long the deceleration that is drawn is averaged; chosen to show what a passenger feels."""
 
 SLIDE_SPEED = 1.0
-"""m/s: below it no slide is derived, as none is recorded by the rig."""
+"""m/s: at and below it a slide is no number; the rig records 0 there."""
 
 STATES = ("valve_command",)
 """Quantities that hold states: every change of them is drawn, at its time."""
@@ -99,7 +99,7 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
     """
     time = record["time"]
     channels = dict(record.channels) | _derived(record)
-    series = _in_units(channels)
+    series = _in_units(_without_slides_at_rest(channels))
     states = {name for state in STATES for name in channel_names(state)}
     return PlotTrace(
         float(time[0]),
@@ -129,10 +129,19 @@ def deceleration(time: Series, speed: Series) -> Series:
 
 
 def slide(speed: Series, wheel_speed: Series) -> Series:
-    """Return the slide (v - r omega) / v of a wheelset; 0 where the train is no faster than `SLIDE_SPEED`."""
+    """Return the slide (v - r omega) / v of a wheelset; NaN at and below `SLIDE_SPEED`."""
     runs = speed > SLIDE_SPEED
-    share = (speed - wheel_speed) / np.where(runs, speed, 1.0)
-    return np.where(runs | np.isnan(speed), share, 0.0)
+    return np.where(runs, (speed - wheel_speed) / np.where(runs, speed, 1.0), np.nan)
+
+
+def _without_slides_at_rest(channels: Mapping[str, Series]) -> dict[str, Series]:
+    """Return the channels with NaN for the slides at and below `SLIDE_SPEED`, which a line leaves out."""
+    if (speed := channels.get("speed")) is None:
+        return dict(channels)
+    slides = {name: channels[name] for name in channel_names("slide") if name in channels}
+    return dict(channels) | {
+        name: np.where(speed <= SLIDE_SPEED, np.nan, samples) for name, samples in slides.items()
+    }
 
 
 def _derived(record: recording.Recording) -> dict[str, Series]:
@@ -177,6 +186,7 @@ def _loops(series: Mapping[str, Series]) -> Iterator[tuple[str, Curve]]:
             if across in series and line.series in series:
                 x, y = series[across], series[line.series]
                 rows = np.union1d(thinned(x, LOOP_BINS), thinned(y, LOOP_BINS))
+                rows = rows[np.isfinite(x[rows])]
                 yield f"{loop.key} {line.series}", Curve(x[rows], y[rows])
 
 

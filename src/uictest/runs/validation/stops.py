@@ -131,7 +131,7 @@ def _speed(stop: field_data.RecordedStop) -> float:
 
 
 def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult) -> str:
-    """Return why the stop has no end: conditions under which it had none were not validated."""
+    """Return why the stop has no end. Not validated: stops without one."""
     if simulated.outcome == "error":
         return f"simulation: {simulated.reason}"
     for figures, of_what in ((stop.recorded, "record"), (stop.simulated, "simulation")):

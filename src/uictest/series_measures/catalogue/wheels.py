@@ -24,7 +24,7 @@ MEASURES = (
         "contact_energy",
         "energy",
         "kJ",
-        "energy dissipated in the contacts of the wheelset with the most",
+        "largest contact energy of a wheelset",
         largest_of_wheelsets("contact_energy_kj"),
     ),
 )

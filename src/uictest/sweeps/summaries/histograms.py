@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -43,17 +43,20 @@ class ReportedMeasure:
 USUAL: Final = (
     ReportedMeasure("braking distance", "m", ("braking_distance_m",)),
     ReportedMeasure("braking time", "s", ("braking_time_s",)),
-    ReportedMeasure("largest slide", "%", wheelset_columns("maximum_slide"), 100.0),
+    ReportedMeasure("largest slide above {}", "%", wheelset_columns("maximum_slide"), 100.0),
     ReportedMeasure("most valve actuations of a wheelset", "1", wheelset_columns("valve_actuations")),
     ReportedMeasure("initial adhesion", "g", ("initial_adhesion_g",)),
 )
 
 
-def reported_measures(measures: Sequence[str]) -> list[ReportedMeasure]:
-    """Return the usual measures and the other columns that are requested."""
+def reported_measures(measures: Sequence[str], moving_speed: str) -> list[ReportedMeasure]:
+    """Return the usual measures and the other columns that are requested.
+
+    `moving_speed` is the train speed, as text, above which the largest slide counts.
+    """
     usual = {name for measure in USUAL for name in measure.columns}
     return [
-        *USUAL,
+        *(replace(each, name=each.name.format(moving_speed)) for each in USUAL),
         *(ReportedMeasure(name, column_unit(name), (name,)) for name in measures if name not in usual),
     ]
 

@@ -87,7 +87,7 @@ def summarize(
     sensitivities, notes = _sensitivities(selection.plan, sums.sampled_columns())
     result = _result(
         sums,
-        distributions=_histograms(sums.histograms, selection, store),
+        distributions=_histograms(sums, selection, store),
         sensitivities=sensitivities,
         domain=of_validity,
         notes=(
@@ -110,7 +110,7 @@ class _Sums:
     ) -> None:
         plan = selection.plan
         self.tally, self.worst = Tally(plan), WorstCases()
-        shown, bins = reported_measures(measures), self.tally.bins
+        shown, bins = reported_measures(measures, _moving_speed(plan)), self.tally.bins
         axes = None if pair is None else (bins[pair[0]], bins[pair[1]])
         self.maps = [MapSums(plan, *axes, name) for name in (MET, *measures)] if axes else []
         self.trends = [
@@ -130,7 +130,7 @@ class _Sums:
         for sweep_map in self.maps:
             sweep_map.add(table)
         for trend in self.trends:
-            trend.add(table)
+            trend.note(table)
         for histogram in self.histograms:
             histogram.add_range(table)
         if self.tails is not None:
@@ -143,6 +143,11 @@ class _Sums:
     def sampled_columns(self) -> Columns:
         """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
         return {**self._columns, MET: self.verdicts.astype(float)} if self._is_sample else {}
+
+
+def _moving_speed(plan: Plan) -> str:
+    key = "measures.moving_speed"
+    return "moving_speed" if key in plan.keys else plan.base.scenario.measures.moving_speed.text
 
 
 def _result(
@@ -181,16 +186,19 @@ def _result(
     )
 
 
-def _histograms(
-    counts: Sequence[HistogramCounts], selection: CaseSelection, store: ChunkStore
-) -> tuple[MeasureHistogram, ...]:
-    """Return the histogram of each measure that any case has: reads the chunks a second time."""
-    with_cases = [each for each in counts if each.cases]
-    for each in with_cases:
-        each.open_bins()
+def _histograms(sums: _Sums, selection: CaseSelection, store: ChunkStore) -> tuple[MeasureHistogram, ...]:
+    """Return the histogram of each measure that any case has, and add to the trends.
+
+    Reads the chunks a second time.
+    """
+    with_cases = [each for each in sums.histograms if each.cases]
+    for histogram in with_cases:
+        histogram.open_bins()
     for table in store.tables(range(selection.chunks)):
-        for each in with_cases:
-            each.add(table)
+        for histogram in with_cases:
+            histogram.add(table)
+        for trend in sums.trends:
+            trend.add(table)
     return tuple(each.histogram() for each in with_cases)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report import Trend
-from uictest.sweeps.plan.plan import Plan
+from uictest.sweeps.plan.plan import ListedGroup, Plan
 from uictest.sweeps.summaries.bins import ParameterBins
 from uictest.sweeps.summaries.histograms import ReportedMeasure
 
@@ -21,7 +22,13 @@ MOST_VALUES: Final = 200
 
 
 class TrendSums:
-    """Measures over the bins of one parameter, added chunk by chunk."""
+    """Measures over the bins of one parameter, added chunk by chunk.
+
+    Along listed values a mean, and its ends, are those of the same cases at every value: a combination of the
+    other parameters counts where its case has the measure at all values at which any case has it. So chunks
+    are read twice: :meth:`note` says which cases have a measure, :meth:`add` adds them. Drawn values share no
+    cases: each counts.
+    """
 
     def __init__(self, plan: Plan, bins: ParameterBins, measures: Sequence[ReportedMeasure]) -> None:
         self.bins, self.measures = bins, measures
@@ -29,21 +36,48 @@ class TrendSums:
         shape = (len(measures), len(bins.values))
         self._cases, self._sum = np.zeros(shape, np.int64), np.zeros(shape)
         self._minimum, self._maximum = np.full(shape, np.inf), np.full(shape, -np.inf)
+        place, group = bins.place[0], plan.groups[bins.place[0]]
+        self._listed = isinstance(group, ListedGroup)
+        self._below = math.prod(each.size for each in plan.groups[place + 1 :])
+        combinations = plan.size // group.size if self._listed else 0
+        self._values_of = np.zeros((len(measures), combinations), np.int32)
+        self._used = np.zeros((len(measures), group.size if self._listed else 0), bool)
+
+    def note(self, table: pa.Table) -> None:
+        """Note which rows of a chunk have each measure."""
+        if not self._listed:
+            return
+        indices = table.column("index").to_numpy()
+        rows, others = self._row_and_others(indices)
+        for place, measure in enumerate(self.measures):
+            known = np.isfinite(measure.of(table))
+            np.add.at(self._values_of[place], others[known], 1)
+            self._used[place, rows[known]] = True
 
     def add(self, table: pa.Table) -> None:
-        """Add the rows of a chunk; a case without a measure does not count in its trend."""
-        bins = self.bins.of(self._plan, table.column("index").to_numpy(), table)
+        """Add the rows of a chunk, once all are noted."""
+        indices = table.column("index").to_numpy()
+        bins = self.bins.of(self._plan, indices, table)
         for place, measure in enumerate(self.measures):
             values = measure.of(table)
-            known = np.isfinite(values)
-            at, values = bins[known], values[known]
+            counts = np.isfinite(values)
+            if self._listed:
+                _, others = self._row_and_others(indices)
+                counts &= self._values_of[place, others] == np.count_nonzero(self._used[place])
+            at, values = bins[counts], values[counts]
             np.add.at(self._cases[place], at, 1)
             np.add.at(self._sum[place], at, values)
             np.minimum.at(self._minimum[place], at, values)
             np.maximum.at(self._maximum[place], at, values)
 
+    def _row_and_others(self, indices: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the row of its group that each case has, and the number of its other values."""
+        size = self._plan.groups[self.bins.place[0]].size
+        above, within = indices // self._below, indices % self._below
+        return above % size, above // size * self._below + within
+
     def trends(self) -> Iterator[Trend]:
-        """Yield the trend of each measure that any case has."""
+        """Yield the trend of each measure that any cases have that can be compared."""
         for place, measure in enumerate(self.measures):
             cases = self._cases[place]
             if cases.any():

@@ -73,9 +73,9 @@ def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
 @pytest.mark.parametrize(
     ("margin", "status", "spare", "words"),
     [
-        (4.0, "pass", "0 %", "turns; +40 % at its value"),
-        (-4.0, "fail", "-40 %", "turns"),
-        (0.0, "pass", "0 %", "turns"),
+        (4.0, "pass", "0 %", "turns if the d is above 0.5 s (now 0.2 s)"),
+        (-4.0, "fail", "-40 %", "turns if the d is below 0.6 s (now 0.7 s)"),
+        (0.0, "pass", "0 %", "turns if the d is above 0.5 s (now 0.2 s)"),
     ],
 )
 def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
@@ -84,7 +84,9 @@ def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
     intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
     turning = Sensitivity("d", "s", 0.0, 1.0, intervals)
     bounds = {"lower": None, "upper": 10.0}
-    verdict = make_verdict(**bounds, margin=margin, status=status, sensitivity=(turning,))
+    stated = AppliedDefinition("d", 0.2 if status == "pass" else 0.7, "s", "chosen", 0.0, 1.0)
+    own = {"sensitivity": (turning,), "definitions": (stated,)}
+    verdict = make_verdict(**bounds, margin=margin, status=status, **own)
     firm = make_verdict(**bounds, margin=0.1, status="pass", id="firm")
     shown = margins_of([firm, verdict], [firm, verdict], trace).judged[0]
     assert (shown.verdict.id, shown.share_text, shown.turns_text) == (verdict.id, spare, words)

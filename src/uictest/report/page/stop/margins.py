@@ -10,6 +10,7 @@ from uictest.report.page.stop.taken import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import limits, quantity
+from uictest.units import in_unit
 
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 
@@ -50,12 +51,14 @@ class Margin:
 
     @property
     def turns_text(self) -> str:
-        """That a verdict turns, and the share of its value where that is not what is to spare; else empty."""
+        """Where a verdict turns: `turns if the sliding slide is above 6 % (now 5 %)`; else empty."""
         if self.verdict.firm:
             return ""
-        return (
-            "turns" if self.share == self.to_spare else f"turns; {_percent(self.share or 0.0)} at its value"
-        )
+        turning = [each for each in self.verdict.sensitivity if each.flips]
+        reasons = [text for each in turning if (text := _turns_where(self.verdict, each))]
+        if self.verdict.over_stops is not None and self.verdict.over_stops.turns:
+            reasons.append("from stop to stop")
+        return f"turns {' or '.join(reasons)}".rstrip()
 
     @property
     def value_text(self) -> str:
@@ -125,6 +128,24 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
 def _urgency(margin: Margin) -> tuple[bool, bool, float]:
     share = margin.to_spare
     return margin.verdict.status == "pass", share is None, 0.0 if share is None else share
+
+
+def _turns_where(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> str:
+    """Return beyond which values of a definition the verdict changes; empty where that is not known."""
+    stated = verdict.defined(sensitivity.definition)
+    if stated is None:
+        return ""
+    now, unit = in_unit(stated, sensitivity.unit), sensitivity.unit
+    own = next((each for each in sensitivity.intervals if each.first <= now <= each.last), None)
+    if own is None:
+        return ""
+    place, last = sensitivity.intervals.index(own), len(sensitivity.intervals) - 1
+    sides = [
+        *([f"below {quantity(own.first, unit)}"] if place > 0 else []),
+        *([f"above {quantity(own.last, unit)}"] if place < last else []),
+    ]
+    name = sensitivity.definition.replace("_", " ")
+    return f"if the {name} is {' or '.join(sides)} (now {quantity(now, unit)})"
 
 
 def _percent(share: float) -> str:

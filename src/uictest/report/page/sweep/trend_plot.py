@@ -18,12 +18,13 @@ Pixels = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class TrendPoint:
-    """The mean at one value, in pixels; `missed` where a case there did not meet its expectation."""
+    """The mean at one value, in pixels, of `cases`; `missed` where a case there is not as expected."""
 
     x: float
     y: float
     label: str
     missed: bool
+    cases: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,8 @@ class TrendPlot:
     points: Sequence[TrendPoint]
     x_ticks: Sequence[Tick]
     y_ticks: Sequence[Tick]
+    of_cases: str
+    """How many cases every mean is of; empty where that differs, and each point says it."""
     left: int = _LEFT
     right: int = _RIGHT
     top: int = _TOP
@@ -85,9 +88,10 @@ def trend_plot(
         axis_title(trend.parameter, units.pop()) + (", logarithmic" if x.logarithmic else ""),
         _line((x.at(value.at), y.at(value.mean)) for value in values),
         _band(values, x, y) if any(value.cases > 1 for value in values) else "",
-        [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.missed > 0) for v in values],
+        [TrendPoint(x.at(v.at), y.at(v.mean), v.words, v.missed > 0, v.cases) for v in values],
         x.tick_marks(6),
         y.tick_marks(5),
+        f"n = {values[0].cases}" if len({value.cases for value in values}) == 1 else "",
     )
 
 
