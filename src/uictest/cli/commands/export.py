@@ -14,6 +14,7 @@ from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files
+from uictest.files import make_folder
 from uictest.recording import formats as file_formats
 
 
@@ -40,7 +41,7 @@ def export(
     }
     _reject_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
-    output.mkdir(parents=True, exist_ok=True)
+    make_folder(output)
     for (path, name), target in targets.items():
         write = partial(file_formats.writer_of(name), recordings[path], target)
         runs.each_file([path], lambda _, write=write: write())  # type: ignore[misc]

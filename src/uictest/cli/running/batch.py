@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from uictest import recording, report, runs
+from uictest import files, report, runs
 from uictest.cli.output import message
 from uictest.cli.running.display import Display
 from uictest.cli.running.following import TerminalObserver
@@ -60,7 +60,7 @@ def show_index_problem(problem: str) -> None:
 def write_junit(path: Path | None, content: report.RunContent) -> None:
     """Write the file of `--junitxml`, if there is to be one. Raises OSError."""
     if path is not None:
-        recording.write_text_atomic(path, report.junit_xml(content.results, content.baseline, content.series))
+        files.write_to(path, report.junit_xml(content.results, content.baseline, content.series))
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:
