@@ -19,9 +19,10 @@ CHANGING = {
 """Functions and methods that change what is on the disk."""
 
 CHILD = "the temporary folder of a child process, which ends by a signal: whoever ends last removes it"
+SHARED = "a file without a name: the memory that a child shares"
 READER = "a reading process writes into the temporary folder that its parent made for it, and ends"
 EXCEPTIONS = {
-    "rig/external/worker.py": {"TemporaryDirectory": CHILD, "TemporaryFile": "memory shared with a child"},
+    "rig/external/worker.py": {"TemporaryDirectory": CHILD, "TemporaryFile": SHARED, "truncate": SHARED},
     "rig/external/child.py": {"rmtree": CHILD, "fdopen": "a pipe"},
     "recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
     "cli/closed_streams.py": {"open": "the null device in the place of a closed stream"},

@@ -77,9 +77,12 @@ def remove_listed(folder: Path, *patterns: str) -> None:
 def foreign_paths(place: int, *ours: str) -> Iterator[str]:
     """Yield what an open folder holds that its list does not, or that has changed since it was written.
 
-    Links and empty folders count. The list, unfinished files and `ours` belong to uictest. Raises OSError.
+    Links and empty folders count, and so does a list that is missing. The list, unfinished files and `ours`
+    belong to uictest. Raises OSError.
     """
     entries = _entries(place)
+    if entries is None:
+        yield LIST
     own = {*ours, *_folders_of(entries or {}), *([] if entries is None else [LIST])}
     for path, inner, name in _contents(place):
         known = path in own or is_partial(inner, name)

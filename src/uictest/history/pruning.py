@@ -112,8 +112,6 @@ def _why_kept(folder: Path, run: ListedRun, references: Iterable[_Reference], ne
             return "somebody gave it this name, as to a baseline"
     except (OSError, UnreadableError) as error:
         return f"it cannot be read: {error}"
-    if not os.path.lexists(folder / files.LIST):
-        return f"it has no {files.LIST}: an earlier version wrote it"
     return ""
 
 
@@ -140,6 +138,8 @@ def _remove(folder: Path) -> str:
     try:
         files.remove_run(folder.parent, folder.name)
     except files.ForeignFileError as error:
+        if not os.path.lexists(folder / str(error)):
+            return f"it has no {error}: an earlier version wrote it"
         return f"it holds {error}, which uictest did not write"
     except files.FolderInUseError as error:
         return f"it is in use by {error}"
