@@ -31,7 +31,8 @@ def refresh_index(folder: Path) -> str:
     except files.FolderInUseError as error:
         return f"{path} is not refreshed: {folder} is in use by {error}; the next run refreshes it"
     except OSError as error:
-        return f"{path} is not refreshed: {error.strerror or error}"
+        about = "" if error.filename in (None, str(path), str(folder)) else f"{error.filename} "
+        return f"{path} is not refreshed: {about}{error.strerror or error}"
     return ""
 
 
