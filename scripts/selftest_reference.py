@@ -6,7 +6,7 @@ Run it after a change that is meant to change results, and for every release. Th
 is what users will see: say why in the changelog.
 """
 
-from uictest import recording, selftest
+from uictest import files, selftest
 
-recording.write_text_atomic(selftest.REFERENCE, selftest.computed_reference())
+files.write_to(selftest.REFERENCE, selftest.computed_reference())
 print(f"{selftest.REFERENCE.name}: written")

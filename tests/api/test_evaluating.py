@@ -12,9 +12,9 @@ import pytest
 
 import uictest
 from uictest import evaluation
+from uictest.files import latest_run
 from uictest.recording import write_parquet
 from uictest.recording.formats import writer_of
-from uictest.report import latest_run
 
 Write = Callable[..., Path]
 Command = Callable[..., int]

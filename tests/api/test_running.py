@@ -15,7 +15,8 @@ import pytest
 import uictest
 from uictest import campaign, evaluation, recording
 from uictest.campaign import batch
-from uictest.report import latest_run, read_run
+from uictest.files import latest_run
+from uictest.report import read_run
 
 Write = Callable[..., Path]
 Command = Callable[..., int]

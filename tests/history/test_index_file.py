@@ -12,8 +12,8 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
-from uictest import recording
-from uictest.folder_lock import FolderLock
+from uictest import files
+from uictest.files import FolderLock
 from uictest.history import index_file, refresh_index
 
 from .conftest import Publish, case, part
@@ -146,13 +146,13 @@ def test_an_index_waits_for_the_one_that_is_being_written(
     """The second starts to read only when the first has written: neither can miss the other's run."""
     publish()
     order: list[str] = []
-    write = recording.write_text_atomic
+    write = files.write
 
-    def noted(path: Path, text: str) -> None:
+    def noted(path: Path, name: str, text: str) -> None:
         order.append("written")
-        write(path, text)
+        write(path, name, text)
 
-    monkeypatch.setattr(recording, "write_text_atomic", noted)
+    monkeypatch.setattr(files, "write", noted)
     second = threading.Thread(target=refresh_index, args=(reports,))
     with FolderLock(reports):
         second.start()
@@ -174,7 +174,7 @@ def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(
 AT_ONCE = """
 import sys
 from pathlib import Path
-from uictest import evaluation, report, runs
+from uictest import evaluation, files, report, runs
 for n in range(4):
     result = evaluation.CaseResult(f"case-{sys.argv[1]}-{n}", "s.yaml", {}, "pass", "pass")
     manifest = report.RunManifest(command=("uictest", "run", sys.argv[1], str(n)))

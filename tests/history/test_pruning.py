@@ -1,14 +1,15 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest import report
-from uictest.folder_lock import FolderLock
-from uictest.history import foreign_file, prune
+from uictest import files, report
+from uictest.files import FolderLock
+from uictest.history import prune
 
 from .conftest import Publish, case
 
@@ -150,8 +151,7 @@ def test_a_file_is_known_by_its_content_where_its_path_no_longer_leads_to_it(
 ) -> None:
     source, alike = publish(), publish()
     for run in (source, alike):
-        (run / "recordings").mkdir()
-        (run / "recordings" / name).write_text(run.name)
+        files.write(run, f"recordings/{name}", run.name)
     digest = hashlib.sha256(source.name.encode()).hexdigest()
     newest = publish(inputs={f"{given}/{name}": digest})
     assert fates(reports, 1, newest) == {alike.name: "", source.name: f"{newest.name} refers to it"}
@@ -230,10 +230,10 @@ def test_a_removal_that_fails_is_a_reason(
 ) -> None:
     old, newest = publish(), publish()
 
-    def refuse(*_: object) -> None:
+    def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "rename", refuse)
+    monkeypatch.setattr(os, "rename", refuse)
     assert fates(reports, 1, newest) == {old.name: "it cannot be removed: Permission denied"}
     assert (old / "results.json").is_file()
 
@@ -248,7 +248,7 @@ def test_a_removal_cut_short_is_completed_by_the_next_run(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr("uictest.history.pruning.shutil.rmtree", stop)
+        patched.setattr("uictest.files.run_folder.remove_contents", stop)
         with pytest.raises(KeyboardInterrupt):
             fates(reports, 1, newest)
     assert not old.exists()
@@ -257,22 +257,70 @@ def test_a_removal_cut_short_is_completed_by_the_next_run(
     assert list(reports.glob(".*.partial")) == []
 
 
-def test_uictest_knows_every_file_that_it_writes(publish: Publish) -> None:
-    run = publish(case("a"), formats=tuple(report.format_names()))
-    (run / "recordings").mkdir()
-    (run / "recordings" / "slip-120[friction=0.09].parquet").write_bytes(b"")
-    assert foreign_file(run) == ""
+def test_every_file_of_a_run_is_listed(publish: Publish, reports: Path) -> None:
+    old = publish(case("a"), formats=tuple(report.format_names()))
+    files.write(old, "recordings/slip-120[friction=0.09].parquet", b"")
+    assert fates(reports, 1, publish()) == {old.name: ""}
 
 
-@pytest.mark.parametrize("name", ["notes.csv", "recordings/a/b.parquet", "index.html.bak", "sub/run.json"])
-def test_a_file_that_it_does_not_write_is_found(publish: Publish, name: str) -> None:
-    run = publish()
-    (run / name).parent.mkdir(parents=True, exist_ok=True)
-    (run / name).write_text("")
-    assert foreign_file(run) == name
+@pytest.mark.parametrize(
+    "name",
+    [
+        "notes.csv",
+        "recordings/a/b.parquet",
+        "index.html.bak",
+        "sub/run.json",
+        "recordings/track-test.parquet",
+    ],
+)
+def test_a_file_that_is_not_listed_stays_whatever_its_name(
+    publish: Publish, reports: Path, name: str
+) -> None:
+    """Files of the user were removed that had a name which uictest gives as well."""
+    old, newest = publish(), publish()
+    (old / name).parent.mkdir(parents=True, exist_ok=True)
+    (old / name).write_text("mine")
+    before = sorted(old.rglob("*"))
+    assert fates(reports, 1, newest) == {old.name: f"it holds {name}, which uictest did not write"}
+    assert sorted(old.rglob("*")) == before
 
 
-def test_an_empty_folder_is_not_of_uictest_either(publish: Publish) -> None:
-    run = publish()
-    (run / "mine").mkdir()
-    assert foreign_file(run) == "mine"
+@pytest.mark.parametrize("name", ["summary.csv", "manifest.json", "junit.xml"])
+def test_a_file_that_has_changed_stays(publish: Publish, reports: Path, name: str) -> None:
+    old, newest = publish(), publish()
+    with (old / name).open("a") as file:
+        file.write("\n")
+    assert fates(reports, 1, newest) == {old.name: f"it holds {name}, which uictest did not write"}
+    assert (old / name).is_file()
+
+
+@pytest.mark.parametrize("made", ["mine", "recordings"])
+def test_an_empty_folder_is_not_of_uictest_either(publish: Publish, reports: Path, made: str) -> None:
+    old, newest = publish(), publish()
+    (old / made).mkdir()
+    assert fates(reports, 1, newest) == {old.name: f"it holds {made}, which uictest did not write"}
+
+
+def test_a_run_without_a_list_stays(publish: Publish, reports: Path) -> None:
+    old, newest = publish(), publish()
+    (old / files.LIST).unlink()
+    assert fates(reports, 1, newest) == {old.name: "it has no SHA256SUMS: an earlier version wrote it"}
+    (old / files.LIST).write_text("a list of the user's\n")
+    found = fates(reports, 1, newest)[old.name]
+    assert found == "it holds SHA256SUMS, which uictest did not write"
+
+
+def test_what_comes_while_a_run_is_removed_stays_under_its_name(
+    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old, newest = publish(), publish()
+    rename = os.rename
+
+    def written_first(path: str, *arguments: str, **places: int) -> None:
+        monkeypatch.setattr(os, "rename", rename)
+        (old / "notes.txt").write_text("mine")
+        rename(path, *arguments, **places)
+
+    monkeypatch.setattr(os, "rename", written_first)
+    assert fates(reports, 1, newest) == {old.name: "it holds notes.txt, which uictest did not write"}
+    assert (old / "notes.txt").read_text() == "mine"

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import uictest
-from uictest import report
+from uictest import files
 
 from .conftest import SCENARIO, SHORT_STOPS, Run, Write
 
@@ -47,7 +47,7 @@ def test_they_are_those_of_the_command(run: Run, workers: list[str]) -> None:
     assert sorted(path.name for path in Path(place).rglob("*")) == sorted(
         path.name for path in folder.rglob("*")
     )
-    assert report.latest_run(Path("out")) == Path(place).resolve()
+    assert files.latest_run(Path("out")) == Path(place).resolve()
 
 
 @pytest.mark.usefixtures("project")

@@ -14,8 +14,6 @@ import pytest
 from uictest import user_cache
 from uictest.user_cache import turns
 
-fcntl = pytest.importorskip("fcntl", reason="nobody waits on Windows")
-
 INPUTS = b"sources"
 MAKER = """
 import sys
@@ -56,24 +54,6 @@ def test_the_others_wait_and_find_the_content(root: Path) -> None:
             maker.communicate()
         assert [reading.result() for reading in readings] == [b"made", b"made"]
     assert len(list(root.iterdir())) == 1, "only the content is left"
-
-
-def test_a_lock_that_was_removed_meanwhile_is_nobodys_turn(root: Path) -> None:
-    """The last holder removes its file before it lets go; whoever comes between makes a new one."""
-    user_cache.write("code", INPUTS, b"old")
-    (content,) = root.iterdir()
-    lock = Path(f"{content}.lock")
-    with ThreadPoolExecutor(1) as threads:
-        last = lock.open("w")
-        fcntl.flock(last, fcntl.LOCK_EX)
-        reading = threads.submit(read_in_turn)
-        assert not has_come_back(reading)
-        lock.unlink()
-        with another_process() as maker:
-            last.close()
-            assert not has_come_back(reading)
-            maker.communicate()
-        assert reading.result() == b"made"
 
 
 def test_other_content_is_not_waited_for(root: Path) -> None:

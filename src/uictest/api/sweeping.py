@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Literal
 
-from uictest import history, runs, sweeps
+from uictest import files, history, runs, sweeps
 from uictest.api.arguments import (
     PathName,
     Trusted,
@@ -91,8 +90,8 @@ def sweep(
 
     if output is not None:
         return _finished(run_in(Path(output), _FORMATS), keep=True)
-    with TemporaryDirectory() as folder:
-        return _finished(run_in(Path(folder), ()), keep=False)
+    with files.temporary_folder() as folder:
+        return _finished(run_in(folder, ()), keep=False)
 
 
 def _finished(run: runs.SweepRun, *, keep: bool) -> SweepResults:

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import comparison, recording, report, runs
+from uictest import comparison, files, report, runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
@@ -25,7 +25,7 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
         for line in comparison.variants_lines(compared, terminal_width(sys.stdout)):
             data(line)
     if page is not None:
-        recording.write_text_atomic(page, comparison.variants_html(run.name, compared))
+        files.write_to(page, comparison.variants_html(run.name, compared))
     groups = sum(len(each.groups) for each in compared)
     counts = report.counted(groups, "group of stops", "groups of stops")
     message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")

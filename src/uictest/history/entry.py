@@ -21,7 +21,7 @@ from pydantic import (
     ValidationError,
 )
 
-from uictest import evaluation, recording, report
+from uictest import evaluation, files, report
 from uictest.history.checked_file import first_problem
 
 ENTRY: Final = "index-entry.json"
@@ -101,7 +101,7 @@ def entry_of(content: report.RunContent, results_bytes: int) -> RunEntry:
 def write_entry(folder: Path, content: report.RunContent) -> None:
     """Write the entry of a run beside its results.json. Raises OSError."""
     entry = entry_of(content, (folder / report.RESULTS).stat().st_size)
-    recording.write_text_atomic(folder / ENTRY, _written(entry).model_dump_json(by_alias=True) + "\n")
+    files.write(folder, ENTRY, _written(entry).model_dump_json(by_alias=True) + "\n")
 
 
 def read_entry(text: bytes, *, with_cases: bool = True) -> RunEntry:

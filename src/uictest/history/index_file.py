@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import Final
 
-from uictest import recording, report
-from uictest.folder_lock import FolderInUseError, FolderLock
+from uictest import files, report
 from uictest.history.entry import encodable
 from uictest.history.listing import list_runs
 from uictest.history.page import MARK, index_html
@@ -15,8 +13,6 @@ from uictest.history.page import MARK, index_html
 INDEX: Final = "index.html"
 _PATIENCE: Final = 10.0
 """How long another process may take to write the index, s."""
-_PAUSE: Final = 0.05
-"""s"""
 
 
 def refresh_index(folder: Path) -> str:
@@ -29,28 +25,17 @@ def refresh_index(folder: Path) -> str:
     try:
         if not is_own_index(path):
             return f"{path} is no index of runs: it is left as it is, and there is no list of the runs here"
-        with _lock(folder):
+        with files.FolderLock(folder, patience=_PATIENCE):
             page = index_html(folder.resolve().name or str(folder), list_runs(folder))
-            recording.write_text_atomic(path, encodable(page))
-    except FolderInUseError as error:
+            files.write(folder, INDEX, encodable(page))
+    except files.FolderInUseError as error:
         return f"{path} is not refreshed: {folder} is in use by {error}; the next run refreshes it"
     except OSError as error:
-        return f"{path} is not refreshed: {error.strerror or error}"
+        about = "" if error.filename in (None, str(path), str(folder)) else f"{error.filename} "
+        return f"{path} is not refreshed: {about}{error.strerror or error}"
     return ""
 
 
 def is_own_index(path: Path) -> bool:
     """Return whether a file is an index, or there is none. Raises OSError."""
     return report.may_replace(path, MARK)
-
-
-def _lock(folder: Path) -> FolderLock:
-    """Return the lock of the folder; wait for it. Raises FolderInUseError, OSError."""
-    end = time.monotonic() + _PATIENCE
-    while True:
-        try:
-            return FolderLock(folder)
-        except FolderInUseError:
-            if time.monotonic() > end:
-                raise
-        time.sleep(_PAUSE)

@@ -5,17 +5,14 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import shutil
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from uictest import report
-from uictest.folder_lock import FolderInUseError, FolderLock
+from uictest import files
 from uictest.history.checked_file import UnreadableError
 from uictest.history.listing import list_runs
-from uictest.history.own_files import foreign_file
 from uictest.history.run_in_folder import Kind, ListedRun, started_in
 
 
@@ -113,10 +110,9 @@ def _why_kept(folder: Path, run: ListedRun, references: Iterable[_Reference], ne
             return "another process wrote it after this run"
         if started_in(folder.name) is None:
             return "somebody gave it this name, as to a baseline"
-        foreign = foreign_file(folder)
     except (OSError, UnreadableError) as error:
         return f"it cannot be read: {error}"
-    return f"it holds {foreign}, which uictest did not write" if foreign else ""
+    return ""
 
 
 def _of_links(parent: Path) -> Iterator[_Reference]:
@@ -125,7 +121,7 @@ def _of_links(parent: Path) -> Iterator[_Reference]:
         if path.is_symlink():
             yield _Reference(f"the link {path.name}", path)
     with contextlib.suppress(OSError, ValueError, RuntimeError):  # a link to itself is a RuntimeError
-        if latest := report.latest_run(parent):
+        if latest := files.latest_run(parent):
             yield _Reference("latest", latest)
 
 
@@ -138,21 +134,15 @@ def _of_run(run: ListedRun) -> list[_Reference]:
 
 
 def _remove(folder: Path) -> str:
-    """Remove a folder; return why that was not possible, empty if it was.
-
-    It gets a hidden name first: should the removal be cut short, the next run removes the rest.
-    """
+    """Remove a folder; return why that was not possible, empty if it was."""
     try:
-        lock = FolderLock(folder)
-    except FolderInUseError as error:
+        files.remove_run(folder.parent, folder.name)
+    except files.ForeignFileError as error:
+        if not os.path.lexists(folder / str(error)):
+            return f"it has no {error}: an earlier version wrote it"
+        return f"it holds {error}, which uictest did not write"
+    except files.FolderInUseError as error:
         return f"it is in use by {error}"
     except OSError as error:
-        return f"it cannot be locked: {error.strerror or error}"
-    try:
-        hidden = folder.rename(folder.parent / f".{folder.name}.{os.urandom(4).hex()}.partial")
-        shutil.rmtree(hidden)
-    except OSError as error:
         return f"it cannot be removed: {error.strerror or error}"
-    finally:
-        lock.release()
     return ""

@@ -1,11 +1,10 @@
-from .atomic import (
-    atomic_path as atomic_path,
-    write_bytes_atomic as write_bytes_atomic,
-    write_text_atomic as write_text_atomic,
-)
 from .contents import Contents as Contents, Group as Group, Samples as Samples
 from .conversion import recording_of as recording_of
-from .parquet import read_parquet as read_parquet, write_parquet as write_parquet
+from .parquet import (
+    parquet_bytes as parquet_bytes,
+    read_parquet as read_parquet,
+    write_parquet as write_parquet,
+)
 from .plausibility import (
     LARGEST as LARGEST,
     Implausible as Implausible,

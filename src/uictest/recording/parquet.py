@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from uictest.recording.atomic import atomic_path
+from uictest import files
 from uictest.recording.recording import Recording
 
 if TYPE_CHECKING:
@@ -18,12 +19,17 @@ _SCHEMA, _UNITS, _METADATA, _UNIT = b"uictest.schema", b"uictest.units", b"uicte
 
 
 def write_parquet(recording: Recording, path: Path) -> None:
-    """Write a recording, whole or not at all. The same recording gives the same bytes. Raises OSError."""
+    """Write a recording, whole or not at all. Raises OSError."""
+    files.write_to(path, parquet_bytes(recording))
+
+
+def parquet_bytes(recording: Recording) -> bytes:
+    """Return a recording as a Parquet file: the same recording gives the same bytes."""
     import pyarrow.parquet as pq
 
-    table = _table(recording)
-    with atomic_path(path) as temporary:
-        pq.write_table(table, temporary, compression="zstd")
+    content = io.BytesIO()
+    pq.write_table(_table(recording), content, compression="zstd")
+    return content.getvalue()
 
 
 def read_parquet(path: Path) -> Recording:

@@ -65,7 +65,6 @@ from .run_contents import (
     run_content as run_content,
     with_recorded_traces as with_recorded_traces,
 )
-from .run_folder import RunFolder as RunFolder, latest_run as latest_run, point_latest as point_latest
 from .run_report import (
     RESULTS as RESULTS,
     run_name as run_name,

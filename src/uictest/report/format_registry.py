@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Final
 
-from uictest import recording
+from uictest import files
 from uictest.report import formats
 from uictest.report.content import RunContent
 
@@ -46,7 +46,7 @@ def write_formats(folder: Path, content: RunContent, names: Iterable[str]) -> li
     return [path for name in names for path in _write(folder, format_named(name).files(content))]
 
 
-def _write(folder: Path, files: Mapping[str, bytes]) -> list[Path]:
-    for name, content in files.items():
-        recording.write_bytes_atomic(folder / name, content)
-    return [folder / name for name in files]
+def _write(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
+    for name, content in contents.items():
+        files.write(folder, name, content)
+    return [folder / name for name in contents]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Literal
 
-from uictest import evaluation
+from uictest import evaluation, files
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.difference import Difference
 from uictest.report.escaping import workflow_message, workflow_property
@@ -70,5 +70,4 @@ def append_to_step_summary(summary: Callable[[int], str]) -> None:
         return
     path = Path(place)
     written = path.stat().st_size if path.exists() else 0
-    with path.open("a", encoding="utf-8") as file:
-        file.write(summary(max(LIMIT - written, _ALWAYS)))
+    files.append(path, summary(max(LIMIT - written, _ALWAYS)))

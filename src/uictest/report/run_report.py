@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from uictest import evaluation, recording, series
+from uictest import evaluation, files, recording, series
 from uictest.report.content import RunContent
 from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats
@@ -32,7 +32,7 @@ def write_reports(folder: Path, content: RunContent) -> str:
         RESULTS: document,
     }
     for name, text in texts.items():
-        recording.write_text_atomic(folder / name, text)
+        files.write(folder, name, text)
     write_formats(folder, content, IN_EVERY_RUN)
     return document
 
@@ -61,6 +61,5 @@ def write_recording(folder: Path, case_id: str, samples: recording.Recording) ->
     Raises OSError.
     """
     path = recording_path(folder, case_id)
-    path.parent.mkdir(exist_ok=True)
-    recording.write_parquet(samples, path)
+    files.write(folder, path.relative_to(folder).as_posix(), recording.parquet_bytes(samples))
     return path

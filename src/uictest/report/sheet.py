@@ -5,12 +5,12 @@ from __future__ import annotations
 import contextlib
 import io
 import itertools
-import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
+from uictest import files
 from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
 from uictest.report.sheet_columns import NUMBER_FORMATS, SheetColumn, sheet_column
@@ -65,9 +65,9 @@ def open_workbook(target: io.BytesIO, *, streaming: bool = False) -> Iterator[Wo
     from xlsxwriter import Workbook
     from xlsxwriter.exceptions import FileCreateError
 
-    folder = tempfile.TemporaryDirectory(prefix="uictest-") if streaming else contextlib.nullcontext()
+    folder = files.temporary_folder() if streaming else contextlib.nullcontext()
     with folder as rows:
-        memory = {"constant_memory": True, "tmpdir": rows} if streaming else {"in_memory": True}
+        memory = {"constant_memory": True, "tmpdir": str(rows)} if streaming else {"in_memory": True}
         workbook = Workbook(target, _AS_WRITTEN | memory)
         # A clock in the file would make two workbooks of the same results differ.
         workbook.set_properties({"created": _EPOCH})

@@ -6,10 +6,11 @@ import os
 import platform
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
+
+from uictest import files
 
 _SOURCES: Final = Path(__file__).parent / "source"
 _FLAGS: Final = (
@@ -57,18 +58,18 @@ def library(compiler: str, fmi_source: str, case_header: str, code: bytes) -> by
 
     Raises RuntimeError with what the compiler says.
     """
-    files = {name: (_SOURCES / name).read_bytes() for name in ("rig.h", "rig.c", fmi_source)}
-    files |= {"case.h": case_header.encode(), "code.o": code}
-    return link(compiler, files, [fmi_source, "rig.c", "code.o", "-lm"])
+    sources = {name: (_SOURCES / name).read_bytes() for name in ("rig.h", "rig.c", fmi_source)}
+    sources |= {"case.h": case_header.encode(), "code.o": code}
+    return link(compiler, sources, [fmi_source, "rig.c", "code.o", "-lm"])
 
 
-def link(compiler: str, files: Mapping[str, bytes], inputs: Sequence[str]) -> bytes:
+def link(compiler: str, sources: Mapping[str, bytes], inputs: Sequence[str]) -> bytes:
     """Return the shared library made of some of these files. Raises RuntimeError."""
-    with tempfile.TemporaryDirectory(prefix="uictest-") as folder:
-        for name, content in files.items():
-            Path(folder, name).write_bytes(content)
+    with files.temporary_folder() as folder:
+        for name, content in sources.items():
+            files.write(folder, name, content)
         command = [compiler, *_FLAGS, "-o", "library.so", *inputs]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stderr.strip() or f"exit code {done.returncode}")
-        return Path(folder, "library.so").read_bytes()
+        return (folder / "library.so").read_bytes()

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-from uictest import history, recording, report
+from uictest import files, history, recording, report
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
 
@@ -22,7 +22,7 @@ class Published:
         content: what the reports show.
         document: the text of results.json.
         interrupted: whether an interrupt ended the run.
-        index_problem: why the index of all runs was not written; empty if it was.
+        index_problem: why the index of all runs or `latest` was not written; empty if both were.
 
     """
 
@@ -52,8 +52,7 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
             return None
         document = _write(folder.path, run.content, formats)
         place = folder.publish()
-    report.point_latest(place)
-    return Published(place, run.content, document, run.interrupted, history.refresh_index(output))
+    return Published(place, run.content, document, run.interrupted, _index(place))
 
 
 def publish_run(
@@ -69,12 +68,16 @@ def publish_run(
         named = replace(content, name=folder.name)
         document = _write(folder.path, named, formats)
         place = folder.publish()
-    report.point_latest(place)
-    return Published(place, named, document, index_problem=history.refresh_index(output))
+    return Published(place, named, document, index_problem=_index(place))
 
 
-def _folder(output: Path, manifest: report.RunManifest) -> report.RunFolder:
-    return report.RunFolder(output, report.run_name(datetime.now(UTC), manifest))
+def _index(place: Path) -> str:
+    """Name the newest run, and renew the list of all; return what was left as it is. Raises OSError."""
+    return "; ".join(filter(None, [files.point_latest(place), history.refresh_index(place.parent)]))
+
+
+def _folder(output: Path, manifest: report.RunManifest) -> files.RunFolder:
+    return files.RunFolder(output, report.run_name(datetime.now(UTC), manifest))
 
 
 def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> str:

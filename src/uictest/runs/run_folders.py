@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uictest import report, sweeps
+from uictest import files, report, sweeps
 
 
 def holds_sweep(folder: Path) -> bool:
@@ -30,5 +30,5 @@ def why_no_run(folder: Path) -> str:
 def run_folder(place: Path) -> Path:
     """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
     if place.name == "latest" and not place.is_dir():
-        return report.latest_run(place.parent) or place
+        return files.latest_run(place.parent) or place
     return place

@@ -3,12 +3,11 @@
 import os
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from uictest import rig, scenario, templates
+from uictest import files, rig, scenario, templates
 from uictest.selftest.check import NotCheckedError
 
 # As the Makefile of the template has them.
@@ -26,11 +25,11 @@ def c_stop() -> rig.SimulatedStop:
 
 
 def _stop(language: templates.Language, build: Callable[[Path], None]) -> rig.SimulatedStop:
-    with tempfile.TemporaryDirectory(prefix="uictest-") as folder:
+    with files.temporary_folder() as folder:
         for name, content in templates.controller_files(language).items():
-            Path(folder, name).write_text(content, "utf-8")
-        build(Path(folder))
-        (case,) = scenario.load([Path(folder, "slip-120.yaml")])
+            files.write(folder, name, content)
+        build(folder)
+        (case,) = scenario.load([folder / "slip-120.yaml"])
         return rig.simulate(case)
 
 

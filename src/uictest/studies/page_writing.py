@@ -6,8 +6,7 @@ from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
-from uictest import report
-from uictest.recording import write_text_atomic
+from uictest import files, report
 from uictest.studies.page import STUDIES_MARK, STUDY_MARK, StudyFigure, studies_html, study_html
 from uictest.studies.study import Study, StudyResult
 
@@ -37,14 +36,14 @@ def write_pages(
 
     """
     pages = [
-        (folder / each.study.name / _PAGE, STUDY_MARK, _study_page(folder, each, arguments, drawn))
+        (f"{each.study.name}/{_PAGE}", STUDY_MARK, _study_page(folder, each, arguments, drawn))
         for each in results
     ]
     names = {each.study.name for each in results}
     earlier = [study for study in known if study.name not in names and _has_page(folder / study.name)]
     manifest = report.run_manifest(arguments, None, {}, 0)
-    pages.append((folder / _PAGE, STUDIES_MARK, studies_html(results, earlier, manifest)))
-    return [problem for page in pages for problem in _write(*page)]
+    pages.append((_PAGE, STUDIES_MARK, studies_html(results, earlier, manifest)))
+    return [problem for page in pages for problem in _write(folder, *page)]
 
 
 def _study_page(folder: Path, result: StudyResult, arguments: Sequence[str], drawn: Collection[Path]) -> str:
@@ -64,10 +63,10 @@ def _has_page(place: Path) -> bool:
     return (place / _PAGE).is_file()
 
 
-def _write(path: Path, mark: str, page: str) -> Iterator[str]:
+def _write(folder: Path, name: str, mark: str, page: str) -> Iterator[str]:
     """Write a page; yield why not, where it is not ours."""
-    if report.may_replace(path, mark):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_text_atomic(path, page)
+    if report.may_replace(folder / name, mark):
+        files.make_folder(folder)
+        files.write(folder, name, page)
     else:
-        yield f"{path} is a page of something else: it is left as it is"
+        yield f"{folder / name} is a page of something else: it is left as it is"

@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest.recording import atomic_path, write_text_atomic
+from uictest import files
 from uictest.studies.comparison import comparison_table
 from uictest.studies.document import document
 from uictest.studies.figures.style import RC
@@ -16,20 +16,18 @@ from uictest.studies.study import Drawing, StudyResult, Table
 
 def write_tables(folder: Path, result: StudyResult) -> list[Path]:
     """Write the tables of a study into its folder below `folder`, and return the files. Raises OSError."""
-    place = _place(folder, result)
-    written = []
-    for name, table in result.findings.tables.items():
-        path = place / f"{name}.csv"
-        write_text_atomic(path, table_text(table))
-        written.append(path)
-    return written
+    files.make_folder(folder)
+    tables = {f"{result.study.name}/{name}.csv": table for name, table in result.findings.tables.items()}
+    for name, table in tables.items():
+        files.write(folder, name, table_text(table))
+    return [folder / name for name in tables]
 
 
 def write_comparison(folder: Path, results: Sequence[StudyResult]) -> None:
     """Write the comparison with the paper into `comparison.csv` and `studies.json`. Raises OSError."""
-    folder.mkdir(parents=True, exist_ok=True)
-    write_text_atomic(folder / "comparison.csv", table_text(comparison_table(results)))
-    write_text_atomic(folder / "studies.json", document(results) + "\n")
+    files.make_folder(folder)
+    files.write(folder, "comparison.csv", table_text(comparison_table(results)))
+    files.write(folder, "studies.json", document(results) + "\n")
 
 
 def write_figures(folder: Path, result: StudyResult) -> list[Path]:
@@ -39,12 +37,12 @@ def write_figures(folder: Path, result: StudyResult) -> list[Path]:
     """
     import matplotlib as mpl
 
-    place = _place(folder, result)
+    files.make_folder(folder)
     with mpl.rc_context(RC):
         return [
             path
             for name, drawing in result.findings.drawings.items()
-            for path in _draw(drawing, place / name)
+            for path in _draw(drawing, folder, f"{result.study.name}/{name}")
         ]
 
 
@@ -61,21 +59,14 @@ def _cell(value: object) -> str:
     return "" if value is None or value != value else str(value)
 
 
-def _place(folder: Path, result: StudyResult) -> Path:
-    place = folder / result.study.name
-    place.mkdir(parents=True, exist_ok=True)
-    return place
-
-
-def _draw(drawing: Drawing, path: Path) -> list[Path]:
+def _draw(drawing: Drawing, folder: Path, name: str) -> list[Path]:
     from matplotlib.figure import Figure
 
     figure = Figure(layout="constrained")
     drawing(figure)
-    written = [path.with_name(f"{path.name}.{suffix}") for suffix in ("svg", "png")]
-    for each in written:
+    for suffix in ("svg", "png"):
+        content = io.BytesIO()
         # A date would make every SVG differ from the one before it.
-        metadata = {"Date": None} if each.suffix == ".svg" else None
-        with atomic_path(each) as temporary:
-            figure.savefig(temporary, metadata=metadata)
-    return written
+        figure.savefig(content, format=suffix, metadata={"Date": None} if suffix == "svg" else None)
+        files.write(folder, f"{name}.{suffix}", content.getvalue())
+    return [folder / f"{name}.{suffix}" for suffix in ("svg", "png")]

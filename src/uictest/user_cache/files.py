@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from uictest.recording import atomic_path
+from uictest import files
 from uictest.user_cache.folders import is_trusted, make_private, roots, why_unsafe
 
 _DIGEST_SIZE = hashlib.sha256().digest_size
@@ -39,7 +39,7 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
     """Cache content for :func:`read` in the first writable folder; warn once if there is none."""
     for folder in safe_folders(make=True):
         try:
-            _replace(folder / name_of(kind, inputs), _digest(inputs, content) + content)
+            files.write(folder, name_of(kind, inputs), _digest(inputs, content) + content, private=True)
         except OSError as error:
             _warn(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
         else:
@@ -80,11 +80,6 @@ def _bytes_of(path: Path) -> bytes:
         if not (stat.S_ISREG(status.st_mode) and is_trusted(status)):
             raise PermissionError(f"{path} is not a file of this user alone")
         return file.read()
-
-
-def _replace(path: Path, content: bytes) -> None:
-    with atomic_path(path, private=True) as temporary:
-        temporary.write_bytes(content)
 
 
 @cache

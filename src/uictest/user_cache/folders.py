@@ -10,6 +10,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from uictest import files
+
 _BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _SYSTEM = 0
 """User id of the system's administrator."""
@@ -26,8 +28,7 @@ def roots() -> Iterator[Path]:
 
 def make_private(folder: Path) -> None:
     """Create a folder and its missing parents for this user alone. Raises OSError."""
-    for place in reversed([place for place in (folder, *folder.parents) if not place.exists()]):
-        place.mkdir(mode=0o700, exist_ok=True)
+    files.make_folder(folder, mode=0o700)
 
 
 def why_unsafe(folder: Path) -> str:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import comparison, recording, runs
+from uictest import comparison, files, recording, runs
 from uictest.cli.compared_variants import compare_variants
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
@@ -66,7 +66,7 @@ def compare(
         ):
             data(line)
     if page is not None:
-        recording.write_text_atomic(page, comparison.comparison_html(compared))
+        files.write_to(page, comparison.comparison_html(compared))
         for line in compared.undrawn:
             message(f"uictest: not drawn: {line}")
     message(f"uictest: {comparison.verdict_line(compared)}")

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Final
 
 import typer
 
-from uictest import conformance, recording, scenario
+from uictest import conformance, files, scenario
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
@@ -75,7 +75,7 @@ def check(
     else:
         data("\n".join(conformance.finding_table(examination, terminal_width(sys.stdout))))
     if file is not None:
-        recording.write_text_atomic(file, conformance.junit_xml(examination))
+        files.write_to(file, conformance.junit_xml(examination))
     return _CODES.get(examination.status, ExitCode.MET)
 
 

@@ -14,6 +14,7 @@ from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files
+from uictest.files import make_folder
 from uictest.recording import formats as file_formats
 
 _BY_SUFFIX: Final = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
@@ -48,7 +49,7 @@ def export(
     _reject_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
     for folder in {target.parent for target in targets.values()}:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
     for (path, name), target in targets.items():
         write = partial(file_formats.writer_of(name), recordings[path], target)
         runs.each_file([path], lambda _, write=write: write())  # type: ignore[misc]

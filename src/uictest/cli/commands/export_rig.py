@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import recording, rig_fmu, runs, scenario
+from uictest import files, rig_fmu, runs, scenario
 from uictest.cli.cases import case_lines, select_by_options
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
@@ -61,7 +61,7 @@ def export_rig(
             f"note: {case.id}: `repeat` plays no part; the parameter `seed` of the FMU begins other stops"
         )
     content = _built(case, version)
-    recording.write_bytes_atomic(output, content)
+    files.write_to(output, content)
     data(str(output))
     return ExitCode.MET
 

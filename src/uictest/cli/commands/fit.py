@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import controllers, field_data, fitting, recording, report, rig, runs, scenario as scenarios
+from uictest import controllers, field_data, files, fitting, report, rig, runs, scenario as scenarios
 from uictest.cli import options, recordings
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, message
@@ -191,13 +191,13 @@ def _covered(fitted: _FittedStops) -> str:
 def _publish(fitted: _FittedStops, arguments: Sequence[str], output: Path) -> Path:
     """Write the fitted scenarios, simulate them, and write how well they agree; return the folder."""
     manifest = report.run_manifest(arguments, None, fitted.case.inputs, 1)
-    with report.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), manifest)}") as folder:
+    with files.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         agreements = [
             _write_stop(fitted, name, fit, folder.path)
             for name, fit in zip(fitted.stops, fitted.fits, strict=True)
         ]
         document = _document(fitted, agreements)
-        recording.write_text_atomic(folder.path / "fit.json", json.dumps(document, indent=2) + "\n")
+        files.write(folder.path, "fit.json", json.dumps(document, indent=2) + "\n")
         return folder.publish()
 
 
@@ -214,8 +214,8 @@ def _write_stop(fitted: _FittedStops, name: str, fit: fitting.Fit, folder: Path)
     simulated = _simulated(scenario, [fitted.path.parent, *fitted.trusted])
     recorded, suffix = fitted.stops[name], fitted.suffix(name)
     both = fitting.overlay(recorded, simulated)
-    formats.writer_of("csv")(both, folder / f"overlay{suffix}.csv")
-    recording.write_text_atomic(folder / f"overlay{suffix}.svg", report.overlay_svg(both))
+    files.write(folder, f"overlay{suffix}.csv", formats.encoded(both, "csv"))
+    files.write(folder, f"overlay{suffix}.svg", report.overlay_svg(both))
     agreement = fitting.agreement(recorded, simulated, both)
     data(f"{name}: {agreement}" if suffix else str(agreement))
     return agreement
@@ -234,7 +234,7 @@ def _write_scenario(fitted: _FittedStops, name: str, fit: fitting.Fit, folder: P
         )
     except ValueError as error:
         raise runs.InvalidInputError(f"{error}") from error
-    recording.write_text_atomic(path, text)
+    files.write(folder, path.name, text)
     return path
 
 

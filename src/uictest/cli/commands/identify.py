@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from uictest import field_data, identification, library, recording, runs, scenario
+from uictest import field_data, files, identification, library, runs, scenario
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.identify_options import (
     ActingTime,
@@ -280,5 +280,5 @@ def _write(output: Path, record: Path, text: str) -> None:
         raise runs.InvalidInputError(
             f"{record}: nothing written, since the identified numbers fit no caliper\n{errors}"
         ) from errors
-    recording.write_text_atomic(output, text)
+    files.write_to(output, text)
     message(f"uictest: wrote {output}")

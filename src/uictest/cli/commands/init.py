@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from uictest import recording, report, runs, templates
+from uictest import files, report, runs, templates
 from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
@@ -92,10 +93,10 @@ def _write_controller(folder: Path, language: templates.Language, *build: str) -
 
 def _write_new(texts: dict[Path, str]) -> None:
     """Write files. Raises InvalidInputError, and writes none, where one of them exists."""
-    existing = [path for path in texts if path.exists()]
+    existing = [path for path in texts if os.path.lexists(path)]
     if existing:
         raise runs.InvalidInputError(f"already there: {', '.join(map(str, existing))}")
     for path, text in texts.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        recording.write_text_atomic(path, text)
+        files.make_folder(path.parent)
+        files.write_to(path, text)
     message(f"uictest: wrote {', '.join(map(str, texts))}")

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import report as reports, runs
+from uictest import files, report as reports, runs
 from uictest.cli.cases import malformed
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Draw, Verbosity, report_formats
@@ -65,7 +65,7 @@ def _write_run(folder: Path, place: Path, names: Sequence[str], draw: str | None
         chosen = _drawn_first(content, draw)
         if reports.draws_stops(names):
             content = reports.with_recorded_traces(content, folder, chosen)
-    place.mkdir(parents=True, exist_ok=True)
+    files.make_folder(place)
     return reports.write_formats(place, content, names)
 
 
@@ -83,7 +83,7 @@ def _drawn_first(content: reports.RunContent, expression: str | None) -> frozens
 def _write_sweep(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
     with _read_as("sweep", folder, OSError, ValueError):
         content = reports.read_sweep(folder, traces=reports.draws_stops(names))
-    place.mkdir(parents=True, exist_ok=True)
+    files.make_folder(place)
     # The cases are read while the workbook is written.
     with _read_as("sweep", folder, ValueError):
         return reports.write_sweep_formats(place, content, names)

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import field_data, recording, scenario, series, sweeps, validation
+from uictest import field_data, files, scenario, series, sweeps, validation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
@@ -53,7 +53,7 @@ def schema(
         data(text.rstrip("\n"))
         return ExitCode.MET
 
-    recording.write_text_atomic(output, text)
+    files.write_to(output, text)
     return ExitCode.MET
 
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from uictest import recording, selftest as known_answers
+from uictest import files, selftest as known_answers
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
@@ -34,5 +34,5 @@ def selftest(
     else:
         data("\n".join(known_answers.finding_table(examination, terminal_width(sys.stdout))))
     if file is not None:
-        recording.write_text_atomic(file, known_answers.junit_xml(examination))
+        files.write_to(file, known_answers.junit_xml(examination))
     return _CODES.get(examination.status, ExitCode.MET)

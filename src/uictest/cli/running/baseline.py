@@ -9,7 +9,7 @@ from pathlib import Path
 
 import typer
 
-from uictest import comparison, evaluation, recording, report, runs, scenario, series
+from uictest import comparison, evaluation, files, report, runs, scenario, series
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import message
 from uictest.scenario import yaml
@@ -103,9 +103,9 @@ def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool)
 def _accept(run: runs.Published, folder: Path, baseline: comparison.Baseline | None) -> None:
     """Make the results of a run the baseline, and keep cases that it did not select. Raises OSError."""
     document = comparison.accepted_document(json.loads(run.document), baseline)
-    folder.mkdir(parents=True, exist_ok=True)
+    files.make_folder(folder)
     for name, content in (("manifest.json", document["manifest"]), (report.RESULTS, document)):
-        recording.write_text_atomic(folder / name, evaluation.to_json(content))
+        files.write(folder, name, evaluation.to_json(content))
     kept = len(document["cases"]) - len(run.content.results)
     others = f"; {report.counted(kept, 'case')} that did not run are unchanged" if kept else ""
     message(f"uictest: {folder} now holds the results of {run.place.name}{others}")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from uictest import recording, report, runs
+from uictest import files, report, runs
 from uictest.cli.output import message
 from uictest.cli.running.display import Display
 from uictest.cli.running.following import TerminalObserver
@@ -66,7 +66,7 @@ def write_junit(path: Path | None, content: report.RunContent) -> None:
         document = report.junit_xml(
             content.results, content.baseline, content.series, uictest_version=content.uictest_version
         )
-        recording.write_text_atomic(path, document)
+        files.write_to(path, document)
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:

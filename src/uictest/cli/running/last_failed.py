@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, report, runs, scenario, series
+from uictest import campaign, files, report, runs, scenario, series
 from uictest.cli.output import message
 
 
@@ -31,7 +31,7 @@ def failed_last(
 
 def _newest_run(output: Path) -> Path | None:
     """Return the newest run of scenarios: `latest`, or the newest other folder if that judged recordings."""
-    latest = report.latest_run(output)
+    latest = files.latest_run(output)
     if latest is None or not _is_of_recordings(latest):
         return latest
     manifests = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)

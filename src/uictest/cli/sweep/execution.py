@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from time import perf_counter
 
-from uictest import history, recording, report, runs, sweeps
+from uictest import files, history, report, runs, sweeps
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Format
 from uictest.cli.output import message
@@ -44,7 +44,7 @@ def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
     _append_step_summary(finished.content)
     if junit is not None:
         text = report.sweep_junit_xml(finished.result, run.selection.plan.file)
-        recording.write_text_atomic(junit, text)
+        files.write_to(junit, text)
     show_result(finished.result, finished.document, shown, quiet=quiet)
     if shown is Format.GITHUB:
         show_annotations(finished.content)

@@ -1,4 +1,9 @@
-from .choice import FORMATS as FORMATS, format_of as format_of, writer_of as writer_of
+from .choice import (
+    FORMATS as FORMATS,
+    encoded as encoded,
+    format_of as format_of,
+    writer_of as writer_of,
+)
 from .dialect import Dialect as Dialect
 from .isolation import read_contents as read_contents
 from .problems import (

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
+from uictest import files
 from uictest.recording.formats.problems import UnreadableError
 
 if TYPE_CHECKING:
@@ -70,7 +71,12 @@ def module_of(name: str) -> Any:
     return importlib.import_module(f"uictest.recording.formats.{FORMATS[name].module}")
 
 
+def encoded(recording: Recording, name: str) -> bytes:
+    """Return a recording as a file of a format of FORMATS. Raises MissingExtraError without its library."""
+    content: bytes = module_of(name).encoded(recording)
+    return content
+
+
 def writer_of(name: str) -> Callable[[Recording, Path], None]:
-    """Return the function that writes a recording in a format of FORMATS."""
-    write: Callable[[Recording, Path], None] = module_of(name).write
-    return write
+    """Return the function that writes a recording in a format of FORMATS. It raises as `encoded`, OSError."""
+    return lambda recording, path: files.write_to(path, encoded(recording, name))

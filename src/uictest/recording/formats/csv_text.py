@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from uictest.recording.atomic import write_text_atomic
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.dialect import COMMENT, Dialect
 from uictest.recording.formats.encoding import MARK, encoding_of, undecodable
@@ -59,8 +58,8 @@ def read(path: Path, dialect: Dialect | None = None) -> Contents:
     return Contents((group,), _facts(heading))
 
 
-def write(recording: Recording, path: Path) -> None:
-    """Write a recording with its facts as comments above it. Raises OSError."""
+def encoded(recording: Recording) -> bytes:
+    """Return a recording with its facts as comments above it."""
     text = io.StringIO(newline="")
     for key, value in recording.metadata.items():
         text.write(f"{COMMENT} {_one_line(key)}: {_one_line(value)}\n")
@@ -68,7 +67,7 @@ def write(recording: Recording, path: Path) -> None:
     writer.writerow(f"{name} [{recording.units[name]}]" for name in recording.channels)
     columns = [[f"{value:.{_DIGITS}g}" for value in samples] for samples in recording.channels.values()]
     writer.writerows(zip(*columns, strict=True))
-    write_text_atomic(path, text.getvalue())
+    return text.getvalue().encode()
 
 
 def _one_line(text: str) -> str:

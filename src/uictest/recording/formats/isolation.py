@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -16,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from uictest import files
 from uictest.recording.contents import Contents, Group
 from uictest.recording.formats.choice import format_of
 from uictest.recording.formats.dialect import Dialect
@@ -44,9 +44,9 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
     if not path.is_file():
         raise UnreadableError("not a file")
     name = format_of(path)
-    with tempfile.TemporaryDirectory(prefix="uictest-") as folder:
-        _run(name, path, dialect or Dialect(), Path(folder), seconds)
-        return _collect(Path(folder))
+    with files.temporary_folder() as folder:
+        _run(name, path, dialect or Dialect(), folder, seconds)
+        return _collect(folder)
 
 
 def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -9,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
 from uictest.recording.formats.problems import required_module
@@ -40,15 +40,16 @@ def read(path: Path) -> Contents:
     return Contents(tuple(groups), _texts(own[_METADATA]), skipped)
 
 
-def write(recording: Recording, path: Path) -> None:
-    """Write a recording as version 5: a column vector per channel, `units` and `metadata`. Raises OSError."""
+def encoded(recording: Recording) -> bytes:
+    """Return a recording as version 5: a column vector per channel, `units` and `metadata`."""
     from scipy.io import savemat
 
     variables: dict[str, Any] = dict(recording.channels)
     variables[_UNITS] = recording.units
     variables[_METADATA] = recording.metadata
-    with atomic_path(path) as temporary, temporary.open("wb") as file:
-        savemat(file, variables, format="5", long_field_names=True, oned_as="column")
+    content = io.BytesIO()
+    savemat(content, variables, format="5", long_field_names=True, oned_as="column")
+    return content.getvalue()
 
 
 def _is_hdf5(path: Path) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import tempfile
 from collections.abc import Iterator
@@ -12,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
 from uictest.recording.formats.problems import required_module
@@ -40,10 +40,10 @@ def read(path: Path) -> Contents:
         return Contents(groups, _facts(mdf), skipped)
 
 
-def write(recording: Recording, path: Path) -> None:
-    """Write a recording as MDF 4.10: one group for its one raster, names of states, facts in the header.
+def encoded(recording: Recording) -> bytes:
+    """Return a recording as MDF 4.10: one group for its one raster, names of states, facts in the header.
 
-    Raises OSError, MissingExtraError without asammdf.
+    Raises MissingExtraError without asammdf.
     """
     asammdf = required_module("asammdf", _EXTRA)
     time = np.asarray(recording[TIME], dtype=np.float64)
@@ -58,11 +58,13 @@ def write(recording: Recording, path: Path) -> None:
         for name, samples in recording.channels.items()
         if name != TIME
     ]
-    with asammdf.MDF(version=VERSION) as mdf, atomic_path(path) as temporary:
+    content = io.BytesIO()
+    with asammdf.MDF(version=VERSION) as mdf:
         mdf.header.comment = "\n".join(f"{key}: {value}" for key, value in recording.metadata.items())
         mdf.header.start_time = _NO_DATE
         mdf.append(signals, acq_name="stop", comment="uictest", common_timebase=True)
-        mdf.save(temporary, overwrite=True)
+        mdf.save(content, overwrite=True)
+    return content.getvalue()
 
 
 def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:

@@ -12,7 +12,7 @@ import numpy as np
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
 from uictest.recording.formats.problems import UnreadableError
-from uictest.recording.parquet import write_parquet
+from uictest.recording.parquet import parquet_bytes
 from uictest.recording.recording import Recording
 
 if TYPE_CHECKING:
@@ -43,9 +43,9 @@ def read(path: Path) -> Contents:
     return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
 
 
-def write(recording: Recording, path: Path) -> None:
-    """Write a recording. Raises OSError."""
-    write_parquet(recording, path)
+def encoded(recording: Recording) -> bytes:
+    """Return a recording as a file."""
+    return parquet_bytes(recording)
 
 
 def _reject_same_names(names: list[str]) -> None:

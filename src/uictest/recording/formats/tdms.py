@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from uictest.recording.atomic import atomic_path
 from uictest.recording.contents import Contents, Group, Samples
 from uictest.recording.formats.limits import check_size
 from uictest.recording.formats.problems import required_module
@@ -36,10 +36,10 @@ def read(path: Path) -> Contents:
         return Contents(groups, facts, skipped)
 
 
-def write(recording: Recording, path: Path) -> None:
-    """Write a recording: one group with waveform properties where its raster is even, facts at the root.
+def encoded(recording: Recording) -> bytes:
+    """Return a recording: one group with waveform properties where its raster is even, facts at the root.
 
-    Raises OSError, MissingExtraError without npTDMS.
+    Raises MissingExtraError without npTDMS.
     """
     nptdms = required_module("nptdms", _EXTRA)
     raster = _waveform(recording)
@@ -47,8 +47,10 @@ def write(recording: Recording, path: Path) -> None:
     for name, samples in recording.channels.items():
         properties = {"unit_string": recording.units[name], **_names_of_states(name), **raster}
         objects.append(nptdms.ChannelObject(_GROUP, name, np.asarray(samples), properties=properties))
-    with atomic_path(path) as temporary, nptdms.TdmsWriter(temporary) as writer:
+    content = io.BytesIO()
+    with nptdms.TdmsWriter(content) as writer:
         writer.write_segment(objects)
+    return content.getvalue()
 
 
 def _waveform(recording: Recording) -> dict[str, object]:

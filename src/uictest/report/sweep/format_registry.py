@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from uictest import recording
+from uictest import files
 from uictest.report.sweep import formats
 from uictest.report.sweep.content import SweepContent
 
@@ -28,7 +28,7 @@ def one_file(name: str, to_bytes: Callable[[SweepContent], bytes]) -> SweepForma
     """Return the format in which a sweep becomes one file of this name."""
 
     def write(folder: Path, content: SweepContent) -> list[Path]:
-        recording.write_bytes_atomic(folder / name, to_bytes(content))
+        files.write(folder, name, to_bytes(content))
         return [folder / name]
 
     return SweepFormat(write)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from uictest import evaluation, recording
+from uictest import evaluation, files
 from uictest.report.junit_properties import WITH_TEST_PROPERTIES
 from uictest.report.sweep.junit import sweep_junit_xml
 from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml
@@ -33,8 +33,7 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     if result.k_dry:
         texts[K_DRY_FILE] = k_dry_yaml(result)
     if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:
-        for path in (path for pattern in OF_ONE_RESULT for path in folder.glob(pattern)):
-            path.unlink()
+        files.remove_listed(folder, *OF_ONE_RESULT)
     for name, text in texts.items():
-        recording.write_text_atomic(folder / name, text)
+        files.write(folder, name, text)
     return document

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from uictest import campaign, evaluation, report, sweeps
+from uictest import campaign, evaluation, files, report, sweeps
 from uictest.runs.sweep.nominal_stops import with_nominal_stops
 from uictest.runs.sweep.observer import SweepObserver
 from uictest.runs.sweep.run import SweepRun, prepared_runner
@@ -31,6 +30,7 @@ class FinishedSweep:
 
 def publish(run: SweepRun, store: sweeps.ChunkStore, observer: SweepObserver) -> FinishedSweep:
     """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
+    files.begin_list(store.folder)
     summary = sweeps.summarize(run.selection, store, run.pair, run.measures, run.reference)
     frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
     worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
@@ -51,7 +51,7 @@ def _run_worst(
     Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
     """
     cases = sweeps.full_cases(run.selection.plan, indices)
-    shutil.rmtree(folder / report.RECORDINGS, ignore_errors=True)
+    files.remove_listed(folder, f"{report.RECORDINGS}/*")
 
     def write_recording(case_run: campaign.CaseRun) -> None:
         if case_run.recording is not None:

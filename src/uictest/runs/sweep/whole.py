@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from uictest import controllers, rig
-from uictest.folder_lock import FolderInUseError, FolderLock
+from uictest import controllers, files, rig
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.sweep.observer import SweepObserver
 from uictest.runs.sweep.publishing import FinishedSweep, publish
@@ -38,12 +37,17 @@ def _run_and_publish(run: SweepRun, observer: SweepObserver) -> FinishedSweep | 
     return None if run.shard.count > 1 else publish(run, store, observer)
 
 
-def _locked(folder: Path, *, shared: bool) -> FolderLock:
+def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
     """Return the lock on the folder of a sweep; shards of the sweep share it."""
-    folder.mkdir(parents=True, exist_ok=True)
+    if folder.is_symlink():
+        raise InvalidInputError(
+            f"{folder} is a link, and a sweep writes through none: name another output folder",
+            arguments=("output",),
+        )
     try:
-        return FolderLock(folder, shared=shared)
-    except FolderInUseError as error:
+        files.make_folder(folder)
+        return files.FolderLock(folder.parent, folder.name, shared=shared)
+    except files.FolderInUseError as error:
         raise InvalidInputError(
             f"{folder} is in use by {error}: wait until it ends, or name another output folder",
             arguments=("output",),

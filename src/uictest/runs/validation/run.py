@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from uictest import campaign, evaluation, recording, report, scenario, validation
+from uictest import campaign, evaluation, files, report, scenario, validation
 from uictest.runs.observer import Observer
 from uictest.runs.validation.stops import compared_stop, conditions_of_stop, recorded_stops
 
@@ -40,14 +40,14 @@ def run_validation(
 def publish_validation(validated: validation.Validation, arguments: Sequence[str], output: Path) -> Path:
     """Write the files of a validation into a folder of its own below `output`; return it. Raises OSError."""
     manifest = report.run_manifest(arguments, None, validated.inputs, len(validated.stops))
-    with report.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:
+    with files.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         for name, text in (
             (validation.RESULT, validation.validation_json(validated)),
             ("figures.csv", validation.figures_csv(validated)),
             ("stops.csv", validation.stops_csv(validated)),
             ("validation.md", validation.markdown(validated)),
         ):
-            recording.write_text_atomic(folder.path / name, text)
+            files.write(folder.path, name, text)
         return folder.publish()
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import json
 import re
@@ -10,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from uictest.recording import write_bytes_atomic, write_text_atomic
+from uictest import files
 from uictest.sweeps.running.manifest import manifest_differences
 
 if TYPE_CHECKING:
@@ -42,7 +41,7 @@ class ChunkStore:
             ChangedInputsError: there are chunks of a sweep with another manifest, and `restart` is not set.
             OSError: the folder cannot be written.
         """
-        (self.folder / CHUNKS).mkdir(parents=True, exist_ok=True)
+        files.make_folder(self.folder / CHUNKS)
         if restart:
             self._discard()
         stored = self.manifest()
@@ -53,7 +52,7 @@ class ChunkStore:
             self._discard()  # chunks without a manifest cannot be trusted
         if stored != manifest:
             text = json.dumps(manifest, indent=2, ensure_ascii=False)
-            write_text_atomic(self.folder / MANIFEST, f"{text}\n")
+            files.write(self.folder, MANIFEST, f"{text}\n", listed=False)
 
     def manifest(self) -> dict[str, Any] | None:
         """Return the manifest, None where there is none that can be read."""
@@ -72,7 +71,7 @@ class ChunkStore:
                 intact.add(number)
             else:
                 damaged.append(path)
-                path.unlink()
+                files.remove(self.folder, f"{CHUNKS}/{path.name}")
         return intact, damaged
 
     def has_chunks(self) -> bool:
@@ -84,7 +83,7 @@ class ChunkStore:
 
     def write(self, number: int, content: bytes) -> None:
         """Write a chunk. Raises OSError."""
-        write_bytes_atomic(self.folder / CHUNKS / f"{number:06d}-{_digest(content)}.parquet", content)
+        self._write(f"{number:06d}-{_digest(content)}.parquet", content)
 
     def tables(self, numbers: Sequence[int], columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
         """Yield the rows of chunks, one chunk after the other. Raises MissingChunksError."""
@@ -116,14 +115,16 @@ class ChunkStore:
         intact = [path for path in paths if _is_intact(path)]
         for path in intact:
             if not (self.folder / CHUNKS / path.name).exists():
-                write_bytes_atomic(self.folder / CHUNKS / path.name, path.read_bytes())
+                self._write(path.name, path.read_bytes())
         return len(intact), [path for path in paths if path not in intact]
 
     def remove_partial_files(self) -> None:
         """Remove files that interrupted writers left."""
-        for folder in (self.folder, self.folder / CHUNKS):
-            for path in folder.glob(".partial-*"):
-                path.unlink(missing_ok=True)
+        for below in ("", CHUNKS):
+            files.remove_partial_files(self.folder, below)
+
+    def _write(self, name: str, content: bytes) -> None:
+        files.write(self.folder, f"{CHUNKS}/{name}", content, listed=False)
 
     def _files(self) -> list[tuple[int, Path]]:
         paths = sorted((self.folder / CHUNKS).iterdir())
@@ -131,10 +132,8 @@ class ChunkStore:
         return [(int(match[1]), path) for match, path in matches if match]
 
     def _discard(self) -> None:
-        with contextlib.suppress(FileNotFoundError):
-            (self.folder / MANIFEST).unlink()
-        for _, path in self._files():
-            path.unlink()
+        for name in (MANIFEST, *(f"{CHUNKS}/{path.name}" for _, path in self._files())):
+            files.remove(self.folder, name)
 
 
 def _is_intact(path: Path) -> bool:

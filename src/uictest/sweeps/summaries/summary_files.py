@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-from uictest.recording import atomic_path
+from uictest import files
 from uictest.report import csv_cell
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @contextlib.contextmanager
 def summary_files(folder: Path) -> Iterator[Callable[[pa.Table], None]]:
     """Lend a function that appends rows to both files; they appear when the block ends. Raises OSError."""
-    csv_path, parquet_path = (atomic_path(folder / f"summary.{suffix}") for suffix in ("csv", "parquet"))
+    csv_path, parquet_path = (files.new_file(folder, f"summary.{suffix}") for suffix in ("csv", "parquet"))
     with csv_path as csv, parquet_path as parquet, contextlib.ExitStack() as open_files:
         writers: list[Any] = []
 
@@ -30,15 +30,16 @@ def summary_files(folder: Path) -> Iterator[Callable[[pa.Table], None]]:
         yield write
 
 
-def _writers(open_files: contextlib.ExitStack, csv: Path, parquet: Path, schema: pa.Schema) -> list[Any]:
-    import pyarrow as pa
+def _writers(
+    open_files: contextlib.ExitStack, csv: BinaryIO, parquet: BinaryIO, schema: pa.Schema
+) -> list[Any]:
     from pyarrow.csv import CSVWriter, WriteOptions
     from pyarrow.parquet import ParquetWriter
 
     csv_schema = without_formulas(schema.empty_table()).schema
     options = WriteOptions(quoting_style="needed", quoting_header="needed")
     return [
-        open_files.enter_context(CSVWriter(pa.OSFile(str(csv), "wb"), csv_schema, write_options=options)),
+        open_files.enter_context(CSVWriter(csv, csv_schema, write_options=options)),
         open_files.enter_context(ParquetWriter(parquet, schema, compression="zstd")),
     ]
 

@@ -2,14 +2,13 @@
 
 import hashlib
 import io
-import shutil
-import tempfile
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 from zipfile import BadZipFile, ZipFile
 
 import fmpy
 
+from uictest import files
 from uictest.controllers.adapters.instance import ControllerError, reason_of
 
 _VERSIONS: Final = ("2.0", "3.0")
@@ -29,13 +28,13 @@ def unpack(path: Path, sha256: str) -> UnpackedFmu:
     content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != sha256:
         raise ControllerError("has changed since the scenario was read")
-    folder = Path(tempfile.mkdtemp(prefix="uictest-fmu-"))
+    folder = files.new_temporary_folder("fmu")
     try:
         _extract(content, folder)
         description = _description(folder)
         _check(folder, description)
     except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
+        files.remove_temporary_folder(folder)
         raise
     return UnpackedFmu(folder, description)
 

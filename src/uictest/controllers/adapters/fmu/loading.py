@@ -1,13 +1,13 @@
 """From the file of an FMU to an instance of it."""
 
 import os
-import shutil
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
 from fmpy import fmi2, fmi3
 
+from uictest import files
 from uictest.controllers.adapters.fmu.file import UnpackedFmu, unpack
 from uictest.controllers.adapters.fmu.log import FMI2_CALLBACKS, clear_log, note_fmi3, with_log
 from uictest.controllers.adapters.fmu.slave import Fmi2Slave, Fmi3Slave, Slave
@@ -23,7 +23,7 @@ def load_slave(path: Path, sha256: str) -> Slave:
         try:
             return _instantiated(unpacked)
         except BaseException:
-            shutil.rmtree(unpacked.folder, ignore_errors=True)
+            files.remove_temporary_folder(unpacked.folder)
             raise
     except ControllerError as error:
         raise ControllerError(f"{path.name} {error}") from error

@@ -1,6 +1,5 @@
 """An FMU in memory: the calls of FMI 2.0 and FMI 3.0 behind one face."""
 
-import shutil
 import weakref
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
@@ -12,6 +11,7 @@ from typing import Any, ClassVar, Final
 
 from fmpy import fmi1, fmi3
 
+from uictest import files
 from uictest.controllers.adapters.fmu.log import clear_log, with_log
 from uictest.controllers.adapters.instance import ControllerError
 
@@ -162,4 +162,4 @@ def _release(fmu: Any, folder: Path) -> None:
             fmu.terminate()
         with suppress(Exception):
             fmu.freeInstance()
-    shutil.rmtree(folder, ignore_errors=True)
+    files.remove_temporary_folder(folder)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from uictest import recording
+from uictest import files
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.format_registry import SweepFormat
 
@@ -18,8 +18,8 @@ def _copied(table: Path, folder: Path) -> Path:
     """Return the table in a folder; where it is not yet, it is copied."""
     target = folder / table.name
     if target.resolve() != table.resolve():
-        with recording.atomic_path(target) as partial:
-            shutil.copyfile(table, partial)
+        with files.new_file(folder, table.name) as copy, table.open("rb") as rows:
+            shutil.copyfileobj(rows, copy)
     return target
 
 

@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from uictest.recording import atomic_path, write_bytes_atomic, write_text_atomic
+from uictest.files import new_file, write_to
 
 
 def test_the_file_has_the_content_and_nothing_is_left_beside_it(tmp_path: Path) -> None:
-    write_text_atomic(tmp_path / "summary.csv", "a,b\r\n1,±2\n")
+    write_to(tmp_path / "summary.csv", "a,b\r\n1,±2\n")
     assert (tmp_path / "summary.csv").read_bytes() == "a,b\r\n1,±2\n".encode()
     assert [path.name for path in tmp_path.iterdir()] == ["summary.csv"]
 
 
 def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path: Path) -> None:
     target = tmp_path / "results.json"
-    write_text_atomic(target, "old")
-    with pytest.raises(KeyboardInterrupt), atomic_path(target) as temporary:
-        temporary.write_text("half of the n")
+    write_to(target, "old")
+    with pytest.raises(KeyboardInterrupt), new_file(tmp_path, "results.json") as file:
+        file.write(b"half of the n")
         raise KeyboardInterrupt
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
@@ -27,11 +27,9 @@ def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path: Path) -
 
 def test_nothing_stands_at_the_path_before_the_block_ends(tmp_path: Path) -> None:
     target = tmp_path / "index.html"
-    with atomic_path(target) as temporary:
-        temporary.write_text("<html>")
+    with new_file(tmp_path, "index.html") as file:
+        file.write(b"<html>")
         assert not target.exists()
-        assert temporary.parent == target.parent
-        assert temporary.suffix == ".html"
     assert target.read_text() == "<html>"
 
 
@@ -41,7 +39,7 @@ def test_a_full_disk_is_reported_and_leaves_nothing(tmp_path: Path, monkeypatch:
 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space left"):
-        write_bytes_atomic(tmp_path / "a.parquet", b"x")
+        write_to(tmp_path / "a.parquet", b"x")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -50,7 +48,7 @@ def test_errors_name_the_file_that_was_to_be_written(tmp_path: Path, folder: str
     (tmp_path / "file").touch()
     target = tmp_path / folder / "a.txt"
     with pytest.raises((FileNotFoundError, NotADirectoryError)) as caught:
-        write_text_atomic(target, "x")
+        write_to(target, "x")
     assert caught.value.filename == str(target)
     assert "partial" not in str(caught.value)
 
@@ -60,7 +58,7 @@ def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path: Path) -> None
     target.mkdir()
     (target / "inside").touch()
     with pytest.raises(OSError, match="taken") as caught:
-        write_text_atomic(target, "x")
+        write_to(target, "x")
     assert caught.value.filename == str(target)
     assert "partial" not in str(caught.value)
     assert list(tmp_path.iterdir()) == [target]
@@ -68,27 +66,28 @@ def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path: Path) -> None
 
 def test_an_error_about_another_file_keeps_its_name(tmp_path: Path) -> None:
     other = tmp_path / "other"
-    with pytest.raises(FileNotFoundError) as caught, atomic_path(tmp_path / "a.txt"):
+    with pytest.raises(FileNotFoundError) as caught, new_file(tmp_path, "a.txt"):
         other.read_text()
     assert caught.value.filename == str(other)
 
 
 def test_a_name_as_long_as_the_file_system_allows_is_written(tmp_path: Path) -> None:
     target = tmp_path / ("c" * 247 + ".parquet")
-    write_text_atomic(target, "x")
+    write_to(target, "x")
     assert target.read_text() == "x"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="file modes are POSIX")
 def test_the_file_has_the_mode_any_new_file_has(tmp_path: Path) -> None:
     (tmp_path / "ordinary").touch()
-    write_text_atomic(tmp_path / "atomic", "")
+    write_to(tmp_path / "atomic", "")
     assert (tmp_path / "atomic").stat().st_mode == (tmp_path / "ordinary").stat().st_mode
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
 def test_nobody_else_can_read_or_write_a_private_file(tmp_path: Path) -> None:
     path = tmp_path / "kept"
-    with atomic_path(path, private=True) as temporary:
+    with new_file(tmp_path, "kept", private=True):
+        [temporary] = tmp_path.iterdir()
         assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
     assert stat.S_IMODE(path.stat().st_mode) == 0o600

@@ -1,0 +1,24 @@
+from .listing import LIST as LIST, begin_list as begin_list, remove_listed as remove_listed
+from .lock import FolderInUseError as FolderInUseError, FolderLock as FolderLock
+from .run_folder import (
+    LATEST as LATEST,
+    ForeignFileError as ForeignFileError,
+    RunFolder as RunFolder,
+    latest_run as latest_run,
+    point_latest as point_latest,
+    remove_run as remove_run,
+)
+from .temporary import (
+    new_temporary_folder as new_temporary_folder,
+    remove_temporary_folder as remove_temporary_folder,
+    temporary_folder as temporary_folder,
+)
+from .writing import (
+    append as append,
+    make_folder as make_folder,
+    new_file as new_file,
+    remove as remove,
+    remove_partial_files as remove_partial_files,
+    write as write,
+    write_to as write_to,
+)

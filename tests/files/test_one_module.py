@@ -1,0 +1,89 @@
+"""Nothing but `uictest.files` writes, renames or removes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import uictest
+
+PACKAGE = Path(uictest.__file__).parent
+
+CHANGING = {
+    *("write_text", "write_bytes", "mkdir", "makedirs", "rmdir", "removedirs", "unlink", "rmtree", "move"),
+    *("rename", "renames", "symlink", "symlink_to", "hardlink_to", "touch", "truncate", "mkfifo", "chmod"),
+    *("copy2", "copyfile", "copytree", "mkdtemp", "mkstemp", "TemporaryDirectory", "TemporaryFile"),
+    *("NamedTemporaryFile", "SpooledTemporaryFile", "savez", "tofile"),
+}
+"""Functions and methods that change what is on the disk."""
+
+CHILD = "the temporary folder of a child process, which ends by a signal: whoever ends last removes it"
+SHARED = "a file without a name: the memory that a child shares"
+READER = "a reading process writes into the temporary folder that its parent made for it, and ends"
+EXCEPTIONS = {
+    "rig/external/worker.py": {"TemporaryDirectory": CHILD, "TemporaryFile": SHARED, "truncate": SHARED},
+    "rig/external/child.py": {"rmtree": CHILD, "fdopen": "a pipe"},
+    "recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
+    "cli/closed_streams.py": {"open": "the null device in the place of a closed stream"},
+    "cli/output.py": {"open": "the null device in the place of a closed stream"},
+    "user_cache/files.py": {"open": "flags that only read"},
+}
+"""Module -> what it may call, and why."""
+
+
+def changing_calls(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Yield line and name of each call that changes, or may change, what is on the disk."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        of_os = isinstance(node.func, ast.Attribute) and ast.unparse(node.func.value) == "os"
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else ast.unparse(node.func)
+        if (
+            name in CHANGING
+            or (of_os and name in ("open", "remove", "replace", "link", "fdopen") and not _reads(node))
+            # The method of a path takes one argument, that of a text two, that of dataclasses keywords.
+            or (name == "replace" and len(node.args) == 1 and not node.keywords)
+            or (name == "open" and not of_os and not _reads(node))
+        ):
+            yield node.lineno, name
+
+
+def _reads(call: ast.Call) -> bool:
+    """Return whether `open` states a mode, or none, that only reads."""
+    if ast.unparse(call.func) == "os.open":
+        return ast.unparse(call.args[1]) == "os.O_RDONLY"
+    is_method = isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) != "os"
+    given = [word.value for word in call.keywords if word.arg == "mode"] or call.args[0 if is_method else 1 :]
+    mode = given[0] if given else ast.Constant("r")
+    # A method `open` of something else than a path takes no mode.
+    return not (
+        isinstance(mode, ast.Constant) and isinstance(mode.value, str) and set(mode.value) & set("wax+")
+    ) and (is_method or isinstance(mode, ast.Constant))
+
+
+def test_every_write_and_removal_goes_through_one_room() -> None:
+    elsewhere = [
+        f"{path}:{line}: {name}"
+        for path, line, name in _all_calls()
+        if not path.startswith("files/") and name not in EXCEPTIONS.get(path, {})
+    ]
+    assert elsewhere == []
+
+
+def test_every_exception_is_still_one() -> None:
+    found = {(path, name) for path, _, name in _all_calls()}
+    assert {(path, name) for path, names in EXCEPTIONS.items() for name in names} <= found
+
+
+def test_the_room_itself_is_seen() -> None:
+    found = {name for path, _, name in _all_calls() if path.startswith("files/")}
+    assert {"mkdir", "rename", "replace", "unlink", "rmdir", "rmtree", "symlink", "open"} <= found
+
+
+def _all_calls() -> list[tuple[str, int, str]]:
+    return [
+        (path.relative_to(PACKAGE).as_posix(), *call)
+        for path in sorted(PACKAGE.rglob("*.py"))
+        for call in changing_calls(ast.parse(path.read_text("utf-8")))
+    ]

@@ -1,0 +1,322 @@
+from __future__ import annotations
+
+import errno
+import hashlib
+import logging
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from uictest.files import (
+    LATEST,
+    LIST,
+    FolderLock,
+    RunFolder,
+    begin_list,
+    latest_run,
+    point_latest,
+    write,
+)
+
+
+def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path: Path) -> None:
+    with RunFolder(tmp_path / "reports", "first") as folder:
+        write(folder.path, "summary.csv", "id\n")
+        assert not (tmp_path / "reports" / "first").exists()
+        place = folder.publish()
+    assert place == tmp_path / "reports" / "first"
+    assert [path.name for path in (tmp_path / "reports").iterdir()] == ["first"]
+    assert (place / "summary.csv").read_text() == "id\n"
+
+
+def test_a_taken_name_gets_a_number(tmp_path: Path) -> None:
+    for expected in ("run", "run-2", "run-3"):
+        with RunFolder(tmp_path, "run") as folder:
+            assert folder.publish().name == expected
+
+
+def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    with RunFolder(tmp_path, "run") as first, RunFolder(tmp_path, "run") as second:
+        names = first.name, second.name
+        assert names == ("run-2", "run-3")
+        places = second.publish(), first.publish()
+    assert tuple(place.name for place in reversed(places)) == names
+
+
+def test_a_name_that_is_taken_meanwhile_gets_a_number(tmp_path: Path) -> None:
+    with RunFolder(tmp_path, "run") as folder:
+        (tmp_path / "run").mkdir()
+        assert folder.publish() == tmp_path / "run-2"
+
+
+def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path: Path) -> None:
+    def fail_halfway() -> None:
+        with RunFolder(tmp_path / "deep" / "reports", "run") as folder:
+            write(folder.path, "recordings/half.csv", "i")
+            raise OSError("No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        fail_halfway()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_others_put_beside_an_abandoned_folder_stays(tmp_path: Path) -> None:
+    with RunFolder(tmp_path / "reports", "run"):
+        (tmp_path / "reports" / "note.txt").write_text("mine")
+    assert [path.name for path in (tmp_path / "reports").iterdir()] == ["note.txt"]
+
+
+def test_a_folder_below_a_regular_file_is_an_oserror(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        RunFolder(tmp_path / "file" / "reports", "run")
+
+
+KILLED_AT_WORK = """
+import os, signal, sys
+from pathlib import Path
+from uictest.files import RunFolder, write
+with RunFolder(Path(sys.argv[1]), "killed") as folder:
+    write(folder.path, "recordings/a.csv", "half")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_what_a_killed_run_left_is_removed_by_the_next_and_what_a_living_one_has_is_not(
+    tmp_path: Path,
+) -> None:
+    subprocess.run([sys.executable, "-c", KILLED_AT_WORK, str(tmp_path)], check=False)
+    [left] = tmp_path.iterdir()
+    assert left.name == ".killed.partial"
+    with RunFolder(tmp_path, "living") as living:
+        assert not left.exists()
+        with RunFolder(tmp_path, "later") as later:
+            assert living.path.is_dir()
+            later.publish()
+        assert living.publish() == tmp_path / "living"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == [
+        "SHA256SUMS",
+        "SHA256SUMS",
+        "later",
+        "living",
+    ]
+
+
+def _run(parent: Path, name: str) -> Path:
+    run = parent / name
+    run.mkdir()
+    return run
+
+
+def test_latest_follows_the_newest_run(tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        point_latest(_run(tmp_path, name))
+        found = latest_run(tmp_path)
+        assert found is not None
+        assert found.name == name
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["first", LATEST, "second"]
+
+
+def test_the_link_is_relative_so_that_the_folder_can_be_moved(tmp_path: Path) -> None:
+    (tmp_path / "here").mkdir()
+    point_latest(_run(tmp_path / "here", "run"))
+    (tmp_path / "here").rename(tmp_path / "there")
+    assert latest_run(tmp_path / "there") == (tmp_path / "there" / "run").resolve()
+
+
+def test_where_links_are_impossible_a_text_file_names_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError("links are not supported here")
+
+    monkeypatch.setattr(os, "symlink", refuse)
+    run = _run(tmp_path, "run")
+    point_latest(run)
+    assert (tmp_path / LATEST).read_text() == "run\n"
+    assert latest_run(tmp_path) == run
+
+
+@pytest.mark.parametrize("with_dangling_link", [False, True])
+def test_without_a_run_there_is_no_latest(tmp_path: Path, with_dangling_link: bool) -> None:
+    if with_dangling_link:
+        (tmp_path / LATEST).symlink_to("gone")
+    assert latest_run(tmp_path) is None
+
+
+def test_a_file_of_somebody_else_that_is_named_latest_stays(tmp_path: Path) -> None:
+    for content in ("the latest news", "news\n", "../there\n"):
+        (tmp_path / LATEST).write_text(content)
+        said = point_latest(_run(tmp_path, str(len(content))))
+        assert said == f"{tmp_path / LATEST} was not written by uictest: it is left as it is"
+        assert (tmp_path / LATEST).read_text() == content
+
+
+def _killed(tmp_path: Path) -> Path:
+    subprocess.run([sys.executable, "-c", KILLED_AT_WORK, str(tmp_path)], check=False)
+    return tmp_path / ".killed.partial"
+
+
+def test_what_the_user_put_into_the_folder_of_a_killed_run_stays_and_is_named(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    left = _killed(tmp_path)
+    (left / "notes.txt").write_text("mine")
+    with caplog.at_level(logging.WARNING), RunFolder(tmp_path, "run"):
+        pass
+    assert f"{left} stays: it holds notes.txt, which uictest did not write" in caplog.text
+    assert (left / "notes.txt").read_text() == "mine"
+    assert not (left / "recordings").exists()
+
+
+@pytest.mark.parametrize("lock", [None, "", "process 4 on here", "uictest lock"])
+def test_a_hidden_folder_without_a_lock_of_uictest_stays(tmp_path: Path, lock: str | None) -> None:
+    """Any `.x.partial` folder with an unlocked `.lock` was removed: other programs have such folders."""
+    foreign = tmp_path / ".theirs.partial"
+    foreign.mkdir()
+    begin_list(foreign)
+    write(foreign, "data.csv", "1")
+    for name in (".lock", ".uictest.lock"):
+        if lock is not None:
+            (foreign / name).write_text(lock)
+    before = sorted(path.name for path in foreign.iterdir())
+    with RunFolder(tmp_path, "run"):
+        pass
+    assert sorted(path.name for path in foreign.iterdir()) == before
+
+
+def test_a_link_to_the_folder_of_a_killed_run_is_not_followed(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    (tmp_path / "reports").mkdir()
+    left = _killed(tmp_path / "there")
+    (tmp_path / "reports" / ".killed.partial").symlink_to(left)
+    with RunFolder(tmp_path / "reports", "run"):
+        pass
+    assert (left / "recordings" / "a.csv").read_text() == "half"
+
+
+@pytest.mark.parametrize("made", ["folder", "file", "link", "full"])
+def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, made: str
+) -> None:
+    """A finished run was lost in 2 of 360 collisions: `rename` replaces an empty folder, and others fail."""
+    makers = {
+        "folder": lambda: (tmp_path / "run").mkdir(),
+        "file": lambda: (tmp_path / "run").write_text("theirs"),
+        "link": lambda: (tmp_path / "run").symlink_to("gone"),
+        "full": lambda: write(_run(tmp_path, "run"), "a.csv", "theirs"),
+    }
+    mkdir = os.mkdir
+
+    def too_late(path: str, *arguments: int, dir_fd: int) -> None:
+        monkeypatch.setattr(os, "mkdir", mkdir)
+        makers[made]()
+        mkdir(path, *arguments, dir_fd=dir_fd)
+
+    with RunFolder(tmp_path, "run") as folder:
+        write(folder.path, "summary.csv", "ours")
+        monkeypatch.setattr(os, "mkdir", too_late)
+        place = folder.publish()
+    assert place == tmp_path / "run-2"
+    assert (place / "summary.csv").read_text() == "ours"
+    there = tmp_path / "run"
+    assert there.is_symlink() if made == "link" else there.exists()
+    assert (there / "a.csv").exists() == (made == "full")
+
+
+def test_a_file_that_is_put_into_the_reserved_name_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rename = os.rename
+
+    def too_late(old: str, new: str, **places: int) -> None:
+        monkeypatch.setattr(os, "rename", rename)
+        (tmp_path / new / "theirs.csv").write_text("theirs")
+        rename(old, new, **places)
+
+    with RunFolder(tmp_path, "run") as folder:
+        write(folder.path, "summary.csv", "ours")
+        monkeypatch.setattr(os, "rename", too_late)
+        place = folder.publish()
+    assert place == tmp_path / "run-2"
+    assert (tmp_path / "run" / "theirs.csv").read_text() == "theirs"
+    assert (place / "summary.csv").read_text() == "ours"
+
+
+def test_a_file_system_that_renames_over_no_folder_gets_the_run_as_well(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rename = os.rename
+
+    def replaces_none(old: str, new: str, **places: int) -> None:
+        if (tmp_path / new).exists():
+            raise FileExistsError(errno.EEXIST, "File exists", new)
+        rename(old, new, **places)
+
+    monkeypatch.setattr(os, "rename", replaces_none)
+    with RunFolder(tmp_path, "run") as folder:
+        assert folder.publish() == tmp_path / "run"
+
+
+def test_a_publication_that_fails_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "rename", full)
+    with pytest.raises(OSError, match="No space left"), RunFolder(tmp_path / "reports", "run") as folder:
+        write(folder.path, "summary.csv", "ours")
+        folder.publish()
+    assert list(tmp_path.iterdir()) == []
+
+
+PUBLISHER = """
+import sys
+from pathlib import Path
+from uictest.files import RunFolder, write
+sys.stdin.read()
+for _ in range(10):
+    with RunFolder(Path(sys.argv[1]), "run") as folder:
+        write(folder.path, "name", folder.name)
+        folder.publish()
+"""
+
+
+def test_none_of_many_runs_of_one_name_is_lost(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", PUBLISHER, str(tmp_path)]
+    processes = [subprocess.Popen(command, stdin=subprocess.PIPE) for _ in range(6)]
+    for process in processes:
+        assert process.stdin is not None
+        process.stdin.close()
+    assert [process.wait() for process in processes] == [0] * 6
+    names = ["run", *(f"run-{number}" for number in range(2, 61))]
+    assert {path.name: (path / "name").read_text() for path in tmp_path.iterdir()} == {n: n for n in names}
+
+
+def test_the_list_of_a_run_is_what_sha256sum_checks(tmp_path: Path) -> None:
+    with RunFolder(tmp_path, "run") as folder:
+        write(folder.path, "a.csv", "first")
+        write(folder.path, "recordings/slip[f=0.09].parquet", b"\0")
+        write(folder.path, "a.csv", "second")
+        place = folder.publish()
+    heading, *lines = (place / LIST).read_text().splitlines()
+    assert heading.startswith("# ")
+    assert lines == [
+        f"{hashlib.sha256(content).hexdigest()}  {name}"
+        for name, content in {"recordings/slip[f=0.09].parquet": b"\0", "a.csv": b"second"}.items()
+    ]
+
+
+def test_a_run_in_a_folder_behind_a_link_is_published_there(tmp_path: Path) -> None:
+    """The user named the link: the reports may lie on another disk."""
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "reports").symlink_to("disk")
+    with RunFolder(tmp_path / "reports", "run") as folder:
+        write(folder.path, "summary.csv", "ours")
+        assert point_latest(folder.publish()) == ""
+    assert sorted(path.name for path in (tmp_path / "disk").iterdir()) == [LATEST, "run"]
+    with FolderLock(tmp_path / "reports"):
+        assert (tmp_path / "disk" / ".uictest.lock").exists()
