@@ -17,6 +17,7 @@ from uictest.report.wording import (
     line_word,
     listed,
     number,
+    reading_sources,
 )
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
@@ -51,6 +52,8 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     for result in results:
         for verdict in result.criteria:
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
+            for reading, sentence in reading_sources(verdict).items():
+                cases.setdefault((f"{verdict.id} read as {reading}", sentence), []).append(result.id)
     meanings = [criterion for criterion, _ in cases]
     for (criterion, sentence), names in cases.items():
         where = f" (in {listed(names)})" if meanings.count(criterion) > 1 else ""
@@ -77,11 +80,21 @@ def _stops(result: evaluation.CaseResult) -> Iterator[str]:
         yield f"{name}={value:.5g}"
 
 
+def _slide_speed(result: evaluation.CaseResult) -> str:
+    """Return the train speed above which the largest slides of a case count: `10km/h`."""
+    measures = result.parts.get("measures")
+    speeds = [each.written for each in measures.parameters] if measures else []
+    keys = [each.key for each in measures.parameters] if measures else []
+    known = dict(zip(keys, speeds, strict=True)).get("measures.moving_speed", "moving_speed")
+    return printable(known.replace(" ", ""))
+
+
 def _measures(result: evaluation.CaseResult) -> Iterator[str]:
     for name in SHOWN_MEASURES:
         if result.measures is not None:
             yield f"{name}={number(result.measures[name])}"
     if result.wheelsets:
+        yield f"slide_above={_slide_speed(result)}"
         yield "maximum_slide=" + "/".join(number(wheelset["maximum_slide"]) for wheelset in result.wheelsets)
         vents = (number(wheelset["valve_actuations"]) for wheelset in result.wheelsets)
         yield "valve_actuations=" + "/".join(vents)
