@@ -170,4 +170,5 @@ def _looking(text: str, where: str) -> str:
 def _missed(value: float, bounds: Bounds, demand: str, unit: str, where: str) -> str:
     if not math.isfinite(value):
         return f"{value} never keeps {demand}"
-    return f"{_looking(value_text(value, unit), where)} misses {demand} by {value_text(-bounds.margin(value), unit)}"
+    short = value_text(-bounds.margin(value), unit)
+    return f"{_looking(value_text(value, unit), where)} misses {demand} by {short}"

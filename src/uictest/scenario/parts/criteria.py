@@ -1,7 +1,7 @@
 """Criteria: bounds on the measures of a stop, when they apply, and the definitions of their words."""
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -13,58 +13,26 @@ from uictest.scenario.parts.bounded_measure import (
     Bound,
     MeasureName,
     Scope,
-    StopMeasureName,
 )
 from uictest.scenario.parts.definition import Definition
 from uictest.scenario.parts.dry_bound import DryBound
+from uictest.scenario.parts.reading import (
+    ID,
+    AtLeast,
+    Reading,
+    WheelsetsThatKeep,
+    definition_problems,
+    wheelsets_problems,
+)
 from uictest.scenario.parts.requirements import RequirementIds, repeated_requirements
 from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
 from uictest.series_measures import SERIES_MEASURES, SeriesMeasure
-
-_ID = r"^[a-z0-9][a-z0-9._-]{0,99}$"
-WHEELSET_COUNT = 4
-"""Wheelsets of the car."""
-
-
-class AtLeast(Model):
-    """How many wheelsets must keep the bound."""
-
-    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSET_COUNT, strict=True)] = Field(
-        description="A number of wheelsets, or `half` of them (rounded up)."
-    )
-
-
-WheelsetsThatKeep = Literal["all", "any"] | AtLeast | None
-
-
-class Reading(Model):
-    """Another measure that the words of a criterion may mean, held against the same bounds.
-
-    It never changes the status of the criterion: where it comes out otherwise, the verdict turns.
-    """
-
-    id: str = Field(pattern=_ID, description="Name of the reading in every report.")
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where the reading comes from."
-    )
-    measure: StopMeasureName = Field(description="The measure that is read.")
-    wheelsets: WheelsetsThatKeep = Field(
-        default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
-    )
-    definition: Definition = Field(
-        default=Definition(), description="The definitions that the measure needs."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a wrong number of wheelsets, missing or unused definitions."""
-        yield from _wheelsets_problems(self.measure, self.wheelsets)
-        yield from _definition_problems(self.measure, self.definition)
 
 
 class Criterion(Model):
     """One bound on one measure."""
 
-    id: str = Field(pattern=_ID, description="Name of the criterion in every report.")
+    id: str = Field(pattern=ID, description="Name of the criterion in every report.")
     title: str = Field(default="", max_length=200, description="One line for people.")
     source: str = Field(
         default=SCENARIO_SOURCE,
@@ -192,8 +160,8 @@ class Criterion(Model):
         if self.scope == "series":
             yield from self._series_problems()
         else:
-            yield from _wheelsets_problems(self.measure, self.wheelsets)
-            yield from _definition_problems(self.measure, self.definition)
+            yield from wheelsets_problems(self.measure, self.wheelsets)
+            yield from definition_problems(self.measure, self.definition)
             yield from self._reading_problems()
 
     @property
@@ -255,7 +223,7 @@ class Criterion(Model):
                 yield Inconsistency((name,), message, "leave it out")
 
     def _reading_problems(self) -> Iterator[Inconsistency]:
-        """Yield readings without a name of the criterion's own, of one name, or of another kind of quantity."""
+        """Yield a missing name of the criterion's own reading, repeated names, other kinds of quantity."""
         if self.readings and not self.reading:
             message = f"criterion {quoted(self.id)} has other readings, its own has no name"
             yield Inconsistency((), message, "write 'reading'")
@@ -275,35 +243,6 @@ class Criterion(Model):
                 )
                 yield Inconsistency(("readings", index, "measure"), message)
             seen.add(reading.id)
-
-
-def _wheelsets_problems(measure: str, wheelsets: WheelsetsThatKeep) -> Iterator[Inconsistency]:
-    if MEASURES[measure].of_wheelsets and wheelsets is None:
-        yield Inconsistency(
-            (),
-            f"{quoted(measure)} has a value per wheelset: 'wheelsets' must say how many keep it",
-            "write 'wheelsets: all', 'wheelsets: any' or 'wheelsets: {at_least: half}'",
-        )
-    if not MEASURES[measure].of_wheelsets and wheelsets is not None:
-        yield Inconsistency(
-            ("wheelsets",), f"{quoted(measure)} is a measure of the whole stop, not of wheelsets"
-        )
-
-
-def _definition_problems(measure: str, definition: Definition) -> Iterator[Inconsistency]:
-    needed, defined = MEASURES[measure].definitions, definition.parameters()
-    for name in needed:
-        if name not in defined:
-            yield Inconsistency(
-                (),
-                f"{quoted(measure)} needs the definition {quoted(name)}, which is missing",
-                "write it under 'definition'",
-            )
-    for name in defined:
-        if name not in needed:
-            yield Inconsistency(
-                ("definition", name), f"{quoted(measure)} does not use the definition {quoted(name)}"
-            )
 
 
 class Criteria(Part):
