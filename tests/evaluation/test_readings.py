@@ -1,4 +1,4 @@
-"""Readings of a criterion: they stand beside its verdict, never decide it, and let it turn where they differ."""
+"""Readings of a criterion stand beside its verdict, never decide it, and let it turn where they differ."""
 
 from __future__ import annotations
 

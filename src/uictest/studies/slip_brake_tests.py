@@ -32,7 +32,7 @@ class SlipTest:
         friction: initial friction coefficient of the rail as it is found.
         initial_adhesion: g.
         sliding: minimum slide as the profile of Appendix B reads it, % of the time down to 60 km/h.
-        depth: largest slide that half of the wheelsets exceed above 30 km/h, %: another reading of the profile.
+        depth: its reading as a depth, the largest slide that half of the wheelsets reach, %.
         distance: m.
         extension: of the distance over that of the dry stop, %.
         air: taken from the reservoir, NL.

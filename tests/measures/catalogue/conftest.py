@@ -71,7 +71,7 @@ def _sliding_stop(deceleration: float = 0.07 * G, share: float = 0.75, **changes
 
 
 def _wheelsets(*slides: float, **changes: Any) -> Any:
-    """One wheelset per slide (the same above every train speed); those above 10 % slide for 75 % of the time."""
+    """One wheelset per slide, the same above every train speed; those above 10 % slide 75 % of the time."""
     records = np.zeros(len(slides), dtype=WHEELSET_MEASURES).view(np.recarray)
     for record, slide in zip(records, slides, strict=True):
         record.maximum_slide = slide

@@ -73,8 +73,9 @@ def run(stop_runner: StopRunner) -> StudyFindings:
         drawings={"appendix-b": partial(draw, dry_stop, slip_stop, DISTANCES)},
         notes=(
             (
-                "The leaflet itself was not available: what the first phase is, and that the minimum slide is a "
-                "share of time (inferred from TB/T 3009-2019), are readings of the profile uic-541-05-appendix-b."
+                "The leaflet itself was not available: what the first phase is, and that the minimum slide "
+                "is a share of time (inferred from TB/T 3009-2019), are readings of the profile "
+                "uic-541-05-appendix-b."
             ),
             f"Slip-brake test: {len(SEEDS)} stops that differ in the noise of the sensors, median and range.",
         ),

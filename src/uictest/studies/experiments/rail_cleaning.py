@@ -167,8 +167,8 @@ def _notes(tests: Map) -> Iterator[str]:
     )
     yield (
         "The test counts where the deceleration in the first phase stays below 0.08 g and half of the "
-        "wheelsets slide at once for more than 35 % of the time down to 60 km/h. Small slides: the default controller. Deep slides: the same one "
-        "with a slip threshold of 6 m/s."
+        "wheelsets slide at once for more than 35 % of the time down to 60 km/h. Small slides: the default "
+        "controller. Deep slides: the same one with a slip threshold of 6 m/s."
     )
     for name in CONTROLLERS:
         cleaned = [tests[name, CLEANED, friction] for friction in FRICTIONS]
