@@ -66,7 +66,9 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
     )
     passed = verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.8))
     assert (passed.status, passed.value, passed.margin) == ("pass", 80.0, 45.0)
-    assert passed.reason == f"2 of 4 wheelsets at or above 35 % (2 needed): 20, 90, 30, 80 % so far; {ENDED}"
+    assert passed.reason == (
+        f"2 of 4 wheelsets at or above 35 % (2 needed): 20, 90, 30, 80 % (above 30 km/h) so far; {ENDED}"
+    )
     assert verdict_of(slide, stop(**RUNNING), wheelsets(0.2, 0.9, 0.3, 0.3)).status == "inconclusive"
 
 

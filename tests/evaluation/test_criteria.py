@@ -19,7 +19,7 @@ def test_appendix_b_is_its_three_limits_and_nothing_else(shipped) -> None:
     }
     assert limits == {
         "initial-adhesion": ("initial_adhesion", None, "0.08 g", "validity"),
-        "minimum-slide": ("maximum_slide_above_cutoff", "35 %", None, "validity"),
+        "minimum-slide": ("sliding_share", "35 %", None, "validity"),
         "braking-distance": ("braking_distance", "440 m", "490 m", "validity"),
     }
 

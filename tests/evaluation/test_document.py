@@ -35,6 +35,7 @@ MEASURES = [
     "maximum_deceleration_mps2",
     "deceleration_bogie_1_mps2",
     "deceleration_bogie_2_mps2",
+    "sliding_share",
     "reservoir_minimum_bar",
     "air_consumed_nl",
     "reservoir_margin_bar",

@@ -49,9 +49,9 @@ def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
     assert adhesion.value == pytest.approx(0.07)
     assert adhesion.margin == pytest.approx(0.01)
     slide = verdicts["minimum-slide"]
-    assert (slide.status, slide.value, slide.lower, slide.unit) == ("pass", 80.0, 35.0, "%")
-    assert slide.margin == pytest.approx(45.0)
-    assert slide.reason == "2 of 4 wheelsets above 35 % (2 needed): 20, 90, 30, 80 %"
+    assert (slide.status, slide.value, slide.lower, slide.unit) == ("pass", 75.0, 35.0, "%")
+    assert slide.margin == pytest.approx(40.0)
+    assert slide.reason == "75 % (from the brake command to 60 km/h) keeps > 35 % by 40 %"
     distance = verdicts["braking-distance"]
     assert (distance.status, distance.value, distance.margin) == ("not_applicable", None, None)
     assert distance.reason == "rail is wet, the criterion is for dry"
@@ -69,7 +69,7 @@ def test_exactly_at_a_limit_below_and_above_do_not_hold_but_a_range_does(
     appendix_b, scenario, stop, sliding_stop, wheelsets
 ) -> None:
     wet = by_id(
-        judge(scenario(appendix_b, condition="wet"), sliding_stop(), wheelsets(0.35, 0.35, 0.35, 0.35))
+        judge(scenario(appendix_b, condition="wet"), sliding_stop(share=0.35), wheelsets(0.9, 0.9, 0.9, 0.9))
     )
     assert wet["minimum-slide"].status == "fail"
     for distance in (440.0, 490.0):
@@ -186,8 +186,9 @@ def test_the_verdict_carries_what_it_was_taken_to_mean(appendix_b, scenario, sli
     assert adhesion["first_phase_duration"] == "3 s (chosen; range 2 s .. 5 s)"
     assert adhesion["sliding_slide"] == "5 % (chosen)"
     slide = verdicts["minimum-slide"].definition
-    assert slide["wheelsets"] == "at least half"
-    assert slide["low_speed_cutoff"] == "30 km/h (chosen; range 10 km/h .. 60 km/h)"
+    assert slide["reading"].startswith("half-at-once (published: TB/T 3009-2019: inferred from")
+    assert slide["sliding_below"] == "90 % (published; range 85 % .. 95 %)"
+    assert slide["end_speed"] == "60 km/h (published; range 40 km/h .. 80 km/h)"
 
 
 def test_the_verdict_carries_its_measure_and_definitions_as_data(
@@ -205,7 +206,7 @@ def test_the_verdict_carries_its_measure_and_definitions_as_data(
         "moving_speed",
     ]
     assert adhesion.defined("moving_speed") == pytest.approx(10 / 3.6)
-    assert verdicts["minimum-slide"].defined("low_speed_cutoff") == pytest.approx(30 / 3.6)
+    assert verdicts["minimum-slide"].defined("end_speed") == pytest.approx(60 / 3.6)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,8 @@ import pytest
 
 from uictest.evaluation import evaluate
 from uictest.field_data import judge_recording, load_map, prepare, select_channels, stated_case
+from uictest.field_data.observation import observe
+from uictest.measures import MEASURES
 from uictest.recording.formats import FORMATS, Dialect, writer_of
 from uictest.recording.formats.reader import read_here
 from uictest.rig import SimulatedStop
@@ -62,6 +64,31 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
     verdicts = [(v.id, v.status) for v in actual.criteria if v.id not in BALANCES]
     assert verdicts == [(v.id, v.status) for v in expected.criteria if v.id not in BALANCES]
     _compare(actual, expected, max(1.0 / rate, 0.01))
+
+
+@pytest.mark.parametrize("rate", [2000.0, 100.0, 20.0])
+def test_the_sliding_share_of_a_record_is_that_of_the_simulated_stop(
+    rate: float, case: Case, simulated: Callable[[float], SimulatedStop], tmp_path: Path
+) -> None:
+    """Simulated, it has the same bits at any recording rate; recorded, it is off by some samples a slide."""
+    stop, slower = simulated(rate), simulated(100.0)
+    path = tmp_path / "stop.csv"
+    assert stop.recording is not None
+    writer_of("csv")(stop.recording, path)
+    contents = read_here("csv", path, Dialect())
+    channel_map, _ = load_map("uictest")
+    channels = select_channels(contents, channel_map)
+    seen = observe(prepare(channels, contents.metadata, channel_map.preparation), case.scenario)
+    for name in ("sliding_share", "sliding_share_of_wheelsets"):
+        for below in (0.85, 0.9, 0.95):
+            definition = {"sliding_below": below, "end_speed": 20.0 / 3.6}
+            read = MEASURES[name].read
+            expected = read(stop.measures, stop.wheelset_measures, definition).values
+            assert expected == read(slower.measures, slower.wheelset_measures, definition).values
+            recorded = read(seen.measures, seen.wheelset_measures, definition).values
+            duration = float(stop.measures.reached_time[1])
+            assert recorded == pytest.approx(expected, abs=LOCKED * max(1.0 / rate, 0.01) / duration)
+        assert max(expected) > 0.1
 
 
 def _compare(actual: Any, expected: Any, interval: float) -> None:

@@ -21,10 +21,17 @@ from .conftest import judge_stop
 
 Channels = dict[str, Any]
 ROUNDING = 1e-9
-DEFINITION = {"first_phase_duration": 3.0, "low_speed_cutoff": 10.0 / 3.6}
+DEFINITION = {
+    "first_phase_duration": 3.0,
+    "low_speed_cutoff": 10.0 / 3.6,
+    "sliding_below": 0.9,
+    "end_speed": 20.0 / 3.6,
+}
 _WORDS = {
     "first_phase_duration": {"value": "3 s", "range": ["3 s", "3 s"]},
     "low_speed_cutoff": {"value": "10 km/h", "range": ["10 km/h", "10 km/h"]},
+    "sliding_below": {"value": "90 %", "range": ["90 %", "90 %"]},
+    "end_speed": {"value": "20 km/h", "range": ["20 km/h", "20 km/h"]},
 }
 
 

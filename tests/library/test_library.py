@@ -31,7 +31,9 @@ def test_every_number_has_a_described_source(reference: str) -> None:
 def test_every_source_is_used_and_explained(reference: str) -> None:
     part = load_part(reference)
     used = {number.quantity.source for number in numbers(part)}
-    used |= {criterion.source for criterion in getattr(part, "criteria", ())}
+    for criterion in getattr(part, "criteria", ()):
+        used |= {criterion.source, *(reading.source for reading in criterion.readings)}
+        used |= {criterion.reading_source} if criterion.readings else set()
 
     assert used == set(part.sources)
     assert all(len(source.text) > 20 for source in part.sources.values())

@@ -28,7 +28,7 @@ def test_the_map_has_every_point_once(tests: Map) -> None:
 
 
 def test_on_a_rail_that_is_not_cleaned_the_slip_brake_test_counts(tests: Map) -> None:
-    """The deeper the slides, the longer the stop. At 0.10 the small slides lie at the limit of 35 %."""
+    """The deeper the slides, the longer the stop."""
     assert tests[SMALL, "none", 0.05].counts
     for friction in (0.05, 0.08, 0.10):
         small, deep = (tests[name, "none", friction] for name in CONTROLLERS)
@@ -37,21 +37,21 @@ def test_on_a_rail_that_is_not_cleaned_the_slip_brake_test_counts(tests: Map) ->
 
 
 def test_cleaning_takes_the_deep_slides_from_the_default_controller(tests: Map) -> None:
+    """It slides for long, so that the test counts, but never deep: the readings of its limit disagree."""
     cleaned = tests[SMALL, CLEANED, 0.05]
-    assert cleaned.slide < 35.0
-    assert cleaned.wheelsets == 0
-    assert not cleaned.counts
+    assert cleaned.depth < 35.0 < cleaned.sliding
+    assert cleaned.counts
 
 
 def test_a_controller_with_deep_slides_meets_both_limits_and_stops_earlier(tests: Map) -> None:
     small, deep = (tests[name, CLEANED, 0.05] for name in CONTROLLERS)
     assert deep.counts
-    assert deep.wheelsets == 4
+    assert min(deep.depth, deep.sliding) > 35.0
     assert deep.distance < small.distance
 
 
 def test_a_rail_of_more_friction_is_not_slippery_enough_once_it_is_cleaned(tests: Map) -> None:
     cleaned = tests[DEEP, CLEANED, 0.10]
     assert cleaned.initial_adhesion > 0.08
-    assert cleaned.slide > 35.0
+    assert cleaned.sliding > 35.0
     assert not cleaned.counts

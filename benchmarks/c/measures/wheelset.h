@@ -8,6 +8,7 @@
 
 static inline void begin_wheelset(WheelsetMeasures *m)
 {
+    m->wheel_speed = NAN;
     m->slide = m->maximum_slide = 0.0;
     for (int k = 0; k < SPEED_CLASSES; k++)
         m->maximum_slide_above[k] = NAN;
@@ -62,6 +63,7 @@ static inline void observe_wheelset(WheelsetMeasures *m, Measures *train, const 
     m->venting = venting;
     m->maximum_clamping_force = maximum(m->maximum_clamping_force, clamping_force);
     m->sliding = 0.0;
+    m->wheel_speed = wheel_speed;
     if (speed > p->moving_speed) {
         observe_slide(m, train, p, place, time, speed, speed - wheel_speed);
         observe_lock(m, p, time - train->end_time, wheel_speed);

@@ -4,6 +4,7 @@
 
 #include "../measures/build_up.h"
 #include "../measures/contact.h"
+#include "../measures/sliding_share.h"
 #include "../measures/train.h"
 #include "../measures/wheelset.h"
 #include "balance.h"
@@ -15,6 +16,7 @@ static inline void begin_stop_measures(const Car *car, Measures *measures, Wheel
     begin_measures(measures, car->time, car->position, car->speed, car->reservoir_pressure - p->atmospheric_pressure);
     begin_build_up(measures, p->commanded_pressure, car->line_pressure - p->atmospheric_pressure);
     begin_utilisation(measures);
+    begin_slow_times(measures, wheelset_measures);
     for (int i = 0; i < 4; i++) {
         begin_wheelset(&wheelset_measures[i]);
         begin_contact(&wheelset_measures[i]);
@@ -50,6 +52,7 @@ static inline void observe_cycle(const Car *car, const Wheelset *wheelsets, Meas
     observe_train(measures, p, time, position, speed, reservoir);
     if (stands)
         finish(measures, time, position);
+    keep_slow_times(measures, wheelset_measures);
 }
 
 static inline void close_stop_measures(const Car *car, const Bogie *bogies, const Wheelset *wheelsets,

@@ -62,8 +62,10 @@ from .result import (
 )
 from .result_columns import ResultColumns as ResultColumns, joined as joined, result_columns as result_columns
 from .verdict import (
+    READINGS as READINGS,
     AppliedDefinition as AppliedDefinition,
     OverStops as OverStops,
+    ReadVerdict as ReadVerdict,
     Sensitivity as Sensitivity,
     Status as Status,
     Verdict as Verdict,

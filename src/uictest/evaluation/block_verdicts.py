@@ -80,7 +80,8 @@ def block_verdicts(
         else:
             statuses[places] = _NOT_APPLICABLE
             reasons |= {place: partial(_joined, found, k) for k, place in enumerate(places.tolist())}
-    bounded = BoundedValues(values, bounds_of(criterion), criterion.wheelsets_needed(values.shape[1]))
+    where = criterion.speed_range(criterion.definition.stated())
+    bounded = BoundedValues(values, bounds_of(criterion), criterion.wheelsets_needed(values.shape[1]), where)
     statuses[has_value] = np.where(bounded.hold, _PASS, _FAIL)[has_value]
 
     def reason(place: int) -> str:
@@ -119,12 +120,14 @@ class BoundedValues:
     """Values of a measure of n stops, shape (n, 1) or (n, wheelsets), and their bounds in the same unit.
 
     What :class:`~uictest.evaluation.bounds.Bounds` and :func:`~uictest.evaluation.bounds.deciding` say of the
-    values of one stop, to the last bit; `needed` of the values must keep the bounds.
+    values of one stop, to the last bit; `needed` of the values must keep the bounds. `where` says at which
+    train speeds the measure looks.
     """
 
     values: Numbers
     bounds: Bounds
     needed: int
+    where: str = ""
 
     @cached_property
     def deciding(self) -> Numbers:
@@ -154,7 +157,7 @@ class BoundedValues:
     def reason(self, place: int, unit: str) -> str:
         """Return why the values of one stop keep or miss their bounds."""
         value = float(self.deciding[place])
-        return why_decided(self.values[place].tolist(), value, self.bounds, self.needed, unit)
+        return why_decided(self.values[place].tolist(), value, self.bounds, self.needed, unit, self.where)
 
     def _margins(self, values: Numbers) -> Numbers:
         lower = -math.inf if self.bounds.lower is None else self.bounds.lower

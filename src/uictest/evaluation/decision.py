@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from uictest import scenario
 from uictest.evaluation.bounds import Bounds, deciding
@@ -42,15 +42,19 @@ def decide(
     settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
     if observed.unavailable_reason:
-        return _without_value(observed.unavailable_reason, missing)
+        starts_late = stop.coverage is not None and stop.coverage.no_initial_speed
+        final = observed.whatever_follows and not starts_late
+        return _without_value(observed.unavailable_reason, () if final else missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
         return too_few_wheelsets(len(values))
     if missing:
-        return _PartlyKnown(values, missing, course, bounds, needed, unit).decision()
+        where = criterion.speed_range(definition)
+        return _PartlyKnown(values, missing, course, bounds, needed, unit, where).decision()
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
-    return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit))
+    where = criterion.speed_range(definition)
+    return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit, where))
 
 
 def read_measure(
@@ -59,7 +63,7 @@ def read_measure(
     """Return the value of a criterion's measure in the criterion's unit."""
     observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
     values = tuple(in_unit(number, criterion.unit) for number in observed.values)
-    return MeasureValue(values, observed.unavailable_reason)
+    return replace(observed, values=values)
 
 
 def too_few_wheelsets(count: int) -> Decision:
@@ -69,7 +73,10 @@ def too_few_wheelsets(count: int) -> Decision:
 
 @dataclass(frozen=True, slots=True)
 class _PartlyKnown:
-    """Values of a measure, in `unit`, some of which lack data; `needed` of them must keep the bounds."""
+    """Values of a measure, in `unit`, some of which lack data; `needed` of them must keep the bounds.
+
+    `where` says at which train speeds the measure looks.
+    """
 
     values: Sequence[float]
     missing: Sequence[MissingData | None]
@@ -77,6 +84,7 @@ class _PartlyKnown:
     bounds: Bounds
     needed: int
     unit: str
+    where: str = ""
 
     def decision(self) -> Decision:
         """Return the decision that holds wherever the values lie; inconclusive where there is none."""
@@ -110,7 +118,7 @@ class _PartlyKnown:
         reasons = _listed([gap for gap in self.missing if gap])
         if set(texts) == {"-"}:
             return _decided(status, value, self.bounds, reasons)
-        so_far = f"{with_unit(', '.join(texts), self.unit)} so far; {reasons}"
+        so_far = f"{_looking(with_unit(', '.join(texts), self.unit), self.where)} so far; {reasons}"
         reason = so_far if len(self.values) == 1 else f"{count}: {so_far}"
         return _decided(status, value, self.bounds, reason)
 
@@ -137,16 +145,30 @@ def _listed(missing: Sequence[MissingData]) -> str:
     return "; ".join(dict.fromkeys(gap.reason for gap in missing))
 
 
-def why_decided(values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str) -> str:
-    """Return why known values, in `unit`, keep or miss their bounds; `value` is the one that decides."""
-    if len(values) == 1:
-        return "" if bounds.hold(value) else _missed(value, bounds, with_unit(str(bounds), unit), unit)
-    kept = sum(map(bounds.hold, values))
-    listed = with_unit(", ".join(value_text(number, "1") for number in values), unit)
-    return f"{kept} of {len(values)} wheelsets {bounds.demand(unit)} ({needed} needed): {listed}"
+def why_decided(
+    values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str, where: str = ""
+) -> str:
+    """Return why known values, in `unit`, keep or miss their bounds.
+
+    `value` is the one that decides, `where` says at which train speeds its measure looks.
+    """
+    if len(values) > 1:
+        kept = sum(map(bounds.hold, values))
+        listed = _looking(with_unit(", ".join(value_text(number, "1") for number in values), unit), where)
+        return f"{kept} of {len(values)} wheelsets {bounds.demand(unit)} ({needed} needed): {listed}"
+    demand = with_unit(str(bounds), unit)
+    if not bounds.hold(value):
+        return _missed(value, bounds, demand, unit, where)
+    margin = value_text(bounds.margin(value), unit)
+    return f"{_looking(value_text(value, unit), where)} keeps {demand} by {margin}" if where else ""
 
 
-def _missed(value: float, bounds: Bounds, demand: str, unit: str) -> str:
+def _looking(text: str, where: str) -> str:
+    return f"{text} ({where})" if where else text
+
+
+def _missed(value: float, bounds: Bounds, demand: str, unit: str, where: str) -> str:
     if not math.isfinite(value):
         return f"{value} never keeps {demand}"
-    return f"{value_text(value, unit)} misses {demand} by {value_text(-bounds.margin(value), unit)}"
+    short = value_text(-bounds.margin(value), unit)
+    return f"{_looking(value_text(value, unit), where)} misses {demand} by {short}"

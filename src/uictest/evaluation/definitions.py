@@ -25,6 +25,9 @@ def definition_texts(
     texts = {"clause": criterion.clause, "measure": criterion.meaning, "bound": bound}
     if aggregation := criterion.aggregation:
         texts["wheelsets"] = aggregation
+    if criterion.readings:
+        own = profile.sources.get(criterion.reading_source)
+        texts["reading"] = f"{criterion.reading} ({f'{own.mark}: {own.text}' if own else 'user'})"
     for name, parameter in criterion.definition.parameters().items():
         texts[name] = _parameter(parameter, profile.sources)
     for name in criterion.observed_by:

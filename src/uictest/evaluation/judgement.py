@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from uictest import scenario
@@ -12,8 +12,11 @@ from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, decide
 from uictest.evaluation.definitions import applied_definitions, definition_texts
 from uictest.evaluation.sensitivity import sensitivity
-from uictest.evaluation.verdict import Sensitivity, Verdict
+from uictest.evaluation.verdict import READINGS, ReadVerdict, Sensitivity, Verdict, VerdictInterval
 from uictest.measures import StopMeasures, Wheelsets, is_nan
+
+DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
+"""Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
 
 
 def judge(
@@ -64,24 +67,56 @@ def _judge(
     decided = undecided(criterion, conditions, stop, observation)
     if decided is not None:
         return verdict_of(criterion, bounds, decided)
-    return verdict_by(
-        criterion, bounds, lambda stated: decide(criterion, bounds, stated, stop), explain=explain
-    )
+
+    def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
+        if read is criterion:
+            return decide(criterion, bounds, definition, stop)
+        without_value = undecided(read, conditions, stop, observation)
+        return without_value or decide(read, bounds_of(read), definition, stop)
+
+    return verdict_by(criterion, bounds, decide_by, explain=explain)
 
 
 def verdict_by(
     criterion: scenario.Criterion,
     bounds: Bounds,
-    decide_by: Callable[[Mapping[str, float]], Decision],
+    decide_by: DecideBy,
     *,
     explain: bool,
 ) -> Verdict:
-    """Return the verdict of a criterion that applies; `decide_by` decides it by given definitions (SI)."""
+    """Return the verdict of a criterion that applies, without definitions."""
     stated = criterion.definition.stated()
-    decision = decide_by(stated)
-    if not explain or decision.status == "inconclusive":
-        return verdict_of(criterion, bounds, decision)
-    return verdict_of(criterion, bounds, decision, *_sensitivities(criterion, stated, decide_by))
+    decision = decide_by(criterion, stated)
+    verdict = verdict_of(criterion, bounds, decision)
+    if not explain:
+        return verdict
+    if decision.status != "inconclusive":
+        verdict = replace(verdict, sensitivity=tuple(_sensitivities(criterion, stated, decide_by)))
+    if not criterion.readings:
+        return verdict
+    readings = tuple(_readings(criterion, verdict, decide_by))
+    turns = [_over_readings(readings)] if decision.status != "inconclusive" else []
+    return replace(verdict, readings=readings, sensitivity=(*verdict.sensitivity, *turns))
+
+
+def _readings(criterion: scenario.Criterion, own: Verdict, decide_by: DecideBy) -> Iterator[ReadVerdict]:
+    """Yield what each reading says: that of the criterion itself, which decides, then the others."""
+    yield _read_verdict(criterion.reading, replace(own, sensitivity=()), decides=True)
+    for reading in criterion.readings:
+        read = criterion.read_as(reading)
+        verdict = verdict_by(read, bounds_of(read), decide_by, explain=True)
+        yield _read_verdict(reading.id, verdict, decides=False)
+
+
+def _read_verdict(reading: str, verdict: Verdict, *, decides: bool) -> ReadVerdict:
+    names = ("status", "measure", "value", "unit", "lower", "upper", "margin", "reason", "sensitivity")
+    return ReadVerdict(reading, decides, **{name: getattr(verdict, name) for name in names})
+
+
+def _over_readings(readings: Sequence[ReadVerdict]) -> Sensitivity:
+    """Return the readings as the range of a definition: the verdict flips where they do not all agree."""
+    intervals = (VerdictInterval(k, k, each.status, each.id) for k, each in enumerate(readings, start=1))
+    return Sensitivity(READINGS, "", 1, len(readings), tuple(intervals))
 
 
 def with_definitions(
@@ -95,7 +130,24 @@ def with_definitions(
         verdict,
         definition=definition_texts(criterion, profile, observation),
         definitions=applied_definitions(criterion, profile, observation),
+        readings=tuple(_defined_readings(verdict.readings, criterion, profile, observation)),
     )
+
+
+def _defined_readings(
+    readings: Sequence[ReadVerdict],
+    criterion: scenario.Criterion,
+    profile: scenario.Criteria,
+    observation: scenario.MeasureDefinitions,
+) -> Iterator[ReadVerdict]:
+    """Yield what each reading says with its source and, but for the deciding one, its definitions."""
+    others = {each.id: each for each in criterion.readings}
+    for read in readings:
+        other = others.get(read.id)
+        source = profile.sources.get(other.source if other else criterion.reading_source)
+        texts = definition_texts(criterion.read_as(other), profile, observation) if other else {}
+        mark, text = (source.mark, source.text) if source else ("user", "")
+        yield replace(read, mark=mark, source=text, definition=texts)
 
 
 def undecided(
@@ -146,21 +198,19 @@ def _unobserved(
 def _sensitivities(
     criterion: scenario.Criterion,
     stated: dict[str, float],
-    decide_by: Callable[[Mapping[str, float]], Decision],
+    decide_by: DecideBy,
 ) -> Iterator[Sensitivity]:
     for name, parameter in criterion.definition.parameters().items():
 
         def at(value: float, name: str = name) -> Decision:
-            return decide_by({**stated, name: value})
+            return decide_by(criterion, {**stated, name: value})
 
         lower, upper = parameter.range
         yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
 
 
-def verdict_of(
-    criterion: scenario.Criterion, bounds: Bounds, decision: Decision, *sensitivities: Sensitivity
-) -> Verdict:
-    """Return a decision as a verdict, without definitions."""
+def verdict_of(criterion: scenario.Criterion, bounds: Bounds, decision: Decision) -> Verdict:
+    """Return a decision as a verdict, without definitions and what depends on them."""
     return Verdict(
         id=criterion.id,
         layer=criterion.layer,
@@ -171,7 +221,6 @@ def verdict_of(
         margin=_margin(decision, bounds),
         status=decision.status,
         reason=decision.reason,
-        sensitivity=sensitivities,
         measure=criterion.measure,
         requirements=criterion.requirements,
     )

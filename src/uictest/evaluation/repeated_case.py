@@ -100,15 +100,21 @@ def _judge(
     rule: OutcomeRule,
     stops: Sequence[ObservedStop],
 ) -> Verdict:
-    bounds = bounds_of(criterion)
     without_value = [undecided(criterion, conditions, stop, observation) for stop in stops]
 
-    def decisions(definition: Mapping[str, float]) -> list[Decision]:
-        pairs = zip(without_value, stops, strict=True)
-        return [known or decide(criterion, bounds, definition, stop) for known, stop in pairs]
+    def decisions(read: scenario.Criterion, definition: Mapping[str, float]) -> list[Decision]:
+        own = without_value
+        if read is not criterion:
+            own = [undecided(read, conditions, stop, observation) for stop in stops]
+        pairs = zip(own, stops, strict=True)
+        return [known or decide(read, bounds_of(read), definition, stop) for known, stop in pairs]
 
-    def decide_by(definition: Mapping[str, float]) -> Decision:
-        return decision_over_stops(decisions(definition), bounds, criterion.unit, rule)
+    def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
+        decision = decision_over_stops(decisions(read, definition), bounds_of(read), read.unit, rule)
+        where = read.speed_range(definition) if decision.value is not None else ""
+        return replace(decision, reason=f"{decision.reason} ({where})") if where else decision
 
-    verdict = verdict_by(criterion, bounds, decide_by, explain=any(each is None for each in without_value))
-    return replace(verdict, over_stops=over_stops(decisions(criterion.definition.stated())))
+    explain = any(each is None for each in without_value)
+    verdict = verdict_by(criterion, bounds_of(criterion), decide_by, explain=explain)
+    stated = criterion.definition.stated()
+    return replace(verdict, over_stops=over_stops(decisions(criterion, stated)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
@@ -16,20 +16,29 @@ Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 not_applicable: the criterion says nothing about such a stop. inconclusive: data to judge it are missing.
 """
 
+READINGS: Final = "readings"
+"""Name among the definitions of a criterion for its readings, taken together."""
+
 Layer = Literal["validity", "requirement"]
 """validity: the stop counts as a test. requirement: the vehicle or its WSP is good enough."""
 
 
 @dataclass(frozen=True, slots=True)
 class VerdictInterval:
-    """An interval of a definition's range in which the verdict stays the same; both ends belong to it."""
+    """An interval of a definition's range in which the verdict stays the same; both ends belong to it.
+
+    Of the readings of a criterion each has one, `first` and `last` its number from 1, `reading` its id.
+    """
 
     first: Number
     last: Number
     status: Annotated[Status, Field(alias="verdict")]
+    reading: str = ""
 
     def __str__(self) -> str:
-        """Return the interval for a reader, as in "pass 2 .. 3.41"."""
+        """Return the interval for a reader, as in "pass 2 .. 3.41"; of a reading "depth fail"."""
+        if self.reading:
+            return f"{self.reading} {self.status.replace('_', ' ')}"
         ends = f"{self.first:.4g}" if self.first == self.last else f"{self.first:.4g} .. {self.last:.4g}"
         return f"{self.status.replace('_', ' ')} {ends}"
 
@@ -46,7 +55,9 @@ class Sensitivity:
     unit: str
     lower: Number
     upper: Number
-    intervals: Annotated[tuple[VerdictInterval, ...], Field(alias="stretches")]
+    intervals: Annotated[
+        tuple[Annotated[VerdictInterval, absent_if_empty("reading")], ...], Field(alias="stretches")
+    ]
 
     @property
     def flips(self) -> bool:
@@ -55,6 +66,8 @@ class Sensitivity:
 
     def __str__(self) -> str:
         """Return a line for a reader: "low_speed_cutoff 10 .. 60 km/h: pass 10 .. 40, fail 50 .. 60"."""
+        if self.definition == READINGS:
+            return f"{READINGS}: {', '.join(map(str, self.intervals))}"
         scope = f"{self.definition} {self.lower:.4g} .. {self.upper:.4g} {self.unit}"
         if not self.flips:
             return f"{scope}: {self.intervals[0].status.replace('_', ' ')} throughout"
@@ -92,6 +105,32 @@ class AppliedDefinition:
 
 
 @dataclass(frozen=True, slots=True)
+class ReadVerdict:
+    """What a criterion says by one of its readings; that which `decides` gives the criterion its status.
+
+    `value`, `lower`, `upper` and `margin` are in `unit`, as those of a verdict. `mark` and `source` say where
+    the reading comes from. `definition` maps each definition to its text, for people only. `sensitivity` is
+    that of the reading: a verdict turns where another reading disagrees at the values it states. Both stand
+    with the verdict for the deciding one.
+    """
+
+    id: str
+    decides: bool
+    status: Annotated[Status, Field(alias="verdict")]
+    measure: str
+    value: OptionalNumber
+    unit: str
+    lower: OptionalNumber
+    upper: OptionalNumber
+    margin: OptionalNumber
+    reason: str = ""
+    mark: str = ""
+    source: str = ""
+    definition: dict[str, str] = field(default_factory=dict)
+    sensitivity: tuple[WrittenSensitivity, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class OverStops:
     """How one criterion came out over the stops of a repeated case: how many stops have each status.
 
@@ -125,7 +164,8 @@ class Verdict:
     `value` is the one of the wheelset that decides. `measure` and `definitions` hold the name of the measure
     and the definitions that are numbers. `definition` maps each definition to its text, for people only.
     `requirements` holds the ids of those that the criterion verifies.
-    `over_stops` is None but for a repeated case, in which `value` is the median over the stops.
+    `readings` holds what each reading of the criterion says, the deciding one first; empty where there is
+    only one. `over_stops` is None but for a repeated case, in which `value` is the median over the stops.
     """
 
     id: str
@@ -143,6 +183,7 @@ class Verdict:
     definitions: tuple[AppliedDefinition, ...] = ()
     requirements: tuple[str, ...] = ()
     over_stops: OverStops | None = None
+    readings: tuple[ReadVerdict, ...] = ()
 
     @property
     def firm(self) -> bool:
@@ -160,7 +201,7 @@ def with_outcome_of(verdict: Verdict, other: Verdict) -> Verdict:
     return replace(other, definition=verdict.definition, definitions=verdict.definitions)
 
 
-WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops")]
+WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings")]
 """In JSON what only some verdicts have is absent from the others."""
 
 

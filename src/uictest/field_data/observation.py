@@ -16,6 +16,8 @@ from uictest.field_data.rail_contact import RailContact, rail_contact
 from uictest.field_data.recorded_stop import RecordedStop
 from uictest.field_data.support import coverage_of
 from uictest.measures import (
+    END_SPEEDS,
+    SLOW_TIMES,
     SPEED_CLASSES,
     STOP_MEASURES,
     WHEELSET_MEASURES,
@@ -24,12 +26,14 @@ from uictest.measures import (
     begin_build_up,
     begin_contact,
     begin_slides,
+    begin_slow_times,
     begin_train,
     begin_utilisation,
     begin_wheelset,
     begin_window,
     close_contacts,
     keep_slide,
+    keep_slow_times,
     keep_window,
     note_standstill,
     observe_build_up,
@@ -59,8 +63,15 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     commanded.
     """
     # Plain objects in the loop: attributes of numpy records take ten times as long outside compiled code.
-    train: Any = SimpleNamespace(speed_after_sliding=[float("nan")] * (WINDOW_SECONDS + 1))
-    wheelsets: list[Any] = [SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES) for _ in WHEELSETS]
+    train: Any = SimpleNamespace(
+        speed_after_sliding=[0.0] * (WINDOW_SECONDS + 1),
+        reached_time=[0.0] * len(END_SPEEDS),
+        half_slow_time=[0.0] * SLOW_TIMES,
+    )
+    wheelsets: list[Any] = [
+        SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES, slow_time=[0.0] * SLOW_TIMES)
+        for _ in WHEELSETS
+    ]
     defined = SimpleNamespace(
         **{name: float(getattr(judged_under.measures, name)) for name in fields_of(MeasureDefinition)}
     )
@@ -133,9 +144,11 @@ def _observe(
         observe_build_up(train, definition, time, samples.distance[k], speed, samples.line[k])
         observe_train(train, definition, time, samples.distance[k], speed, samples.reservoir[k])
         keep_window(train, train)
+        keep_slow_times(train, wheelsets, train, wheelsets)
     if stop.standstill is not None:
         observe_train(train, definition, *stop.standstill, 0.0, train.reservoir_minimum_pressure)
         keep_window(train, train)
+        keep_slow_times(train, wheelsets, train, wheelsets)
         note_standstill(train, True, *stop.standstill)
 
 
@@ -144,6 +157,7 @@ def _begin(samples: _Samples, train: Any, wheelsets: list[Any], commanded_pressu
     begin_build_up(train, commanded_pressure, samples.line[0])
     begin_utilisation(train)
     begin_window(train)
+    begin_slow_times(train, wheelsets)
     for wheelset in wheelsets:
         begin_wheelset(wheelset)
         begin_contact(wheelset)

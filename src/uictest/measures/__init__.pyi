@@ -1,5 +1,5 @@
 from .build_up import begin_build_up as begin_build_up, observe_build_up as observe_build_up
-from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS
+from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS, SLOW_SHARE_CLASS as SLOW_SHARE_CLASS
 from .contact import (
     begin_contact as begin_contact,
     begin_utilisation as begin_utilisation,
@@ -21,6 +21,9 @@ from .measure import (
 )
 from .reaction import observe_reaction as observe_reaction, observe_reference as observe_reference
 from .records import (
+    END_SPEEDS as END_SPEEDS,
+    SLOW_SHARES as SLOW_SHARES,
+    SLOW_TIMES as SLOW_TIMES,
     SPEED_CLASSES as SPEED_CLASSES,
     WINDOW_SECONDS as WINDOW_SECONDS,
     MeasureDefinition as MeasureDefinition,
@@ -35,6 +38,7 @@ from .registry import (
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
 )
+from .sliding_share import begin_slow_times as begin_slow_times, keep_slow_times as keep_slow_times
 from .train import (
     begin_train as begin_train,
     begin_window as begin_window,

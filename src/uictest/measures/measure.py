@@ -28,11 +28,13 @@ Wheelsets = Iterable[WheelsetMeasures]
 class MeasureValue:
     """SI values of a measure, one for the stop or one per wheelset, as far as the stop was observed.
 
-    `unavailable_reason` says why there is no value; empty where there is one.
+    `unavailable_reason` says why there is no value; empty where there is one. `whatever_follows`: there will
+    be none however the stop goes on.
     """
 
     values: tuple[float, ...] = ()
     unavailable_reason: str = ""
+    whatever_follows: bool = False
 
 
 Reader = Callable[[StopMeasures, Wheelsets, DefinitionValues], MeasureValue]
@@ -147,6 +149,7 @@ class Measure:
         of_faults: whether it says something about the reaction to faults: nothing, where none began.
         of_simulation: whether it says something about the simulation itself, nothing about a train.
         definitions: parameters that a criterion must define before the words mean a number.
+        speed_range: says in words, by its definitions, at which train speeds it looks; None: at all of them.
         observed_by: fields of the scenario's `measures` part that decide what is observed.
         recorded: data of a record that it needs; None for one of a simulation.
         column: of results that needs the same data; None where results do not report it.
@@ -165,6 +168,7 @@ class Measure:
     of_faults: bool = False
     of_simulation: bool = False
     definitions: tuple[str, ...] = ()
+    speed_range: Callable[[DefinitionValues], str] | None = None
     observed_by: tuple[str, ...] = ()
     recorded: RecordedData | None = None
     column: StopColumn | WheelsetColumn | None = None

@@ -10,6 +10,11 @@ from uictest.record import Record, from_scenario
 
 SPEED_CLASSES = 21
 """Classes of train speed, 10 km/h apart: the largest slide is kept above each of 0, 10, .. 200 km/h."""
+SLOW_SHARES = (0.85, 0.90, 0.95)
+"""Shares of the train's speed below which a wheelset may be said to slide, each with times of its own."""
+END_SPEEDS = tuple(50.0 * k / 18.0 for k in range(1, 11))
+"""m/s: 10, 20, .. 100 km/h, train speeds down to which the time spent sliding may count."""
+SLOW_TIMES = len(END_SPEEDS) * len(SLOW_SHARES)
 WINDOW_SECONDS = 10
 """Whole seconds after the first sliding at which the train's speed is kept."""
 
@@ -32,6 +37,8 @@ class StopMeasures(Record):
     sliding_time: float  # first sliding of any wheelset, s
     sliding_wheelset: float  # which one, 1..4
     speed_after_sliding: Annotated[MutableSequence[float], WINDOW_SECONDS + 1]  # at 0, 1, .. s after it, m/s
+    reached_time: Annotated[MutableSequence[float], len(END_SPEEDS)]  # first sample at or below each, s
+    half_slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # at least half of the wheelsets at once, s
     reservoir_minimum_pressure: float  # Pa
     reservoir_margin: float  # lowest over the highest cylinder pressure, Pa
     commanded_pressure: float  # of the brake line, Pa
@@ -58,6 +65,8 @@ class StopMeasures(Record):
 class WheelsetMeasures(Record):
     """Measures of one wheelset; slides are shares of the train's speed."""
 
+    wheel_speed: float  # circumferential, last sample, m/s
+    slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # below each share of the train's speed, s
     slide: float  # last sample, train moving
     maximum_slide: float  # train moving
     maximum_slide_above: Annotated[MutableSequence[float], SPEED_CLASSES]  # train faster than 0, 10, .. km/h

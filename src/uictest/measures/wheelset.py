@@ -10,6 +10,7 @@ _CLASSES_PER_SPEED = 3.6 / 10.0
 
 def begin_wheelset(measures: WheelsetMeasures) -> None:
     """Start the measures of a wheelset that rolls with its brake released."""
+    measures.wheel_speed = NAN
     measures.maximum_slide = 0.0
     measures.slide = 0.0
     measures.first_sliding_time = NAN
@@ -71,6 +72,7 @@ def observe_wheelset(
     interval = time - train.end_time
     slip = speed - wheel_speed
     slide = slip / select(moves, speed, 1.0)
+    measures.wheel_speed = wheel_speed
     measures.slide = select(moves, slide, measures.slide)
     measures.maximum_slide = select(moves, maximum(measures.maximum_slide, slide), measures.maximum_slide)
     slides = moves & (slide > definition.sliding_slide) & (slip > definition.sliding_slip)

@@ -99,6 +99,33 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
         yield verdict_sentence(verdict)
         for sensitivity in verdict.sensitivity:
             yield printable(f"{verdict.id}: {sensitivity}")
+        for reading, sentence in zip(verdict.readings, reading_sentences(verdict), strict=True):
+            yield printable(f"{verdict.id} read as {sentence}")
+            for sensitivity in reading.sensitivity:
+                yield printable(f"{verdict.id} read as {reading.id}: {sensitivity}")
+
+
+def reading_sentences(verdict: evaluation.Verdict) -> list[str]:
+    """Return what a criterion says by each of its readings, e.g. `depth fail: 14.2 % (above 30 km/h) ...`."""
+    return [
+        printable(
+            f"{each.id}{' (decides)' if each.decides else ''} {each.status.replace('_', ' ')}: "
+            f"{each.reason or quantity(each.value, each.unit)}"
+        )
+        for each in verdict.readings
+    ]
+
+
+def reading_sources(verdict: evaluation.Verdict) -> dict[str, str]:
+    """Return where each further reading of a criterion comes from, and its definitions."""
+    return {
+        printable(each.id): printable(
+            f"{each.mark}: {each.source or 'no source'}, "
+            + ", ".join(f"{name} = {text}" for name, text in each.definition.items())
+        )
+        for each in verdict.readings
+        if not each.decides
+    }
 
 
 def real_time_sentences(result: evaluation.CaseResult) -> list[str]:

@@ -10,6 +10,13 @@ from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 
 KMH = 1 / 3.6
 G = 9.80665
+REACHED = np.array([24.0, 22.0, 20.0, 18.0, 17.0, 16.0, 12.0, 8.0, 6.0, 4.0])
+"""s: when the train runs at 10, 20, .. 100 km/h; at 60 km/h after 16 s."""
+
+
+def slow_times(share: float) -> np.ndarray:
+    """Times of so much of the 16 s down to 60 km/h, all above 100 km/h, below every share of its speed."""
+    return np.concatenate([np.zeros(27), np.full(3, 16.0 * share)])
 
 
 def _record(dtype: np.dtype, fields: dict[str, Any]) -> Any:
@@ -30,6 +37,7 @@ def _stop(**changes: Any) -> Any:
         "end_distance": 465.0,
         "minimum_deceleration": 1.1,
         "maximum_deceleration": 1.4,
+        "reached_time": REACHED,
         "sliding_time": np.nan,
         "speed_after_sliding": np.nan,
         "reservoir_minimum_pressure": 7.2e5,
@@ -47,19 +55,28 @@ def _stop(**changes: Any) -> Any:
     return _record(STOP_MEASURES, {**sound, **changes})
 
 
-def _sliding_stop(deceleration: float = 0.07 * G, **changes: Any) -> Any:
-    """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2)."""
+def _sliding_stop(deceleration: float = 0.07 * G, share: float = 0.75, **changes: Any) -> Any:
+    """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2).
+
+    Half of the wheelsets slide at once in a `share` of the time until 60 km/h.
+    """
     speed = 33.0 - deceleration * np.arange(11.0)
-    slid = {"sliding_time": 1.0, "speed_after_sliding": speed, "adhesion_utilisation": 0.8}
+    slid = {
+        "half_slow_time": slow_times(share),
+        "sliding_time": 1.0,
+        "speed_after_sliding": speed,
+        "adhesion_utilisation": 0.8,
+    }
     return _stop(**{**slid, **changes})
 
 
 def _wheelsets(*slides: float, **changes: Any) -> Any:
-    """One wheelset per slide (the same above every train speed)."""
+    """One wheelset per slide, the same above every train speed; those above 10 % slide 75 % of the time."""
     records = np.zeros(len(slides), dtype=WHEELSET_MEASURES).view(np.recarray)
     for record, slide in zip(records, slides, strict=True):
         record.maximum_slide = slide
         record.maximum_slide_above[:] = slide
+        record.slow_time[:] = slow_times(0.75 if slide > 0.1 else 0.0)
     for name, value in changes.items():
         records[name] = value
     return records

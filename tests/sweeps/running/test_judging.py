@@ -49,6 +49,14 @@ criteria:
   - {id: half, layer: validity, measure: maximum_slide_above_cutoff, lower: 35 %, strict: true,
      wheelsets: {at_least: half}, applies: {wsp: [active]},
      definition: {low_speed_cutoff: {value: 30 km/h, range: [10 km/h, 60 km/h]}}}
+  - {id: share, layer: validity, measure: sliding_share, lower: 35 %, strict: true, reading: at-once,
+     definition: {sliding_below: {value: 90 %, range: [85 %, 95 %]},
+                  end_speed: {value: 60 km/h, range: [40 km/h, 80 km/h]}},
+     readings: [{id: deep, measure: maximum_slide_above_cutoff, wheelsets: {at_least: half},
+                 definition: {low_speed_cutoff: {value: 30 km/h, range: [10 km/h, 60 km/h]}}}]}
+  - {id: each, layer: validity, measure: sliding_share_of_wheelsets, lower: 35 %, wheelsets: {at_least: 3},
+     definition: {sliding_below: {value: 95 %, range: [85 %, 95 %]},
+                  end_speed: {value: 40 km/h, range: [40 km/h, 80 km/h]}}}
   - {id: three, layer: requirement, measure: air_vented, upper: 10 NL, wheelsets: {at_least: 3}}
   - {id: discs, layer: requirement, measure: maximum_disc_temperature, upper: 300 degC, wheelsets: all}
   - {id: adhesion, layer: validity, measure: initial_adhesion, upper: 0.08 g, strict: true,
@@ -120,6 +128,7 @@ def hand_made(
             field = records[name]
             field[...] = lot.choice(VALUES[name], field.shape) if name in VALUES else lot.random(field.shape)
     measures["stopped"], measures["initial_speed"] = 1.0, parameters["initial_speed"]
+    measures["reached_time"] = np.where(measures["reached_time"] < 0.05, np.nan, measures["reached_time"])
     measures["speed_after_sliding"] = 20.0 - lot.random((parameters.size, 1)) * np.arange(11.0)
     measures["speed_after_sliding"][lot.random(parameters.size) < 0.1, 2:] = np.nan
     wheelsets["maximum_slide_above"][lot.random(parameters.size) < 0.1] = np.nan

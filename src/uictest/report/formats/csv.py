@@ -23,11 +23,12 @@ from uictest.report.repeat_wording import (
 from uictest.report.requirements import requirement_rows, verified_requirements
 from uictest.report.series.tables import series_tables
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.wording import definition_sentence
+from uictest.report.wording import definition_sentence, reading_sentences
 from uictest.series import SeriesResult
 
 CHANGED = "changed_parameters"
 REQUIREMENTS = "requirements"
+READINGS = "readings"
 _CRITERION_FIELDS = {
     "layer": "layer",
     "verdict": "status",
@@ -76,7 +77,7 @@ def criteria_table(results: Sequence[evaluation.CaseResult]) -> Table:
     Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
     """
     own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
-    columns = ["id", "criterion", *_CRITERION_FIELDS, *own, "definition"]
+    columns = ["id", "criterion", *_CRITERION_FIELDS, READINGS, *own, "definition"]
     return Table(columns, list(_criterion_rows(results)))
 
 
@@ -158,6 +159,7 @@ def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[s
 def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
     """Return the cells of a verdict that every table of criteria has."""
     own: dict[str, Cell] = {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
+    own[READINGS] = "; ".join(reading_sentences(verdict))
     return own | {REQUIREMENTS: "; ".join(verdict.requirements)}
 
 

@@ -16,7 +16,7 @@ from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import VerifiedRequirement, verified_requirements
 from uictest.report.series.md import series_markdown
-from uictest.report.wording import listed
+from uictest.report.wording import listed, reading_sentences
 
 _MEASURES = {
     "braking_distance_m": ".1f",
@@ -30,6 +30,8 @@ _DIFFERENCES_SHOWN = 100
 _REQUIREMENT_COLUMNS = ("requirement", "status", "tested in", "not met in")
 _REQUIREMENTS_SHOWN = 100
 """Requirements that a reader is shown here, those not met first."""
+_READINGS_SHOWN = 100
+"""Readings of criteria that a reader is shown here."""
 _COLUMNS = (
     *("verdict", "case", "outcome"),
     *("distance, m", "time, s", "mean, m/s²", "initial, g", "slide above {}, %", "sliding, s", "locked, s"),
@@ -61,7 +63,8 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
         alignment = f"l{alignment}"
     table = MarkdownTable(columns, alignment, rows, "more cases are in `summary.csv` and `results.json`.")
     shown = content.results or not content.series
-    return text + (table.within(limit - len(text.encode())) if shown else "")
+    text += table.within(limit - len(text.encode())) if shown else ""
+    return text + _readings(content, limit - len(text.encode()))
 
 
 def append_step_summary(content: RunContent) -> None:
@@ -88,6 +91,19 @@ def _requirement_row(requirement: VerifiedRequirement) -> str:
     status = requirement.status if requirement.status == "met" else f"**{requirement.status}**"
     not_met = listed([f"{each.name} ({each.word})" for each in requirement.not_met])
     return row([code(requirement.id), status, str(len(requirement.tested)), prose(not_met)])
+
+
+def _readings(content: RunContent, limit: int) -> str:
+    """Return the table of criteria with several readings, one row for each."""
+    rows = [
+        row([code(result.id), code(verdict.id), prose(sentence)])
+        for result in content.results
+        for verdict in result.criteria
+        for sentence in reading_sentences(verdict)
+    ]
+    rest = "more readings are in `criteria.csv`."
+    table = MarkdownTable(("case", "criterion", "reading"), "lll", rows, rest, _READINGS_SHOWN)
+    return f"\n{table.within(limit)}" if rows else ""
 
 
 def _baseline(baseline: BaselineComparison, limit: int) -> str:

@@ -9,7 +9,7 @@ from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.difference import Difference
 from uictest.report.escaping import printable
-from uictest.report.part_wording import part_sentences
+from uictest.report.part_wording import part_sentences, slide_speed
 from uictest.report.repeat_wording import range_cells, share_cells
 from uictest.report.wording import (
     DIFFERS,
@@ -18,6 +18,7 @@ from uictest.report.wording import (
     line_word,
     listed,
     number,
+    reading_sources,
 )
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
@@ -55,6 +56,8 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     for result in results:
         for verdict in result.criteria:
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
+            for reading, sentence in reading_sources(verdict).items():
+                cases.setdefault((f"{verdict.id} read as {reading}", sentence), []).append(result.id)
     meanings = [criterion for criterion, _ in cases]
     for (criterion, sentence), names in cases.items():
         where = f" (in {listed(names)})" if meanings.count(criterion) > 1 else ""
@@ -86,6 +89,7 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
         if result.measures is not None:
             yield f"{name}={number(result.measures[name])}"
     if result.wheelsets:
+        yield f"slide_above={slide_speed([result]).replace(' ', '')}"
         yield "maximum_slide=" + "/".join(number(wheelset["maximum_slide"]) for wheelset in result.wheelsets)
         vents = (number(wheelset["valve_actuations"]) for wheelset in result.wheelsets)
         yield "valve_actuations=" + "/".join(vents)

@@ -88,6 +88,12 @@ def _largest_slides(verdict: evaluation.Verdict, channels: Channels) -> Moments:
     return Moments(extremes=_largest(channels, "slide", speed > cutoff), until=until)
 
 
+def _until_end_speed(verdict: evaluation.Verdict, channels: Channels) -> Moments:
+    """Return when the train first ran no faster than the speed down to which sliding counts."""
+    reached = np.flatnonzero(channels["speed"] <= (verdict.defined("end_speed") or 0.0))
+    return Moments(until=float(channels["time"][reached[0]]) if len(reached) else None)
+
+
 def _largest_forces(verdict: evaluation.Verdict, channels: Channels) -> Moments:
     """Return when the clamping force of each wheelset was largest."""
     everywhere = np.ones(len(channels["time"]), dtype=np.bool_)
@@ -140,6 +146,8 @@ _FINDERS: Final[Mapping[str, Callable[[evaluation.Verdict, Channels], Moments]]]
         "reference_excess": _largest_reference_excess,
         "sliding_duration": _slides,
         "maximum_slide_above_cutoff": _largest_slides,
+        "sliding_share": _until_end_speed,
+        "sliding_share_of_wheelsets": _until_end_speed,
         "maximum_clamping_force": _largest_forces,
         "maximum_disc_temperature": _highest_disc_temperatures,
         "minimum_deceleration": _smallest_deceleration,

@@ -8,12 +8,14 @@ from uictest.measures import (
     begin_build_up,
     begin_contact,
     begin_slides,
+    begin_slow_times,
     begin_train,
     begin_utilisation,
     begin_wheelset,
     begin_window,
     close_contacts,
     keep_slide,
+    keep_slow_times,
     keep_window,
     note_standstill,
     observe_build_up,
@@ -47,6 +49,7 @@ def begin_stop_measures(
 def begin_tables(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
     """Start the measures of a stop that are a table."""
     begin_window(measures)
+    begin_slow_times(measures, wheelset_measures)
     for i in range(4):
         begin_slides(wheelset_measures[i])
 
@@ -158,6 +161,7 @@ def keep_tables(
 ) -> None:
     """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
     keep_window(measures, samples)
+    keep_slow_times(measures, wheelset_measures, samples, wheelset_samples)
     for i in range(4):
         keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
 

@@ -55,6 +55,13 @@ MeasureName = Annotated[
     WithJsonSchema({"type": "string", "enum": sorted({*MEASURES, *SERIES_MEASURES})}),
 ]
 
+StopMeasureName = Annotated[
+    str,
+    AfterValidator(_known_measure),
+    WithJsonSchema({"type": "string", "enum": sorted(MEASURES)}),
+]
+"""A measure of stops: of a model without a scope."""
+
 Bound = Annotated[
     Quantity,
     PlainValidator(_of_the_measure),

@@ -1,37 +1,38 @@
 """Criteria: bounds on the measures of a stop, when they apply, and the definitions of their words."""
 
-from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator, Mapping
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from uictest.measures import MEASURES, Course, Measure
 from uictest.scenario.parts.applicability import Applicability
-from uictest.scenario.parts.bounded_measure import MEASURES_OF, WITH_DRY_VALUE, Bound, MeasureName, Scope
+from uictest.scenario.parts.bounded_measure import (
+    MEASURES_OF,
+    WITH_DRY_VALUE,
+    Bound,
+    MeasureName,
+    Scope,
+)
 from uictest.scenario.parts.definition import Definition
 from uictest.scenario.parts.dry_bound import DryBound
+from uictest.scenario.parts.reading import (
+    ID,
+    AtLeast,
+    Reading,
+    WheelsetsThatKeep,
+    definition_problems,
+    wheelsets_problems,
+)
 from uictest.scenario.parts.requirements import RequirementIds, repeated_requirements
 from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
 from uictest.series_measures import SERIES_MEASURES, SeriesMeasure
-
-WHEELSET_COUNT = 4
-"""Wheelsets of the car."""
-
-
-class AtLeast(Model):
-    """How many wheelsets must keep the bound."""
-
-    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSET_COUNT, strict=True)] = Field(
-        description="A number of wheelsets, or `half` of them (rounded up)."
-    )
 
 
 class Criterion(Model):
     """One bound on one measure."""
 
-    id: str = Field(
-        pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the criterion in every report."
-    )
+    id: str = Field(pattern=ID, description="Name of the criterion in every report.")
     title: str = Field(default="", max_length=200, description="One line for people.")
     source: str = Field(
         default=SCENARIO_SOURCE,
@@ -65,12 +66,30 @@ class Criterion(Model):
     strict: bool = Field(
         default=False, strict=True, description="Whether a value at the bound itself does not pass."
     )
-    wheelsets: Literal["all", "any"] | AtLeast | None = Field(
+    wheelsets: WheelsetsThatKeep = Field(
         default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
     )
     definition: Definition = Field(
         default=Definition(), description="The definitions that the measure needs."
     )
+    reading: str = Field(
+        default="",
+        max_length=100,
+        description="Name of what the criterion itself reads, where there are others.",
+    )
+    reading_source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where that reading comes from."
+    )
+    readings: tuple[Reading, ...] = Field(
+        default=(),
+        description="Other readings of the same words, which never decide: where one comes out otherwise,"
+        " the verdict turns.",
+    )
+
+    def read_as(self, reading: Reading) -> "Criterion":
+        """Return the criterion with the measure and the definitions of another of its readings."""
+        own = {name: getattr(reading, name) for name in ("measure", "wheelsets", "definition")}
+        return self.model_copy(update={**own, "readings": ()})
 
     @property
     def of_dry_stop(self) -> bool:
@@ -101,6 +120,14 @@ class Criterion(Model):
     def course(self) -> Course:
         """What the measure's value can do while the stop goes on."""
         return self._declared.course
+
+    def speed_range(self, definition: Mapping[str, float]) -> str:
+        """Return in words at which train speeds the criterion looks; empty: at all of them.
+
+        `definition` holds the SI value of each of its definitions.
+        """
+        said = self._declared.speed_range
+        return said(definition) if said else ""
 
     @property
     def of_faults(self) -> bool:
@@ -133,8 +160,9 @@ class Criterion(Model):
         if self.scope == "series":
             yield from self._series_problems()
         else:
-            yield from self._wheelsets_problems()
-            yield from self._definition_problems()
+            yield from wheelsets_problems(self.measure, self.wheelsets)
+            yield from definition_problems(self.measure, self.definition)
+            yield from self._reading_problems()
 
     @property
     def _measure(self) -> Measure | SeriesMeasure:
@@ -189,37 +217,32 @@ class Criterion(Model):
 
     def _series_problems(self) -> Iterator[Inconsistency]:
         """Yield what says something of a stop in a criterion of a series."""
-        for name in ("wheelsets", "applies", "definition"):
+        for name in ("wheelsets", "applies", "definition", "readings"):
             if name in self.model_fields_set:
                 message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
                 yield Inconsistency((name,), message, "leave it out")
 
-    def _wheelsets_problems(self) -> Iterator[Inconsistency]:
-        if self._declared.of_wheelsets and self.wheelsets is None:
+    def _reading_problems(self) -> Iterator[Inconsistency]:
+        """Yield a missing name of the criterion's own reading, repeated names, other kinds of quantity."""
+        if self.readings and not self.reading:
+            message = f"criterion {quoted(self.id)} has other readings, its own has no name"
+            yield Inconsistency((), message, "write 'reading'")
+        if self.readings and self.of_dry_stop:
             yield Inconsistency(
-                (),
-                f"{quoted(self.measure)} has a value per wheelset: 'wheelsets' must say how many keep it",
-                "write 'wheelsets: all', 'wheelsets: any' or 'wheelsets: {at_least: half}'",
+                ("readings",), "shares of the dry stop have no other readings", "leave them out"
             )
-        if not self._declared.of_wheelsets and self.wheelsets is not None:
-            yield Inconsistency(
-                ("wheelsets",), f"{quoted(self.measure)} is a measure of the whole stop, not of wheelsets"
-            )
-
-    def _definition_problems(self) -> Iterator[Inconsistency]:
-        needed, defined = self._declared.definitions, self.definition.parameters()
-        for name in needed:
-            if name not in defined:
-                yield Inconsistency(
-                    (),
-                    f"{quoted(self.measure)} needs the definition {quoted(name)}, which is missing",
-                    "write it under 'definition'",
+        seen = {self.reading}
+        for index, reading in enumerate(self.readings):
+            if reading.id in seen:
+                message = f"a second reading is called {quoted(reading.id)}"
+                yield Inconsistency(("readings", index, "id"), message)
+            if MEASURES[reading.measure].kind != self._declared.kind:
+                message = (
+                    f"{quoted(reading.measure)} is a {MEASURES[reading.measure].kind}, but"
+                    f" {quoted(self.measure)} a {self._declared.kind}: the same bounds cannot hold for both"
                 )
-        for name in defined:
-            if name not in needed:
-                yield Inconsistency(
-                    ("definition", name), f"{quoted(self.measure)} does not use the definition {quoted(name)}"
-                )
+                yield Inconsistency(("readings", index, "measure"), message)
+            seen.add(reading.id)
 
 
 class Criteria(Part):
@@ -251,9 +274,15 @@ class Criteria(Part):
 
     def _undescribed_sources(self) -> Iterator[Inconsistency]:
         for index, criterion in enumerate(self.criteria):
-            if criterion.source not in {SCENARIO_SOURCE, *self.sources}:
-                yield Inconsistency(
-                    ("criteria", index, "source"),
-                    f"unknown source {quoted(criterion.source)}",
-                    suggestion(criterion.source, self.sources) or "describe it under 'sources'",
-                )
+            named: list[tuple[tuple[str | int, ...], str]] = [
+                (("source",), criterion.source),
+                (("reading_source",), criterion.reading_source),
+                *((("readings", k, "source"), each.source) for k, each in enumerate(criterion.readings)),
+            ]
+            for key, source in named:
+                if source not in {SCENARIO_SOURCE, *self.sources}:
+                    yield Inconsistency(
+                        ("criteria", index, *key),
+                        f"unknown source {quoted(source)}",
+                        suggestion(source, self.sources) or "describe it under 'sources'",
+                    )

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
-from uictest.measures import SLIDE_CLASS
+from uictest.measures import SLIDE_CLASS, SLOW_SHARE_CLASS
 from uictest.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind
 from uictest.units import in_unit
 
@@ -39,6 +39,8 @@ def _range_problems(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterato
 
 _Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="10 s")]
 _Cutoff = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="200 km/h")]
+_SlidingBelow = Annotated[Quantity, of_kind("share", at_least="85 %", at_most="95 %")]
+_EndSpeed = Annotated[Quantity, of_kind("speed", at_least="10 km/h", at_most="100 km/h")]
 
 
 class FirstPhaseDuration(Model):
@@ -60,6 +62,18 @@ class FirstPhaseDuration(Model):
         yield from _range_problems(self.value, self.range)
 
 
+def _class_problems(
+    value: Quantity, ends: tuple[Quantity, Quantity], step: float, unit: str
+) -> Iterator[Inconsistency]:
+    """Yield every number that is no multiple of `step` (SI), then what is wrong with the range."""
+    whole = round(in_unit(step, unit), 6)
+    for key, number in ((("value",), value), (("range", 0), ends[0]), (("range", 1), ends[1])):
+        if round(in_unit(number, unit), 6) % whole:
+            message = f"{number.text} is no multiple of {whole:g} {unit}"
+            yield Inconsistency(key, message, "measures are kept in such classes")
+    yield from _range_problems(value, ends)
+
+
 class LowSpeedCutoff(Model):
     """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
 
@@ -73,20 +87,47 @@ class LowSpeedCutoff(Model):
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield every cut-off between two classes, then what is wrong with the range."""
-        for key, cutoff in (
-            (("value",), self.value),
-            (("range", 0), self.range[0]),
-            (("range", 1), self.range[1]),
-        ):
-            if round(in_unit(cutoff, "km/h"), 6) % 10.0:
-                yield Inconsistency(
-                    key, f"{cutoff.text} is no multiple of 10 km/h", "slides are kept in such classes"
-                )
-        yield from _range_problems(self.value, self.range)
+        """Yield every number between two classes, then what is wrong with the range."""
+        yield from _class_problems(self.value, self.range, SLIDE_CLASS, self.unit)
 
 
-RangedDefinition = FirstPhaseDuration | LowSpeedCutoff
+class SlidingBelow(Model):
+    """The share of the train's speed below which a wheelset slides: 85, 90 or 95 %."""
+
+    unit: ClassVar[str] = "%"
+    step: ClassVar[float | None] = SLOW_SHARE_CLASS
+
+    value: _SlidingBelow = Field(description="Share used.")
+    range: tuple[_SlidingBelow, _SlidingBelow] = Field(
+        description="Lowest and highest share the words could mean."
+    )
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield every number between two classes, then what is wrong with the range."""
+        yield from _class_problems(self.value, self.range, SLOW_SHARE_CLASS, self.unit)
+
+
+class EndSpeed(Model):
+    """The train speed that ends the time in which sliding counts: a multiple of 10 km/h, at most 100 km/h."""
+
+    unit: ClassVar[str] = "km/h"
+    step: ClassVar[float | None] = SLIDE_CLASS
+
+    value: _EndSpeed = Field(description="Speed used.")
+    range: tuple[_EndSpeed, _EndSpeed] = Field(description="Lowest and highest speed the words could mean.")
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield every number between two classes, then what is wrong with the range."""
+        yield from _class_problems(self.value, self.range, SLIDE_CLASS, self.unit)
+
+
+RangedDefinition = FirstPhaseDuration | LowSpeedCutoff | SlidingBelow | EndSpeed
 """One definition of a criterion: the value used, and the range of values that the words allow.
 
 `unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is continuous.
@@ -102,10 +143,16 @@ class Definition(Model):
     low_speed_cutoff: Annotated[LowSpeedCutoff, BeforeValidator(_with_its_source)] | None = Field(
         default=None, description="Speed down to which slides count."
     )
+    sliding_below: Annotated[SlidingBelow, BeforeValidator(_with_its_source)] | None = Field(
+        default=None, description="Share of the train's speed below which a wheelset slides."
+    )
+    end_speed: Annotated[EndSpeed, BeforeValidator(_with_its_source)] | None = Field(
+        default=None, description="Speed that ends the time in which sliding counts."
+    )
 
     def parameters(self) -> dict[str, RangedDefinition]:
         """Return the definitions that are given, by name."""
-        return {name: value for name, value in self if isinstance(value, FirstPhaseDuration | LowSpeedCutoff)}
+        return {name: value for name, value in self if isinstance(value, RangedDefinition)}
 
     def stated(self) -> dict[str, float]:
         """Return the SI value used of each definition that is given."""

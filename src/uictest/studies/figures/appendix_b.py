@@ -13,23 +13,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_LOW_SPEED = 30.0 * KILOMETRE_PER_HOUR
-"""Slides below this train speed are not drawn: near standstill a slide has no meaning."""
+_END_SPEED = 60.0 * KILOMETRE_PER_HOUR
+"""Train speed down to which sliding counts for the minimum slide; slides below it are not drawn."""
+_SLIDES = 10.0
+"""%: slide above which a wheelset counts as sliding; both are definitions of the profile."""
 
 
 def draw(
     dry: recording.Recording,
     slip: recording.Recording,
     distances: tuple[float, float],
-    slide: float,
     figure: Figure,
 ) -> None:
-    """Draw both stops with the limits of Appendix B: distances in m, slide in %."""
+    """Draw both stops with the limits of Appendix B for the distance, m."""
     figure.set_size_inches(WIDTH, 4.8)
     halves: Any = figure.subfigures(2, 1, height_ratios=(1.0, 1.9))
     _draw_dry(halves[0].subplots(), dry, distances)
     speeds, slides = halves[1].subplots(2, 1, sharex=True)
-    _draw_slip(speeds, slides, slip, slide)
+    _draw_slip(speeds, slides, slip)
 
 
 def _draw_dry(axes: Axes, dry: recording.Recording, distances: tuple[float, float]) -> None:
@@ -57,19 +58,19 @@ def _draw_dry(axes: Axes, dry: recording.Recording, distances: tuple[float, floa
     from_zero(axes)
 
 
-def _draw_slip(speeds: Axes, slides: Axes, slip: recording.Recording, limit: float) -> None:
+def _draw_slip(speeds: Axes, slides: Axes, slip: recording.Recording) -> None:
     time = slip["time"]
-    counted = slip["speed"] > _LOW_SPEED
+    counted = slip["speed"] > _END_SPEED
     for n, colour in WHEELSETS.items():
         speed = slip[f"wheel_speed_{n}"] / KILOMETRE_PER_HOUR
         speeds.plot(time, speed, color=colour, linewidth=0.7, label=f"wheelset {n}")
         slide = slip[f"slide_{n}"][counted] / PERCENT
         slides.plot(time[counted], slide, color=colour, linewidth=0.7)
     speeds.plot(time, slip["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5, label="train")
-    slides.axhline(limit, color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
+    slides.axhline(_SLIDES, color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
     slides.annotate(
-        f"{limit:g} %",
-        (1.0, limit),
+        f"{_SLIDES:g} %",
+        (1.0, _SLIDES),
         (2.0, 0.0),
         xycoords=("axes fraction", "data"),
         textcoords="offset points",
@@ -79,7 +80,11 @@ def _draw_slip(speeds: Axes, slides: Axes, slip: recording.Recording, limit: flo
         annotation_clip=False,
     )
     speeds.set(ylabel="speed, km/h")
-    slides.set(title="Slide while the train runs faster than 30 km/h", xlabel="time, s", ylabel="slide, %")
+    slides.set(
+        title="Slide down to 60 km/h; above the line a wheelset counts as sliding",
+        xlabel="time, s",
+        ylabel="slide, %",
+    )
     title_and_legend(speeds, "Slip-brake test", 5)
     from_zero(speeds)
     from_zero(slides)

@@ -20,7 +20,7 @@ _COLOURS = "Blues"
 _DARK = 0.6
 """Share of the scale above which a number is written in white."""
 _MAPS = {
-    "slide": "Slide that half of the wheelsets exceed, % (framed: the slip-brake test counts)",
+    "sliding": "Time in which half of the wheelsets slide, % (framed: the slip-brake test counts)",
     "extension": "Extension over the dry stop, %",
 }
 

@@ -95,6 +95,16 @@ def _first_phase(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
     return Taken("deceleration", trace.sliding_time, trace.sliding_time + duration)
 
 
+def _until(plot: str) -> Finder:
+    """Return what finds the time from the brake command until the criterion no longer looks."""
+
+    def find(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
+        until = _moments(verdict, trace).until
+        return None if until is None else Taken(plot, trace.start, until)
+
+    return find
+
+
 def _vents(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
     """Return from the first to the last vent of the wheelset that decides."""
     counts = {n: float(len(bars)) for n in WHEELSETS if (bars := vents(trace, n))}
@@ -139,6 +149,8 @@ _FINDERS: Final[Mapping[str, Finder]] = MappingProxyType(
         "maximum_deceleration": _extreme("deceleration"),
         "reservoir_minimum_pressure": _extreme("pressure"),
         "maximum_slide_above_cutoff": _extreme("slide"),
+        "sliding_share": _until("slide"),
+        "sliding_share_of_wheelsets": _until("slide"),
         "maximum_clamping_force": _extreme("force"),
         "maximum_disc_temperature": _extreme("temperature"),
         "locked_time": _all_intervals("locked"),

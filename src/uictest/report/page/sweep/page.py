@@ -31,7 +31,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, failing_first, tone
+from uictest.report.wording import counted, failing_first, reading_sentences, reading_sources, tone
 
 _MOST_VALUES = 40
 """Values of a parameter that get a bar each."""
@@ -73,6 +73,8 @@ def sweep_page_html(content: SweepContent) -> str:
         circumstances_words=circumstances_words,
         counted=counted,
         failing_first=failing_first,
+        reading_sentences=reading_sentences,
+        reading_sources=reading_sources,
         measure_words=measure_words,
         gauge_of=gauge_of,
         share_words=share_words,
