@@ -54,7 +54,8 @@ def pytest_configure(config: pytest.Config) -> None:
         register(config)
         return
     for option in ("set", "seed", "repeat", "strict", "output"):
-        if config.getoption(f"uictest_{option}") not in (None, False, []):
+        given = config.getoption(f"uictest_{option}")
+        if given is not False and given not in (None, []):
             raise pytest.UsageError(
                 f"--uictest-{option} has no effect where no scenarios are collected: add --uictest, or set"
                 " uictest_files in the ini file"
