@@ -18,7 +18,8 @@ def _run(*outcomes: str, interrupted: bool = False) -> Published:
 @pytest.mark.parametrize(
     ("run", "code"),
     [
-        (_run("pass", "skipped"), ExitCode.MET),
+        (_run("pass", "pass"), ExitCode.MET),
+        (_run("pass", "skipped"), ExitCode.MISSED),
         (_run("pass", "fail"), ExitCode.MISSED),
         (_run("invalid"), ExitCode.MISSED),
         (_run("fail", "error"), ExitCode.ERROR),

@@ -49,7 +49,9 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
         **changes,
     }
     return SimpleNamespace(
-        rail=SimpleNamespace(condition=SimpleNamespace(name=condition), gradient=settings["gradient"]),
+        rail=SimpleNamespace(
+            condition=SimpleNamespace(name=condition), gradient=settings["gradient"], cleaning_in_force=None
+        ),
         rig=SimpleNamespace(wsp=settings["wsp"], topology="one-caliper"),
         faults=(),
         brake=SimpleNamespace(position=settings["position"], command=settings["command"]),

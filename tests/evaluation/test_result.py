@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -13,6 +14,8 @@ from uictest.evaluation import (
     Verdict,
     VerdictInterval,
     narrowest_margin,
+    result_document,
+    results_of,
 )
 from uictest.evaluation.result import outcome_of
 from uictest.evaluation.verdict import relative_margin
@@ -78,6 +81,11 @@ def judged(layer: str, status: str) -> Verdict:
     return Verdict(f"{layer}-{status}", layer, None, "m", None, 1.0, None, status, "because")
 
 
+def _turning(first: str, last: str) -> Sensitivity:
+    intervals = VerdictInterval(10.0, 30.0, first), VerdictInterval(40.0, 60.0, last)  # type: ignore[arg-type]
+    return Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, intervals)
+
+
 @pytest.mark.parametrize(
     ("verdicts", "outcome", "reason"),
     [
@@ -93,6 +101,10 @@ def judged(layer: str, status: str) -> Verdict:
         ([("validity", "inconclusive"), ("validity", "fail")], "invalid", "validity-fail: because"),
         ([("validity", "not_applicable"), ("requirement", "inconclusive")], "inconclusive", OPEN),
         ([], "skipped", "no criterion"),
+        # What checks the rig is no judgement of the stop.
+        ([("rig", "pass")], "skipped", "no criterion"),
+        ([("rig", "pass"), ("validity", "not_applicable")], "skipped", "validity-not_applicable: because"),
+        ([("rig", "inconclusive"), ("requirement", "pass")], "pass", ""),
     ],
 )
 def test_validity_comes_before_requirements(verdicts, outcome: str, reason: str) -> None:
@@ -111,3 +123,22 @@ def test_the_order_of_the_criteria_does_not_matter() -> None:
     kinds = list(product(("validity", "requirement"), ("pass", "fail", "not_applicable", "inconclusive")))
     for one, other in product(kinds, kinds):
         assert outcome_of([judged(*one), judged(*other)])[0] == outcome_of([judged(*other), judged(*one)])[0]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "settled"),
+    [
+        (judged("validity", "pass"), True),
+        (judged("validity", "not_applicable"), True),
+        (judged("requirement", "inconclusive"), False),
+        (replace(judged("validity", "pass"), sensitivity=(_turning("pass", "fail"),)), False),
+        (replace(judged("validity", "pass"), sensitivity=(_turning("pass", "pass"),)), True),
+    ],
+)
+def test_a_strict_case_is_met_only_if_every_verdict_is_settled(verdict: Verdict, settled: bool) -> None:
+    case = CaseResult("a", "a.yaml", {}, "pass", "pass", criteria=(verdict,))
+    assert (case.met, case.unsettled) == (True, ())
+    strict = replace(case, strict=True)
+    assert (strict.met, strict.unsettled) == (settled, () if settled else (verdict,))
+    (read,) = results_of(result_document([strict]))
+    assert read.strict

@@ -35,7 +35,7 @@ def five(scenario: Scenario, write: Write) -> None:
     )
     scenario("known", "criteria: ../short-stops.yaml\nbrake: {command: 80 %}\nexpect: fail\n")
     scenario("crash", "controller: {python: ../broken.py, class: Broken}\n")
-    scenario("dry", "criteria: uic-541-05-appendix-b\n")
+    scenario("dry", "criteria: uic-541-05-appendix-b\nexpect: skipped\n")
 
 
 @pytest.mark.usefixtures("five")
@@ -107,6 +107,13 @@ def test_x_and_lf(run: Run) -> None:
     assert run("-x", "-k", "known or weak").summary == "1 failed, 1 passed, 3 deselected"
     lines = run("--lf", "--collect-only", "-q").node_ids
     assert lines == ["scenarios/weak.yaml::weak[command=80]"]
+
+
+def test_a_stop_that_nothing_judged_fails(run: Run, scenario: Scenario) -> None:
+    scenario("unjudged", "criteria: uic-541-05-appendix-b\n")
+    done = run()
+    assert done.summary == "1 failed"
+    assert any("expected pass, got skipped" in line for line in done.lines)
 
 
 @pytest.mark.usefixtures("five")

@@ -5,6 +5,7 @@ from typing import get_args
 
 import pytest
 
+from uictest import evaluation
 from uictest.evaluation import CaseResult, Verdict
 from uictest.evaluation.result import Outcome
 from uictest.report.wording import (
@@ -73,7 +74,8 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged(
 @pytest.mark.parametrize(
     ("expect", "words"),
     [
-        ("pass", ("pass", "fail", "invalid", "inconclusive", "error", "skipped")),
+        ("pass", ("pass", "fail", "invalid", "inconclusive", "error", "unexpected skip")),
+        ("skipped", ("unexpected pass", "fail", "invalid", "inconclusive", "error", "skipped")),
         (
             "fail",
             ("unexpected pass", "expected fail", "invalid", "inconclusive", "error", "unexpected skip"),
@@ -109,3 +111,21 @@ def test_the_tally_counts_only_what_there_is(make_result: MakeResult) -> None:
     assert tally([known, undecided]) == "2 cases: 1 expected fail, 1 inconclusive; 1 not as expected"
     assert tally([passed, known], [known.id]) == "2 cases: 2 different from the baseline"
     assert tally([]) == "no case"
+
+
+def test_a_strict_case_names_every_verdict_that_is_not_settled(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    intervals = (
+        evaluation.VerdictInterval(10.0, 30.0, "pass"),
+        evaluation.VerdictInterval(40.0, 60.0, "fail"),
+    )
+    turning = evaluation.Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, intervals)
+    verdict = make_verdict(id="minimum-slide", layer="validity", sensitivity=(turning,))
+    strict = make_result(outcome="pass", strict=True, criteria=(verdict,))
+    assert result_word(strict) == "unsettled"
+    assert tone("unsettled") == "bad"
+    assert explanation(strict) == [
+        "expected pass, got pass, unsettled",
+        "minimum-slide (validity) turns: low_speed_cutoff 10 .. 60 km/h: pass 10 .. 30, fail 40 .. 60",
+    ]

@@ -59,17 +59,21 @@ def columns(distance: float, speed_kmh: float = 120.0, **changes: float) -> dict
 def judge() -> Callable[..., series.SeriesResult]:
     """Judge a series whose stops have these distances (m), outcomes and verdicts, dry ones first.
 
-    A list of distances makes a repeated case.
+    A list of distances makes a repeated case. Stops with the WSP bypassed have `bypassed`, if there is one.
     """
 
     def judged(
         planned: series.Series,
         distances: Sequence[float | list[float]],
         outcomes: Mapping[float, str] | None = None,
+        bypassed: float | None = None,
         **changes: float,
     ) -> series.SeriesResult:
         cases = []
-        for stop, given in zip(planned.stops, distances, strict=True):
+        tested = [stop for stop in planned.stops if stop.role != "bypassed"]
+        without = [stop for stop in planned.stops if stop.role == "bypassed" and bypassed is not None]
+        pairs = [*zip(tested, distances, strict=True), *((stop, bypassed) for stop in without)]
+        for stop, given in pairs:
             speed = round(stop.speed * 3.6, 6)
             stops = [
                 _stop(seed, each, speed, (outcomes or {}).get(each, "pass"), changes)
@@ -83,7 +87,7 @@ def judge() -> Callable[..., series.SeriesResult]:
                 wheelsets=stops[0].wheelsets,
                 repeats=Repeats("all", tuple(stops)) if isinstance(given, list) else None,
             )
-            cases.append(series.SeriesCase(stop.role, speed, result))
+            cases.append(series.SeriesCase(stop.role, speed, result, stop.rail))
         return series.judge_series(planned, cases)
 
     return judged

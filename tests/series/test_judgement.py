@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest import evaluation, series
+from uictest import evaluation, report, series
 from uictest.scenario.yaml import parse_quantity
 
 Load = Callable[..., list[series.Series]]
@@ -319,3 +319,76 @@ def test_one_speed_that_misses_for_certain_makes_a_miss_certain(
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
     long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [540.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
+
+
+BOTH_RAILS = """\
+dry: dry.yaml
+wet:
+  - {scenario: wet.yaml, set: {rail.condition: wet-cleaning, rail.friction: 0.08, seed: [0, 1]}}
+  - {scenario: wet.yaml, set: {seed: [2, 3]}}
+criteria: rails.yaml
+"""
+RAILS = """\
+schema: uictest/criteria/1
+name: rails
+criteria:
+  - {id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 0.8, applies: {rail_cleaned: true}}
+  - id: longest
+    layer: requirement
+    scope: series
+    measure: worst_braking_distance
+    upper: 150 % of the dry stop
+  - {id: share, layer: requirement, scope: series, measure: passing_share, lower: 50 %}
+"""
+
+
+def test_stops_on_different_rails_are_judged_apart(write: Write, load: Load, judge: Judge) -> None:
+    write("rails.yaml", RAILS)
+    (planned,) = load(BOTH_RAILS)
+    result = judge(planned, [460.0, 500.0, 510.0, 900.0, 910.0], {900.0: "fail", 910.0: "fail"}, 480.0)
+    verdicts = {each.verdict.id: each for each in result.criteria}
+    assert (verdicts["k-wet"].verdict.status, verdicts["k-wet"].rail) == ("pass", "cleaned")
+    assert verdicts["k-wet"].verdict.value == pytest.approx(400.0 / 445.0)
+    assert (verdicts["longest"].verdict.status, verdicts["longest"].rail) == ("fail", "uncleaned")
+    # Half of all stops pass, and none of those on the rail that is not cleaned.
+    assert (verdicts["share"].verdict.value, verdicts["share"].rail) == (0.0, "uncleaned")
+    extensions = {each.rail: each.measures["stopping_distance_extension"] for each in result.speeds}
+    assert extensions["cleaned"].estimate.value == pytest.approx(100.0 * 45.0 / 460.0)
+    assert extensions["uncleaned"].estimate.value == pytest.approx(100.0 * 445.0 / 460.0)
+    assert result.measures["stopping_distance_extension"].estimate is None
+
+
+def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(
+    write: Write, load: Load, judge: Judge
+) -> None:
+    write("rails.yaml", RAILS)
+    (planned,) = load(BOTH_RAILS)
+    assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
+    assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
+    distances = [460.0, 500.0, 510.0, 600.0, 610.0]
+    better, without = judge(planned, distances, {480.0: "fail"}, 480.0), judge(planned, distances)
+    assert better.bypassed_k_wet.estimate.value == pytest.approx(400.0 / 420.0)
+    assert (better.criteria, better.speeds, better.outcome) == (
+        *(without.criteria, without.speeds, without.outcome),
+    )
+    assert "K_wet is better with the WSP bypassed, 0.9524" in "\n".join(report.count_sentences(better))
+    worse = judge(planned, distances, bypassed=700.0)
+    assert "bypassed" not in "\n".join(report.count_sentences(worse))
+    (read,) = series.series_results_of(series.series_document([better]))
+    assert read == better
+
+
+def test_a_criterion_that_no_wet_stop_is_for_decides_nothing(write: Write, load: Load, judge: Judge) -> None:
+    write("rails.yaml", RAILS)
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
+    assert [stop.role for stop in planned.stops] == ["dry", "wet"]
+    k_wet = judge(planned, [460.0, 500.0]).criteria[0].verdict
+    assert (k_wet.status, k_wet.reason) == ("not_applicable", "it applies to none of the wet stops")
+
+
+def test_a_series_that_nothing_judged_is_not_met(write: Write, load: Load, judge: Judge) -> None:
+    write("rails.yaml", "\n".join(RAILS.splitlines()[:4]))
+    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
+    result = judge(planned, [460.0, 500.0])
+    assert (result.outcome, result.met) == ("skipped", False)
+    assert replace(result, expect="skipped").met

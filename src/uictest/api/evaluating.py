@@ -46,6 +46,7 @@ def evaluate(
     set: Assignments | None = None,  # noqa: A002 - the name of the option
     trust: Trusted = (),
     record: Record = "failed",
+    strict: bool = False,
     output: PathName | None = None,
 ) -> Results:
     """Judge recordings of real or simulated stops: the same digits as `uictest evaluate`.
@@ -69,6 +70,7 @@ def evaluate(
         set: dotted key -> value, as for :func:`uictest.load`.
         trust: folders that files may refer to, besides their own and the working folder.
         record: samples that `output` gets: of stops `failed` (not as expected), of `all` or `none`.
+        strict: whether a stop is met only if all of its verdicts are settled, too, as `--strict`.
         output: folder for reports; the run gets a folder in it, as with `-o`.
 
     Returns:
@@ -97,17 +99,18 @@ def evaluate(
         "--record": None if record == "failed" else record,
         "-o": output,
     }
-    words = command_words(["evaluate", *paths], options)
+    words = command_words(["evaluate", *paths, *(["--strict"] if strict else [])], options)
     if any(map(runs.is_series, paths)):
         _reject_statements(paths, [scenario, select, *statements, *preparation.values()])
         planned, stops = runs.read_recorded_series(paths, overrides, folders)
         cases = [case for each in planned for case in each.cases]
-        batch = runs.RecordedBatch(stops, cases, words, planned)
+        batch = runs.RecordedBatch(stops, cases, words, planned, strict)
     else:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
         stops = runs.read_files(paths, runs.prepared_map(mapped, preparation))
-        batch = runs.RecordedBatch(stops, [stop.case(case_of, inputs) for stop in stops], words)
+        cases = [stop.case(case_of, inputs) for stop in stops]
+        batch = runs.RecordedBatch(stops, cases, words, strict=strict)
     return _judged(batch, request, output)
 
 

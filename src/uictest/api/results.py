@@ -25,7 +25,7 @@ _INDEX = {
     "criteria": ("id", "criterion"),
     "repeats": ("id", "seed"),
     "requirements": ("requirement", "id"),
-    "series": ("series", "speed_kmh", "measure"),
+    "series": ("series", "speed_kmh", "rail", "measure"),
     "series-criteria": ("series", "criterion"),
     "series-stops": ("series", "case", "seed"),
 }

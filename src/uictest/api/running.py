@@ -42,6 +42,7 @@ def run(
     record: Record = "failed",
     rate: float = DEFAULT_RATE,
     validated: PathName | None = None,
+    strict: bool = False,
     output: PathName | None = None,
 ) -> Results:
     """Simulate and judge cases: the same digits as `uictest run`.
@@ -63,6 +64,7 @@ def run(
         rate: samples per second of a recording.
         validated: validation.json of a validation: results outside of it are flagged, in place of what the
             scenarios name under `validated`.
+        strict: whether a case or series is met only if all of its verdicts are settled, too, as `--strict`.
         output: folder for reports; the run gets a folder in it, as with `-o`.
 
     Raises:
@@ -86,10 +88,10 @@ def run(
         "--validated": validated,
         "-o": output,
     }
-    arguments = command_words(found.words, options)
+    arguments = command_words([*found.words, *(["--strict"] if strict else [])], options)
     reference = None if validated is None else runs.read_reference(Path(validated))
     batch = runs.with_domains(runs.batch_of(chosen, of_series, arguments, seed), reference)
-    batch = replace(batch, recording=request, jobs=min(threads, batch.stops))
+    batch = replace(batch, recording=request, jobs=min(threads, batch.stops), strict=strict)
     return _in_memory(batch) if output is None else _published(batch, Path(output))
 
 

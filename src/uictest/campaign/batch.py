@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from uictest import controllers, evaluation, rig, scenario
 from uictest.campaign.case import CaseRun, RecordingRequest, run_case
@@ -30,6 +30,7 @@ def run_cases(
     domains: Mapping[str, evaluation.DomainOfValidity] | None = None,
     in_process: bool = False,
     real_time: bool = False,
+    strict: bool = False,
     on_result: Callable[[CaseRun], None] = lambda case_run: None,
     on_stop: Callable[[], None] = lambda: None,
 ) -> BatchResult:
@@ -48,6 +49,7 @@ def run_cases(
         domains: whether each case, by id, lies in the domain of a validation; added likewise.
         in_process: whether controllers from outside run in this process, which they can then crash.
         real_time: whether their cycles are paced by the clock; all must be programs at a socket.
+        strict: whether a case is met only if all of its verdicts are settled, too.
         on_result: called in this thread, once per case, in the order of the cases.
         on_stop: called in this thread, once per stop.
     """
@@ -56,6 +58,7 @@ def run_cases(
 
     def report(case_run: CaseRun) -> None:
         case_run = with_domain(with_parts(case_run, parts or {}), domains or {})
+        case_run = replace(case_run, result=replace(case_run.result, strict=strict))
         batch.results.append(case_run.result)
         on_result(case_run)
 

@@ -93,10 +93,9 @@ def _judges(series: Series, criterion: scenario.Criterion) -> bool:
     """Return whether a series has a verdict on a criterion that applies to one of its stops at least."""
     if criterion.id not in {each.id for _, each in series.judged_criteria}:
         return False
-    judged = (stop.case for stop in series.stops if stop.role == "wet" or not criterion.of_dry_stop)
-    return criterion.scope == "series" or any(
-        evaluation.applies_to(criterion, case.scenario) for case in judged
-    )
+    roles = ("wet",) if criterion.needs_series else ("dry", "wet")
+    judged = (stop.case for stop in series.stops if stop.role in roles)
+    return any(evaluation.applies_to(criterion, case.scenario) for case in judged)
 
 
 def _merged(named: Iterable[Verifier]) -> tuple[Verifier, ...]:

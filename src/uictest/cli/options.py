@@ -139,6 +139,14 @@ Validated = Annotated[
         " of what scenarios name.",
     ),
 ]
+Strict = Annotated[
+    bool,
+    typer.Option(
+        "--strict",
+        help="Exit 1 also where a criterion that applies is inconclusive, or a verdict turns within the range"
+        " of a definition.",
+    ),
+]
 Verbosity = Annotated[
     int,
     typer.Option(

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from uictest.comparison.tolerance import Tolerances, compare_numbers
 from uictest.report import Difference
 from uictest.series import SeriesResult
-from uictest.series_measures import SERIES_MEASURES, SeriesValue
+from uictest.series_measures import SERIES_MEASURES
 
 
 def series_differences(
@@ -36,9 +36,11 @@ def differences_of_series(
     for quantity in dict.fromkeys([*texts, *others]):
         sides = texts.get(quantity, "none"), others.get(quantity, "none")
         yield None if sides[0] == sides[1] else Difference(first.id, quantity, *sides, within=False)
-    for name in dict.fromkeys([*first.measures, *second.measures]):
-        before, after = _value(first.measures, name), _value(second.measures, name)
-        yield compare_numbers(first.id, name, before, after, tolerances, SERIES_MEASURES[name].unit)
+    numbers, other_numbers = _numbers(first), _numbers(second)
+    for place, name in dict.fromkeys([*numbers, *other_numbers]):
+        before, after = (side.get((place, name), math.nan) for side in (numbers, other_numbers))
+        quantity = f"{name} from {place}" if place else name
+        yield compare_numbers(first.id, quantity, before, after, tolerances, SERIES_MEASURES[name].unit)
 
 
 def _texts(result: SeriesResult) -> dict[str, str]:
@@ -47,13 +49,18 @@ def _texts(result: SeriesResult) -> dict[str, str]:
         f"criterion {each.verdict.id}": each.verdict.status.replace("_", " ") for each in result.criteria
     }
     counts = {
-        f"{role} stops from {speed.speed_kmh:g} km/h": f"{each.counted} of {each.run}"
+        f"{role} stops from {speed.place}": f"{each.counted} of {each.run}"
         for speed in result.speeds
         for role, each in (("dry", speed.dry), ("wet", speed.wet))
     }
     return {"outcome": result.outcome, **verdicts, **counts}
 
 
-def _value(measures: Mapping[str, SeriesValue], name: str) -> float:
-    value = measures.get(name, SeriesValue())
-    return math.nan if value.estimate is None else value.estimate.value
+def _numbers(result: SeriesResult) -> dict[tuple[str, str], float]:
+    """Return the measures of a series, and those of each rail (with its speed) where it has several."""
+    tables = {"": result.measures, **{each.place: each.measures for each in result.speeds if each.rail}}
+    return {
+        (place, name): math.nan if value.estimate is None else value.estimate.value
+        for place, measures in tables.items()
+        for name, value in measures.items()
+    }

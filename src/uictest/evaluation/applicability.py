@@ -15,7 +15,7 @@ class TestConditions:
     """Conditions of a stop that a criterion can require.
 
     `command` is a share of full service, `gradient` a share, positive uphill. `has_faults` tells whether the
-    scenario injects any.
+    scenario injects any, `rail_cleaned` whether sliding cleans its rail; None where that is not known.
     """
 
     rail_condition: str
@@ -25,6 +25,7 @@ class TestConditions:
     gradient: float
     topology: str
     has_faults: bool = False
+    rail_cleaned: bool | None = None
 
 
 def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
@@ -37,6 +38,7 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
         gradient=resolved.rail.gradient,
         topology=resolved.rig.topology,
         has_faults=bool(resolved.faults),
+        rail_cleaned=resolved.rail.cleaning_in_force is not None,
     )
 
 
@@ -101,6 +103,10 @@ def unmet_conditions(
     ]
     if conditions.rail_condition in (applies.rail_condition_other_than or ()):
         unmet.append(UnmetCondition("rail", conditions.rail_condition, ("any other",)))
+    cleaned = conditions.rail_cleaned
+    if cleaned is not None and applies.rail_cleaned not in (None, cleaned):
+        was, wanted = ("cleaned by sliding", "not cleaned by sliding")[:: 1 if cleaned else -1]
+        unmet.append(UnmetCondition("rail", was, (wanted,)))
     return unmet
 
 

@@ -25,6 +25,7 @@ JUDGED_KEYS = (
     "brake.position",
     "brake.command",
     "rail.condition",
+    "rail.cleaning",
     "rail.gradient",
     "rig.topology",
     "rig.wsp",

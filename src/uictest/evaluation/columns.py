@@ -14,7 +14,7 @@ from uictest.evaluation.json_values import json_form
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
-Expectation = Literal["pass", "fail", "invalid"]
+Expectation = Literal["pass", "fail", "invalid", "skipped"]
 
 
 def _columns(content: object, known: Collection[str]) -> dict[str, float]:

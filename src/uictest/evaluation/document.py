@@ -18,7 +18,7 @@ SCHEMA = "uictest/result/1"
 
 _OF_SOME: Final = (
     *("response_times", "controller_version", "case_sha256"),
-    *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity"),
+    *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict"),
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 

@@ -94,7 +94,7 @@ class Repeats:
         return len({stop.outcome for stop in self.stops}) > 1
 
     def as_expected(self, expect: Expectation) -> int:
-        """Return the number of stops with the expected outcome; a skipped one counts as `pass`."""
+        """Return the number of stops with the expected outcome."""
         return sum(is_expected(stop.outcome, expect) for stop in self.stops)
 
     def seeds(self, outcome: Outcome) -> list[int]:
@@ -112,8 +112,8 @@ class Repeats:
 
 
 def is_expected(outcome: Outcome, expect: Expectation) -> bool:
-    """Return whether an outcome is the expected one; `skipped` counts as `pass`."""
-    return outcome == expect or (outcome == "skipped" and expect == "pass")
+    """Return whether an outcome is the expected one: nothing that was not judged counts as `pass`."""
+    return outcome == expect
 
 
 def spread_of(values: Iterable[float]) -> Spread | None:

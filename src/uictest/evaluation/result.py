@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Protocol, TypeVar
+from typing import Annotated, Final, Protocol, TypeVar
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
@@ -55,8 +55,9 @@ class CaseResult:
     `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
     `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
     simulated stop met, together with its seed, see :mod:`uictest.rig.noise_key`. `domain_of_validity` says
-    whether the case lies where the model was validated; None where nobody asked. The document has these
-    seven, and `repeats`, only where there is something in them. `duration` (seconds of wall clock) is for
+    whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
+    is not met either where one of its verdicts is not settled. The document has these eight, and `repeats`,
+    only where there is something in them. `duration` (seconds of wall clock) is for
     progress and JUnit only, never part of the document: a result must not depend on the machine.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
@@ -81,12 +82,23 @@ class CaseResult:
     noise_key: str = ""
     repeats: WrittenRepeats | None = None
     domain_of_validity: DomainOfValidity | None = None
+    strict: bool = False
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
-    def met(self) -> bool:
-        """Whether the outcome is the expected one; a skipped case counts as `pass`."""
+    def as_expected(self) -> bool:
+        """Whether the outcome is the expected one."""
         return is_expected(self.outcome, self.expect)
+
+    @property
+    def unsettled(self) -> tuple[Verdict, ...]:
+        """The verdicts for which `strict` does not count the case as met; none without it."""
+        return tuple(each for each in self.criteria if self.strict and not each.settled)
+
+    @property
+    def met(self) -> bool:
+        """Whether the outcome is the expected one and, if `strict`, every verdict is settled."""
+        return self.as_expected and not self.unsettled
 
     @property
     def drawn_stop(self) -> CaseResult:
@@ -118,6 +130,10 @@ def reason_of(outcome: Outcome, deciding: Iterable[tuple[str, str]]) -> str:
     return reasons or ("no criterion" if outcome == "skipped" else "")
 
 
+_JUDGING: Final[tuple[Layer, ...]] = ("validity", "requirement")
+"""Layers whose criteria judge a stop."""
+
+
 class Decided(Protocol):
     """What of a verdict decides the outcome."""
 
@@ -138,10 +154,10 @@ def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[Any
 
     A failed validity criterion makes the stop invalid: it does not count as a test, whatever its
     requirements. Otherwise a failed requirement fails the stop, unless a validity criterion is inconclusive:
-    the stop may be no test. Any other inconclusive criterion makes the stop inconclusive. A stop without any
-    applicable criterion is skipped.
+    the stop may be no test. Any other inconclusive criterion makes the stop inconclusive. A stop that no
+    criterion of validity or requirement could judge is skipped, whatever criteria of other layers say.
     """
-    verdicts = list(verdicts)
+    verdicts = [verdict for verdict in verdicts if verdict.layer in _JUDGING]
     if failed := _with_status(verdicts, ("fail",), "validity"):
         return "invalid", failed
     failed = _with_status(verdicts, ("fail",), "requirement")

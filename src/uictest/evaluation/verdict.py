@@ -186,10 +186,19 @@ class Verdict:
     readings: tuple[ReadVerdict, ...] = ()
 
     @property
+    def turns(self) -> bool:
+        """Whether the verdict changes within the stated range of a definition."""
+        return any(sensitivity.flips for sensitivity in self.sensitivity)
+
+    @property
+    def settled(self) -> bool:
+        """Whether the criterion was decided wherever it applies, by every definition within its range."""
+        return self.status != "inconclusive" and not self.turns
+
+    @property
     def firm(self) -> bool:
         """Whether the verdict stays the same over the stated range of every definition, and in every stop."""
-        flips = any(sensitivity.flips for sensitivity in self.sensitivity)
-        return not flips and (self.over_stops is None or not self.over_stops.turns)
+        return not self.turns and (self.over_stops is None or not self.over_stops.turns)
 
     def defined(self, name: str) -> float | None:
         """Return the SI value of a definition, None where the verdict has none of this name."""

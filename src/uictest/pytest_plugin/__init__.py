@@ -31,6 +31,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--uictest-seed", type=int, metavar="N", help="Seed of the sensor noise in every case.")
     group.addoption("--uictest-repeat", type=int, metavar="N", help="Run the stop of every case N times.")
     group.addoption(
+        "--uictest-strict", action="store_true", help="Fail also where a verdict is not settled (--strict)."
+    )
+    group.addoption(
         "--uictest-output",
         metavar="DIR",
         help="Write the reports of all scenarios; each run gets a folder in DIR.",
@@ -50,8 +53,9 @@ def pytest_configure(config: pytest.Config) -> None:
 
         register(config)
         return
-    for option in ("set", "seed", "repeat", "output"):
-        if config.getoption(f"uictest_{option}") not in (None, []):
+    for option in ("set", "seed", "repeat", "strict", "output"):
+        given = config.getoption(f"uictest_{option}")
+        if given is not False and given not in (None, []):
             raise pytest.UsageError(
                 f"--uictest-{option} has no effect where no scenarios are collected: add --uictest, or set"
                 " uictest_files in the ini file"

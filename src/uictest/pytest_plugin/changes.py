@@ -21,6 +21,7 @@ class Changes:
     Args:
         overrides: `key=value` texts.
         seed: of every case, None for its own.
+        strict: whether verdicts that are not settled fail a test.
         root: the root directory.
         files: read once for all scenarios.
 
@@ -28,6 +29,7 @@ class Changes:
 
     overrides: tuple[str, ...]
     seed: int | None
+    strict: bool
     root: Path
     files: scenario.Files
 
@@ -41,7 +43,8 @@ class Changes:
             yaml.parse_overrides(overrides, seed)
         except yaml.ScenarioErrors as errors:
             raise pytest.UsageError(str(errors)) from errors
-        return cls(overrides, seed, config.rootpath, scenario.Files(scenario.Roots.of((), [config.rootpath])))
+        files = scenario.Files(scenario.Roots.of((), [config.rootpath]))
+        return cls(overrides, seed, config.getoption("uictest_strict"), config.rootpath, files)
 
     def cases_of(self, path: Path) -> Sequence[scenario.Case]:
         """Return the cases of a scenario file. Raises ScenarioErrors."""

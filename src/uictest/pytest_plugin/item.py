@@ -56,7 +56,10 @@ def simulated(config: pytest.Config, cases: Sequence[scenario.Case]) -> list[cam
     case_runs: list[campaign.CaseRun] = []
     jobs = 1 if hasattr(config, "workerinput") else runs.available_processors()
     request = campaign.RecordingRequest("none")
-    if campaign.run_cases(cases, jobs=jobs, recording=request, on_result=case_runs.append).interrupted:
+    strict: bool = config.getoption("uictest_strict")
+    if campaign.run_cases(
+        cases, jobs=jobs, recording=request, strict=strict, on_result=case_runs.append
+    ).interrupted:
         raise KeyboardInterrupt
     return case_runs
 

@@ -121,6 +121,7 @@ class Reports:
         options = [word for text in self.changes.overrides for word in ("--set", text)]
         if self.changes.seed is not None:
             options += ["--seed", str(self.changes.seed)]
+        options += ["--strict"] if self.changes.strict else []
         return ["run", *map(str, sorted(self._files)), *options]
 
 

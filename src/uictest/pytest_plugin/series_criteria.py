@@ -16,7 +16,8 @@ from uictest.pytest_plugin.item import RigItem, numbers_in, simulated, with_reas
 from uictest.scenario import yaml
 
 OUTCOME = "outcome"
-"""Name of the only item of a series that should not pass: its criteria cannot be expected one by one."""
+"""Name of the only item of a series that should not pass: its criteria cannot be expected one by one. With
+`--uictest-strict` every series has it: it says whether all verdicts are settled."""
 
 
 class SeriesFile(pytest.File):
@@ -49,7 +50,11 @@ class SeriesCollector(pytest.Collector):
             run = SeriesRun(self.config, planned)
             values = planned.id.removeprefix(self.name)
             names = [criterion.id for _, criterion in planned.judged_criteria]
-            for name in names if planned.file.expect == "pass" else [OUTCOME]:
+            if planned.file.expect != "pass":
+                names = [OUTCOME]
+            elif self.config.getoption("uictest_strict"):
+                names.append(OUTCOME)
+            for name in names:
                 yield SeriesItem.below(self, f"{name}{values}", criterion=name, run=run)
 
 
@@ -94,6 +99,8 @@ class SeriesItem(RigItem):
         elif each.verdict.status in ("fail", "inconclusive"):
             pytest.fail(_explanation(self._result, each), pytrace=False)
         elif each.verdict.status == "not_applicable":
+            if self._result.outcome == "skipped":
+                pytest.fail(with_reasons_first(report.series_explanation(self._result)), pytrace=False)
             pytest.skip(each.verdict.reason)
 
     def reportinfo(self) -> tuple[Path, int, str]:

@@ -14,7 +14,7 @@ from uictest.series import SeriesResult
 
 NOT_APPLICABLE: Final = "not applicable"
 
-_NO_EVIDENCE: Final = frozenset({NOT_APPLICABLE, "skipped"})
+_NO_EVIDENCE: Final = frozenset({NOT_APPLICABLE, "skipped", "unexpected skip"})
 _MET: Final = frozenset({"pass", "expected fail", "expected invalid"})
 
 RequirementStatus = Literal["met", "not met", "not tested"]

@@ -12,8 +12,13 @@ from uictest.report.repeat_wording import repeat_sentences
 DIFFERS: Final = "differs"
 """The word for a case that meets its expectation and differs from the baseline."""
 
+UNSETTLED: Final = "unsettled"
+"""The word for what has its expected outcome, but not every verdict settled, where that was asked for."""
+
 _AS_EXPECTED: Final = ("pass", "expected fail", "expected invalid", "skipped")
-_NOT_AS_EXPECTED: Final = ("fail", "invalid", "inconclusive", "unexpected pass", "unexpected skip", "error")
+_NOT_AS_EXPECTED: Final = (
+    *("fail", "invalid", "inconclusive", UNSETTLED, "unexpected pass", "unexpected skip", "error"),
+)
 
 CASE_WORDS: Final = (*_AS_EXPECTED, *_NOT_AS_EXPECTED, DIFFERS)
 """Words for cases, by outcome and expectation, in the order in which they are counted."""
@@ -82,15 +87,30 @@ def explanation(result: evaluation.CaseResult) -> list[str]:
     if own_outcome != result.outcome:  # as over the stops of a repeated case
         verdicts = list(_deciding(result))
     names = [verdict.id for verdict in verdicts if verdict.status in ("fail", "inconclusive")]
-    outcome = outcome_sentence(result.outcome, result.expect, names)
-    return [outcome, *repeat_sentences(result), *reason, *deciding]
+    outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=bool(result.unsettled))
+    unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding]
+    return [outcome, *repeat_sentences(result), *reason, *deciding, *unsettled]
 
 
-def outcome_sentence(outcome: str, expected: str, deciding: Sequence[str]) -> str:
+def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]:
+    """Yield why verdicts are not settled: inconclusive, or the definitions within whose range they turn."""
+    for verdict in verdicts:
+        if verdict.status == "inconclusive":
+            yield verdict_sentence(verdict)
+        for sensitivity in verdict.sensitivity:
+            if sensitivity.flips:
+                yield printable(f"{verdict.id} ({verdict.layer}) turns: {sensitivity}")
+
+
+def outcome_sentence(outcome: str, expected: str, deciding: Sequence[str], *, unsettled: bool = False) -> str:
     """Return the outcome with the criteria that decided it: `fail: locked-wheels. Expected: pass`."""
     by = printable(", ".join(deciding))
-    shown = f"{outcome}: {by}" if by else outcome
-    return f"{shown} (as expected)" if outcome == expected else f"{shown}. Expected: {expected}"
+    shown = f"{outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
+    return (
+        f"{shown} (as expected)"
+        if outcome == expected and not unsettled
+        else f"{shown}. Expected: {expected}"
+    )
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
@@ -153,7 +173,7 @@ def outcome_word(outcome: str, *, met: bool) -> str:
 
     A case that is expected to fail, or to be invalid, and does so is an `expected fail` or `expected
     invalid`. A case that should not pass and does is an `unexpected pass`; one to which no criterion applies
-    is an `unexpected skip`. In all other cases the word is the outcome.
+    is an `unexpected skip` unless it is expected. In all other cases the word is the outcome.
 
     Args:
         outcome: of the case.
@@ -167,6 +187,8 @@ def outcome_word(outcome: str, *, met: bool) -> str:
 
 def result_word(result: evaluation.CaseResult) -> str:
     """Return the word of a case of `CASE_WORDS`, without regard to a baseline."""
+    if result.as_expected and not result.met:
+        return UNSETTLED
     return outcome_word(result.outcome, met=result.met)
 
 

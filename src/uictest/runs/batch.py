@@ -31,6 +31,7 @@ class Batch:
         maxfail: number of cases and series not as expected after which no further one is run.
         in_process: whether controllers from outside run in this process.
         real_time: whether their cycles are paced by the clock.
+        strict: whether a case is met only if all of its verdicts are settled, too.
         baseline: to compare with, if any.
         domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
         drawn_first: ids of the cases whose stops a page draws before all others.
@@ -46,6 +47,7 @@ class Batch:
     maxfail: int | None = None
     in_process: bool = False
     real_time: bool = False
+    strict: bool = False
     baseline: comparison.Baseline | None = None
     domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
     drawn_first: Collection[str] = ()
@@ -170,6 +172,7 @@ class _Simulation:
                 domains=self.batch.domains,
                 in_process=self.batch.in_process,
                 real_time=self.batch.real_time,
+                strict=self.batch.strict,
                 on_result=hand_on,
                 on_stop=advance,
             )

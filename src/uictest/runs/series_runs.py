@@ -47,7 +47,7 @@ def run_series(
 def cases_of(planned: series.Series, results: Sequence[evaluation.CaseResult]) -> list[series.SeriesCase]:
     """Return the results of the cases of a series, with what each is for and its nominal speed."""
     return [
-        series.SeriesCase(stop.role, speed_kmh(stop), result)
+        series.SeriesCase(stop.role, speed_kmh(stop), result, stop.rail)
         for stop, result in zip(planned.stops, results, strict=True)
     ]
 

@@ -101,9 +101,9 @@ class Scenario(Model):
     measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = Field(
         description="Definitions of the measures: a library name, a relative path or an inline mapping."
     )
-    expect: Literal["pass", "fail", "invalid"] = Field(
+    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
         default="pass",
-        description="The expected outcome; fail and invalid are for scenarios that must not pass.",
+        description="The expected outcome; skipped: no criterion is to judge the stop.",
     )
     seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
     repeat: Repeat = 1

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from uictest.evaluation import CaseResult, Outcome, RepeatedStop, Verdict
-from uictest.series.result import NOT_COUNTED, Role, SeriesCase, StopCounts, UncountedStop
+from uictest.series.result import NOT_COUNTED, Rail, Role, SeriesCase, StopCounts, UncountedStop
 from uictest.series_measures import CountedStop
 from uictest.units import in_unit
 
@@ -18,6 +18,7 @@ class SeriesStop:
 
     role: Role
     speed_kmh: float
+    rail: Rail
     case: str
     seed: int | None
     outcome: Outcome
@@ -51,6 +52,7 @@ def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
         yield SeriesStop(
             role=each.role,
             speed_kmh=each.speed_kmh,
+            rail=each.rail,
             case=case.id,
             seed=seed,
             outcome="invalid" if other_speed and stop.outcome not in NOT_COUNTED else stop.outcome,

@@ -13,7 +13,9 @@ from uictest.series_measures import SERIES_MEASURES
 
 SCHEMA: Final = "uictest/series-result/1"
 _FIELDS: Final = frozenset({"schema", "parts", "cases", "series"})
-_WrittenSeries = Annotated[SeriesResult, evaluation.absent_if_empty("requirements", "test_case")]
+_WrittenSeries = Annotated[
+    SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet")
+]
 _SERIES: Final = TypeAdapter(list[_WrittenSeries], config=ConfigDict(extra="forbid", defer_build=True))
 
 

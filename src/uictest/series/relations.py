@@ -35,7 +35,7 @@ def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesSt
 def _judged(
     series: Series, criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]
 ) -> SeriesStop:
-    if stop.role == "dry" or not stop.counts or not _applies(series, criterion, stop):
+    if stop.role != "wet" or not stop.counts or not applies(series, criterion, stop):
         return stop
     verdict = _verdict(criterion, _percent_of_dry(criterion, stop, stops))
     verdicts = (*(each for each in stop.criteria if each.id != criterion.id), verdict)
@@ -46,9 +46,13 @@ def _judged(
     return replace(stop, criteria=verdicts, figures=replace(stop.figures, passed=passed))
 
 
-def _applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
-    scenario = next(each.case.scenario for each in series.stops if each.case.id == stop.case)
+def applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
+    """Return whether a criterion applies to a stop of a series."""
+    planned = next(each for each in series.stops if each.case.id == stop.case)
+    scenario = planned.case.scenario
     conditions = evaluation.test_conditions_of(scenario)
+    if not planned.rail:
+        conditions = replace(conditions, rail_cleaned=None)
     return not evaluation.unmet_conditions(criterion.applies, conditions, float(scenario.initial_speed))
 
 

@@ -8,11 +8,15 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
-from uictest.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty
+from uictest.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty, is_expected
 from uictest.series.forms import WrittenEstimate, WrittenValue
 
-Role = Literal["dry", "wet"]
-"""dry: the reference. wet: a stop on a slippery rail, in which the WSP is at work."""
+Role = Literal["dry", "wet", "bypassed"]
+"""dry: the reference. wet: a stop on a slippery rail, in which the WSP is at work. bypassed: the same stop
+without it, simulated to compare K_wet; it decides nothing."""
+
+Rail = Literal["", "cleaned", "uncleaned"]
+"""Whether sliding cleans the rail of a simulated wet stop; empty for a dry or a recorded one."""
 
 NOT_COUNTED = ("invalid", "inconclusive", "skipped", "error")
 """Outcomes of stops that do not count: no test, not judged, or failed to run."""
@@ -41,6 +45,7 @@ class SeriesCase:
     role: Role
     speed_kmh: float
     case: NamedCase
+    rail: Rail = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,13 +76,27 @@ class UncountedStop:
 class SpeedResult:
     """What the stops from one nominal initial speed (km/h) show.
 
-    `dry` and `wet` count the stops; `measures` maps the name of a measure of series to its value.
+    `dry` and `wet` count the stops; `measures` maps the name of a measure of series to its value. Where the
+    wet stops of a series are on several kinds of rail, each has a result of its own, and `rail` names it.
     """
 
     speed_kmh: float
     dry: StopCounts
     wet: StopCounts
     measures: Mapping[str, WrittenValue]
+    rail: Rail = ""
+
+    @property
+    def place(self) -> str:
+        """The speed, and the rail where there are several, as text."""
+        return place_text(self.speed_kmh, self.rail)
+
+
+def place_text(speed_kmh: float | None, rail: str) -> str:
+    """Return a speed, and the rail where there are several: `120 km/h, cleaned rail`; empty without both."""
+    if speed_kmh is None:
+        return f"all speeds, {rail} rail" if rail else ""
+    return f"{speed_kmh:g} km/h{f', {rail} rail' if rail else ''}"
 
 
 WrittenVerdict = Annotated[Verdict, absent_if_empty("requirements", "over_stops")]
@@ -93,6 +112,7 @@ class SeriesVerdict:
         estimate: the value with its interval, in the unit of the verdict; None where there is none.
         confident: whether the whole interval says the same; None without an interval.
         speed_kmh: the initial speed that decides; None where all do.
+        rail: the kind of rail that decides, where the series has several and not all do.
         kept: for a criterion of stops: how many of the stops keep it that count and that it applies to.
         stops: of how many.
         of_dry_stop: whether value and bounds are in % of the dry stop.
@@ -106,6 +126,17 @@ class SeriesVerdict:
     kept: int | None = None
     stops: int | None = None
     of_dry_stop: bool = False
+    rail: Rail = ""
+
+    @property
+    def place(self) -> str:
+        """The speed and rail that decide, as text; empty where all do."""
+        return place_text(self.speed_kmh, self.rail)
+
+
+_WrittenSpeed = Annotated[SpeedResult, absent_if_empty("rail")]
+_WrittenCase = Annotated[SeriesCase, absent_if_empty("rail")]
+_WrittenVerdict = Annotated[SeriesVerdict, absent_if_empty("rail")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,8 +146,9 @@ class SeriesResult:
     `file` is shown with forward slashes. `confidence` is that of all intervals, `valid_stops` the least share
     of wet stops that must count; both are shares of 1. `speed_tolerance_kmh` is that of the initial speed.
     `measures` are those of the whole series. `requirements` are the ids of those that the series verifies as
-    a whole; its criteria may verify others. `test_case` is its id in a test management tool. The document has
-    these two only where there is something in them.
+    a whole; its criteria may verify others. `test_case` is its id in a test management tool. `bypassed_k_wet`
+    is K_wet of the same wet stops with the WSP bypassed, where K_wet is judged. The document has these three
+    only where there is something in them.
     """
 
     id: str
@@ -129,13 +161,14 @@ class SeriesResult:
     confidence: Annotated[float, Field(gt=0.0, lt=1.0)]
     valid_stops: Annotated[float, Field(gt=0.0, le=1.0)]
     speed_tolerance_kmh: Annotated[float, Field(ge=0.0)]
-    criteria: tuple[SeriesVerdict, ...]
+    criteria: tuple[_WrittenVerdict, ...]
     measures: Mapping[str, WrittenValue]
-    speeds: tuple[SpeedResult, ...]
+    speeds: tuple[_WrittenSpeed, ...]
     not_counted: tuple[UncountedStop, ...]
-    cases: tuple[SeriesCase, ...]
+    cases: tuple[_WrittenCase, ...]
     requirements: tuple[str, ...] = ()
     test_case: str = ""
+    bypassed_k_wet: WrittenValue | None = None
 
     @property
     def wet_stops(self) -> StopCounts:
@@ -144,6 +177,19 @@ class SeriesResult:
         return StopCounts(sum(each.run for each in wet), sum(each.counted for each in wet))
 
     @property
+    def as_expected(self) -> bool:
+        """Whether the outcome is the expected one."""
+        return is_expected(self.outcome, self.expect)
+
+    @property
+    def unsettled(self) -> tuple[tuple[str, Verdict], ...]:
+        """What keeps a strict series from being met: the id of a case, or of the series, and the verdict."""
+        strict = any(each.case.strict for each in self.cases)
+        own = [(self.id, each.verdict) for each in self.criteria if strict and not each.verdict.settled]
+        judged = [each.case for each in self.cases if each.role != "bypassed"]
+        return (*own, *((case.id, verdict) for case in judged for verdict in case.unsettled))
+
+    @property
     def met(self) -> bool:
-        """Whether the outcome is the expected one; a skipped series counts as `pass`."""
-        return self.outcome == self.expect or (self.outcome == "skipped" and self.expect == "pass")
+        """Whether the outcome is the expected one and, if cases are `strict`, every verdict is settled."""
+        return self.as_expected and not self.unsettled

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import cast
 
 from uictest import evaluation
 from uictest.scenario import Criteria, Criterion
 from uictest.series.counting import SeriesStop
 from uictest.series.plan.series import Series
-from uictest.series.result import SeriesVerdict
+from uictest.series.result import Rail, SeriesVerdict, place_text
 from uictest.series_measures import (
     SERIES_MEASURES,
     Estimate,
@@ -50,16 +51,25 @@ def _verdict_of(
     if too_few:
         return SeriesVerdict(_verdict(criterion, definition, None, "inconclusive", too_few))
     if criterion.scope == "stop":
-        return _over_stops(criterion, definition, [stop for stop in stops if stop.counts])
+        judged = [stop for stop in stops if stop.counts and stop.role != "bypassed"]
+        return _over_stops(criterion, definition, judged)
     return _over_series(criterion, definition, speeds, float(series.file.confidence))
 
 
 def _over_series(
     criterion: Criterion, definition: dict[str, str], speeds: Sequence[SpeedStops], confidence: float
 ) -> SeriesVerdict:
-    """Return the verdict on a measure of series: of all speeds, or of the one nearest to missing a bound."""
+    """Return the verdict on a measure of series: at the speed and rail that are nearest to missing a bound.
+
+    What counts all stops together does so on each rail: stops on one do not outvote those on another.
+    """
+    if not speeds:
+        reason = "it applies to none of the wet stops"
+        return SeriesVerdict(_verdict(criterion, definition, None, "not_applicable", reason))
     pooled = SERIES_MEASURES[criterion.measure].pooled
-    values = [_value(criterion, each, confidence) for each in ([speeds] if pooled else [[s] for s in speeds])]
+    rails = dict.fromkeys(each.rail for each in speeds)
+    together = [[s for s in speeds if s.rail == rail] for rail in rails] if pooled else [[s] for s in speeds]
+    values = [_value(criterion, each, confidence) for each in together]
     estimates = [value.estimate for value in values if value.estimate is not None]
     if len(estimates) < len(values) or not values:
         reason = next((value.unavailable_reason for value in values if value.estimate is None), "no stop")
@@ -69,10 +79,13 @@ def _over_series(
     deciding = margins.index(min(margins))
     estimate = estimates[deciding]
     status: evaluation.Status = "pass" if bounds.hold(estimate.value) else "fail"
-    of_one_speed = None if pooled else round(speeds[deciding].speed / KILOMETRE_PER_HOUR, 9)
-    reason = "" if status == "pass" else _missed(estimate.value, bounds, criterion, of_one_speed)
+    decisive = together[deciding][0]
+    of_one_speed = None if pooled else round(decisive.speed / KILOMETRE_PER_HOUR, 9)
+    rail = cast("Rail", decisive.rail)
+    place = place_text(of_one_speed, rail)
+    reason = "" if status == "pass" else _missed(estimate.value, bounds, criterion, place)
     verdict = _verdict(criterion, definition, estimate.value, status, reason)
-    return SeriesVerdict(verdict, estimate, _confident(estimates, bounds, status), of_one_speed)
+    return SeriesVerdict(verdict, estimate, _confident(estimates, bounds, status), of_one_speed, rail=rail)
 
 
 def _value(criterion: Criterion, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
@@ -146,8 +159,8 @@ def _verdict(
     )
 
 
-def _missed(value: float, bounds: evaluation.Bounds, criterion: Criterion, speed: float | None) -> str:
+def _missed(value: float, bounds: evaluation.Bounds, criterion: Criterion, place: str) -> str:
     demand = with_unit(str(bounds), criterion.unit)
     missing = value_text(-bounds.margin(value), criterion.unit)
-    at_speed = "" if speed is None else f" from {speed:g} km/h"
+    at_speed = f" from {place}" if place else ""
     return f"{value_text(value, criterion.unit)}{at_speed} misses {demand} by {missing}"

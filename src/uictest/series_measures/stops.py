@@ -29,11 +29,15 @@ Figure = Callable[[CountedStop], float]
 
 @dataclass(frozen=True, slots=True)
 class SpeedStops:
-    """The stops of a series from one nominal initial speed (m/s) that count."""
+    """The stops of a series from one nominal initial speed (m/s), on one kind of rail, that count.
+
+    `rail` names the kind where a series has several: wet stops on different ones are not pooled.
+    """
 
     speed: float
     dry: tuple[CountedStop, ...]
     wet: tuple[CountedStop, ...]
+    rail: str = ""
 
     def dry_mean(self, figure: Figure) -> float:
         """Return the mean of a figure over the dry stops, the reference; NaN without any."""

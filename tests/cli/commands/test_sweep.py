@@ -299,9 +299,9 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
 
 def test_cases_that_no_criterion_applies_to_are_counted(call: Call, study: Path) -> None:
     done = call("sweep", study, "--set", "criteria=[uic-541-05-appendix-b]", "-k", "friction=0.12")
-    assert done.code == 0
-    assert "32 cases: 32 skipped" in done.err
-    assert "32 of 32  100.0 % (32 not judged)" in done.out
+    assert done.code == 1
+    assert "32 cases: 32 skipped; 32 not as expected" in done.err
+    assert "0 of 32  0.0 % (32 not judged)" in done.out
     assert "note: 32 cases not judged, since no criterion applies" in done.out
 
 

@@ -3,6 +3,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from xml.etree import ElementTree
 
+import pytest
+
 from uictest.evaluation import CaseResult, Verdict
 from uictest.report.formats.junit import junit_xml
 
@@ -42,11 +44,20 @@ def test_an_expected_failure_is_no_failure(make_result: MakeResult) -> None:
     assert [len(testcase) for testcase in suite] == [0, 1]
 
 
+@pytest.mark.parametrize(("expect", "tag"), [("skipped", "skipped"), ("pass", "failure")])
+def test_a_case_that_nothing_judged_is_skipped_only_if_expected(
+    make_result: MakeResult, expect: str, tag: str
+) -> None:
+    ((child,),) = _suite([make_result(expect=expect, outcome="skipped")]).findall("testcase")
+    assert child.tag == tag
+    assert f"expected {expect}, got skipped" in (child.text or "")
+
+
 def test_counts_agree_with_the_elements(make_result: MakeResult) -> None:
     outcomes = ("pass", "fail", "invalid", "inconclusive", "error", "skipped")
     suite = _suite([make_result(outcome=outcome) for outcome in outcomes])
     counts = {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")}
-    assert counts == {"tests": "6", "failures": "3", "errors": "1", "skipped": "1"}
+    assert counts == {"tests": "6", "failures": "4", "errors": "1", "skipped": "0"}
     assert suite.get("time") == "1.500"
 
 

@@ -64,7 +64,11 @@ def _controller(name: str, **facts: str) -> EffectivePart:
 @pytest.fixture
 def results(make_result: MakeResult, hostile: str) -> list[CaseResult]:
     outcomes = ("pass", "fail", "invalid", "error", "skipped")
-    ordinary = [make_result(id=outcome, outcome=outcome, duration=1234.5) for outcome in outcomes]
+    expected = {"skipped": "skipped"}
+    ordinary = [
+        make_result(id=outcome, outcome=outcome, expect=expected.get(outcome, "pass"), duration=1234.5)
+        for outcome in outcomes
+    ]
     bad = {"outcome": "error", "criteria": (), "reason": hostile, "scenario": f"a/{hostile}.yaml"}
     foreign = {"controller": _controller(hostile, library=hostile, version=hostile, sha256="0" * 64)}
     named = make_result(id="named", test_case="TC-7", requirements=("BR-1",), outcome="fail")

@@ -46,7 +46,8 @@ def named(make_series: MakeSeries) -> series.SeriesResult:
         ("pass", "fail", "fail", "not met"),
         ("pass", "inconclusive", "inconclusive", "not met"),
         ("pass", "error", "error", "not met"),
-        ("pass", "skipped", "skipped", "not tested"),
+        ("pass", "skipped", "unexpected skip", "not tested"),
+        ("skipped", "skipped", "skipped", "not tested"),
         ("fail", "fail", "expected fail", "met"),
     ],
 )

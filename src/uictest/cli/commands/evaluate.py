@@ -60,6 +60,7 @@ def evaluate(
     keep: options.KeptRuns = None,
     junit: options.JUnitFile = None,
     recorded: options.RecordingChoice = options.Recorded.FAILED,
+    strict: options.Strict = False,
     shown: options.RunFormat = options.Format.TEXT,
     quiet: options.Quiet = False,
     verbosity: options.Verbosity = 0,
@@ -81,7 +82,7 @@ def evaluate(
         _reject_options_of_recordings(files, [*stated, *preparation])
         planned, stops = runs.read_recorded_series(files, overrides, trusted)
         cases = [case for each in planned for case in each.cases]
-        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, planned)
+        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, planned, strict)
     else:
         mapped, inputs = recordings.channel_map(
             map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
@@ -91,7 +92,7 @@ def evaluate(
         case_of = _case_of_stop(scenario, expression, statements, trusted)
         stops = runs.read_files(files, mapped)
         cases = [stop.case(case_of, inputs) for stop in stops]
-        batch = runs.RecordedBatch(stops, cases, context.obj.arguments)
+        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, strict=strict)
     published = running.judge_and_show(batch, request, output, junit, display)
     if not quiet:
         running.write_preparation(batch.files)

@@ -82,6 +82,7 @@ def run(
     accept: Accept = False,
     tolerance: options.ToleranceTexts = None,
     validated: options.Validated = None,
+    strict: options.Strict = False,
     durations: Durations = None,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
@@ -118,6 +119,7 @@ def run(
         maxfail=1 if exit_first else maxfail,
         in_process=in_process,
         real_time=real_time,
+        strict=strict,
         baseline=None if accept else accepted,
         drawn_first=drawn_first(batch.all_cases, draw),
     )

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from uictest.comparison.paired.drawn_stops import Draw, Figures, drawn_stops
 from uictest.evaluation import CaseResult
-from uictest.series import SeriesResult
+from uictest.series import SeriesResult, SpeedResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,11 +21,12 @@ class Side:
 
 
 class GroupKey(NamedTuple):
-    """What the stops of one group have in common; `speed_kmh` is None for cases."""
+    """What the stops of one group have in common; `speed_kmh` is None for cases, `rail` as in a series."""
 
     name: str
     parameters: frozenset[tuple[str, str]]
     speed_kmh: float | None = None
+    rail: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +49,20 @@ def groups_of(side: Side, varied: Collection[str]) -> dict[GroupKey, Group]:
         groups.setdefault(key, Group(_name(case, key))).stops.update(drawn_stops(case))
     for series in side.series:
         key = _key(series, varied)
-        for kmh in (speed.speed_kmh for speed in series.speeds):
-            name = f"{_name(series, key)}, wet stops from {kmh:g} km/h"
-            groups[key._replace(speed_kmh=kmh)] = Group(name, _wet_stops(series, kmh))
+        for speed in series.speeds:
+            name = f"{_name(series, key)}, wet stops from {speed.place}"
+            place = key._replace(speed_kmh=speed.speed_kmh, rail=speed.rail)
+            groups[place] = Group(name, _wet_stops(series, speed))
     return groups
 
 
-def _wet_stops(series: SeriesResult, speed_kmh: float) -> dict[Draw, Figures]:
-    """Return the wet stops from a speed that count."""
+def _wet_stops(series: SeriesResult, speed: SpeedResult) -> dict[Draw, Figures]:
+    """Return the wet stops from a speed, and on its rail, that count."""
     not_counted = {(stop.case, stop.seed) for stop in series.not_counted}
     return {
         draw: figures
         for each in series.cases
-        if (each.role, each.speed_kmh) == ("wet", speed_kmh)
+        if (each.role, each.speed_kmh) == ("wet", speed.speed_kmh) and speed.rail in ("", each.rail)
         for draw, figures in drawn_stops(each.case, each.case.id.removeprefix(f"{series.id}."))
         # A stop that is not repeated stands there without its seed.
         if not_counted.isdisjoint({(each.case.id, draw.seed), (each.case.id, None)})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -20,7 +20,7 @@ from uictest.report.series.wording import (
     series_word,
 )
 from uictest.report.wording import failing_first, limits, quantity
-from uictest.series import SeriesResult, SeriesStop, SeriesVerdict, observed_stops
+from uictest.series import SeriesResult, SeriesStop, SeriesVerdict, SpeedResult, observed_stops
 from uictest.series_measures import SERIES_MEASURES
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
@@ -65,9 +65,9 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class DotPlot:
-    """The braking distances from one speed, drawn."""
+    """The braking distances from one speed, and on one rail where there are several, drawn."""
 
-    speed_kmh: float
+    place: str
     rows: Sequence[DotRow]
     lines: Sequence[Line]
     ticks: Sequence[Tick]
@@ -102,32 +102,36 @@ class SeriesView:
 def series_view(result: SeriesResult) -> SeriesView:
     """Return the view of a series."""
     stops = observed_stops(result.cases, result.speed_tolerance_kmh)
-    plots = [_plot(result, speed.speed_kmh, stops) for speed in result.speeds]
+    plots = [_plot(result, speed, stops) for speed in result.speeds]
     units = {name: SERIES_MEASURES[name].unit for name in result.measures if name in SERIES_MEASURES}
     return SeriesView(
         series_anchor(result.id), result, series_word(result), [plot for plot in plots if plot], units
     )
 
 
-def _plot(result: SeriesResult, speed_kmh: float, stops: Sequence[SeriesStop]) -> DotPlot | None:
-    """Return the distances from one speed; None where no stop has any."""
-    at_speed = [stop for stop in stops if stop.speed_kmh == speed_kmh]
+def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> DotPlot | None:
+    """Return the distances from one speed, and on its rail; None where no stop has any."""
+    at_speed = [
+        stop
+        for stop in stops
+        if stop.speed_kmh == speed.speed_kmh and (stop.role == "dry" or speed.rail in ("", stop.rail))
+    ]
     known = [distance for stop in at_speed if math.isfinite(distance := _distance(stop))]
     if not known:
         return None
-    marked = list(_marked(result, at_speed))
+    marked = list(_marked(result, at_speed, speed.rail))
     ends = [*known, *(distance for distance, _, _ in marked)]
     air = 0.04 * (max(ends) - min(ends)) or 1.0
     axis = Axis(min(ends) - air, max(ends) + air, _LEFT, _RIGHT)
-    labels = _labels(result, speed_kmh)
+    labels = _labels(result, {stop.case for stop in at_speed})
     rows = [_row(label, axis, place, case, at_speed) for place, (case, label) in enumerate(labels.items())]
     lines = [Line(axis.at(distance), label, bound) for distance, label, bound in marked]
-    return DotPlot(speed_kmh, rows, lines, axis.tick_marks(6), _TOP + _ROW * len(labels) + 34)
+    return DotPlot(speed.place, rows, lines, axis.tick_marks(6), _TOP + _ROW * len(labels) + 34)
 
 
-def _labels(result: SeriesResult, speed_kmh: float) -> dict[str, str]:
-    """Return a short name for every case from one speed: its own, and the values by which wet ones differ."""
-    cases = [each for each in result.cases if each.speed_kmh == speed_kmh]
+def _labels(result: SeriesResult, names: Collection[str]) -> dict[str, str]:
+    """Return a short name for every case named: its own, and the values by which wet ones differ."""
+    cases = [each for each in result.cases if each.case.id in names]
     wet = [each.case.parameters for each in cases if each.role == "wet"]
     keys = dict.fromkeys(key for parameters in wet for key in parameters)
     varied = [key for key in keys if len({parameters.get(key) for parameters in wet}) > 1]
@@ -152,8 +156,10 @@ def _distance(stop: SeriesStop) -> float:
     return stop.figures.measures.get(_DISTANCE, math.nan)
 
 
-def _marked(result: SeriesResult, stops: Sequence[SeriesStop]) -> Iterator[tuple[float, str, bool]]:
-    """Yield the mean of the dry stops, and every bound that refers to it."""
+def _marked(
+    result: SeriesResult, stops: Sequence[SeriesStop], rail: str
+) -> Iterator[tuple[float, str, bool]]:
+    """Yield the mean of the dry stops, and every bound that refers to it and decides on this rail."""
     dry = [_distance(stop) for stop in stops if stop.role == "dry" and stop.counts]
     reference = math.fsum(dry) / len(dry) if dry else math.nan
     if not math.isfinite(reference):
@@ -161,7 +167,7 @@ def _marked(result: SeriesResult, stops: Sequence[SeriesStop]) -> Iterator[tuple
     yield reference, "dry", False
     for each in result.criteria:
         verdict = each.verdict
-        if verdict.measure in _OF_DISTANCE and each.of_dry_stop:
+        if verdict.measure in _OF_DISTANCE and each.of_dry_stop and each.rail in ("", rail):
             for bound in (verdict.lower, verdict.upper):
                 if bound is not None:
                     yield reference * bound / 100.0, f"{bound:g} %", True

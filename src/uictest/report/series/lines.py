@@ -10,9 +10,11 @@ from uictest.report.series.wording import (
     not_counted_sentences,
     series_verdict_sentence,
     series_word,
+    unsettled_of_series,
 )
 from uictest.report.wording import line_word, number
 from uictest.series import SeriesResult
+from uictest.series_measures import SERIES_MEASURES
 
 SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")
 
@@ -22,10 +24,14 @@ def series_line(result: SeriesResult) -> str:
     words = [line_word(series_word(result)), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}"]
     for name in SHOWN_MEASURES:
-        estimate = result.measures[name].estimate
-        words.append(f"{name}={number(None if estimate is None else estimate.value)}")
+        of_rails = {f"{name}[{each.place.replace(' ', '')}]": each for each in result.speeds if each.rail}
+        pooled = SERIES_MEASURES[name].pooled or not of_rails
+        for key, measured in ({name: result} if pooled else of_rails).items():
+            estimate = measured.measures[name].estimate
+            words.append(f"{key}={number(None if estimate is None else estimate.value)}")
     if not result.met:
-        words.append(f"reason={printable(result.reason)}")
+        reasons = [result.reason] if result.reason else unsettled_of_series(result)
+        words.append(f"reason={printable('; '.join(reasons))}")
     return " ".join(words)
 
 

@@ -36,13 +36,17 @@ def series_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
 
 
 def measure_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
-    """Yield one row per series, speed and measure; the speed `all` is the whole series."""
+    """Yield one row per series, speed, rail and measure; the speed `all` is the whole series."""
     for result in results:
-        tables = {ALL_SPEEDS: result.measures, **{f"{s.speed_kmh:g}": s.measures for s in result.speeds}}
-        for speed, measures in tables.items():
+        tables = {(ALL_SPEEDS, ""): dict(result.measures)}
+        tables |= {(f"{each.speed_kmh:g}", each.rail): dict(each.measures) for each in result.speeds}
+        if result.bypassed_k_wet is not None:
+            tables[ALL_SPEEDS, ""]["bypassed_k_wet"] = result.bypassed_k_wet
+        for (speed, rail), measures in tables.items():
             for name, value in measures.items():
-                unit = SERIES_MEASURES[name].unit if name in SERIES_MEASURES else ""
-                about: Row = {"series": result.id, "speed_kmh": speed, "measure": name, "unit": unit}
+                unit = SERIES_MEASURES[name].unit if name in SERIES_MEASURES else "1"
+                about: Row = {"series": result.id, "speed_kmh": speed, "rail": rail}
+                about |= {"measure": name, "unit": unit}
                 yield {**about, **_value_cells(value)}
 
 
@@ -74,6 +78,7 @@ def _criterion_cells(each: SeriesVerdict) -> Row:
         "upper": verdict.upper,
         "margin": verdict.margin,
         "speed_kmh": each.speed_kmh,
+        "rail": each.rail,
         "certain": each.confident,
         "kept": each.kept,
         **_estimate_cells(each.estimate),
@@ -97,6 +102,7 @@ def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
                 "series": result.id,
                 "case": stop.case,
                 "role": stop.role,
+                "rail": stop.rail,
                 "speed_kmh": stop.speed_kmh,
                 "seed": stop.seed,
                 "counts": stop.counts,

@@ -9,7 +9,16 @@ from typing import Final
 
 from uictest import statistics
 from uictest.report.escaping import printable
-from uictest.report.wording import CASE_WORDS, counted, limits, outcome_sentence, outcome_word, quantity
+from uictest.report.wording import (
+    CASE_WORDS,
+    UNSETTLED,
+    counted,
+    limits,
+    outcome_sentence,
+    outcome_word,
+    quantity,
+    unsettled_sentences,
+)
 from uictest.series import SeriesResult, SeriesVerdict
 from uictest.series_measures import Estimate, Method
 
@@ -31,6 +40,8 @@ _REASONS_SHOWN: Final = 3
 
 def series_word(result: SeriesResult) -> str:
     """Return the word of a series, one of those of cases."""
+    if result.as_expected and not result.met:
+        return UNSETTLED
     return outcome_word(result.outcome, met=result.met)
 
 
@@ -97,7 +108,7 @@ def _substance(each: SeriesVerdict) -> str:
     verdict = each.verdict
     if verdict.value is None:
         return verdict.reason
-    at_speed = "" if each.speed_kmh is None else f" from {each.speed_kmh:g} km/h"
+    at_speed = f" from {each.place}" if each.place else ""
     value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(each)}{at_speed}"
     return f"{value}, {limits(verdict)}, margin {quantity(verdict.margin, verdict.unit)}"
 
@@ -108,11 +119,16 @@ def of_dry_stop(each: SeriesVerdict) -> str:
 
 
 def count_sentences(result: SeriesResult) -> Iterator[str]:
-    """Yield for each speed how many stops count."""
+    """Yield for each speed and rail how many stops count, and K_wet without WSP where it is better."""
     for speed in result.speeds:
         dry, wet = (f"{each.counted} of {each.run}" for each in (speed.dry, speed.wet))
         share = f"{percent(speed.wet.share)}, {percent(result.valid_stops)} needed"
-        yield f"Valid stops from {speed.speed_kmh:g} km/h: dry {dry}, wet {wet} ({share})"
+        yield f"Valid stops from {speed.place}: dry {dry}, wet {wet} ({share})"
+    bypassed = None if result.bypassed_k_wet is None else result.bypassed_k_wet.estimate
+    tested = next((each.estimate for each in result.criteria if each.verdict.measure == "k_wet"), None)
+    if bypassed is not None and tested is not None and bypassed.value > tested.value:
+        values = (f"{short(each.value)} ({interval(each) or '-'})" for each in (bypassed, tested))
+        yield "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
 
 
 def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
@@ -131,9 +147,16 @@ def series_explanation(result: SeriesResult) -> list[str]:
     deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
     names = [each.verdict.id for each in deciding]
     return [
-        outcome_sentence(result.outcome, result.expect, names),
+        outcome_sentence(result.outcome, result.expect, names, unsettled=bool(result.unsettled)),
         *([printable(result.reason)] if result.reason and not deciding else []),
         *(series_verdict_sentence(each, result.confidence) for each in deciding),
+        *unsettled_of_series(result),
         *count_sentences(result),
         *not_counted_sentences(result),
     ]
+
+
+def unsettled_of_series(result: SeriesResult) -> list[str]:
+    """Return which verdicts of a strict series and of its cases are not settled, and why."""
+    pairs = [(printable(name), each) for name, each in result.unsettled]
+    return [f"{name}: {line}" for name, each in pairs for line in unsettled_sentences([each])]

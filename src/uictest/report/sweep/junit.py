@@ -52,7 +52,9 @@ def _child_tag(count: OutcomeCount) -> str | None:
         return "skipped"
     if count.outcomes["error"]:
         return "error"
-    return None if count.met == count.cases else "failure"
+    if count.met < count.cases:
+        return "failure"
+    return "skipped" if count.outcomes["skipped"] == count.cases else None
 
 
 def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:

@@ -20,6 +20,8 @@ class RecordedBatch:
     arguments: Sequence[str]
     series: Sequence[series.Series] = ()
     """Series whose stops, in this order, are all of the recorded ones; none where each stop is by itself."""
+    strict: bool = False
+    """Whether a stop is met only if all of its verdicts are settled, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +42,8 @@ def judge_recordings(batch: RecordedBatch) -> JudgedRecordings:
     parts = campaign.parts_of_recorded(batch.cases)
     inputs = {name: digest for case in batch.cases for name, digest in case.inputs.items()}
     manifest = report.run_manifest(batch.arguments, None, inputs, len(batch.cases), parts.values())
-    case_runs = [campaign.with_parts(case_run, parts) for case_run in _judge(batch)]
+    judged = [campaign.with_parts(case_run, parts) for case_run in _judge(batch)]
+    case_runs = [replace(each, result=replace(each.result, strict=batch.strict)) for each in judged]
     recordings = {each.result.id: each.recording for each in case_runs if each.recording is not None}
     return JudgedRecordings(_content(batch, case_runs, manifest), recordings)
 

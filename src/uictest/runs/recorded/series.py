@@ -30,6 +30,8 @@ def _recorded(
     stops: list[series.PlannedStop] = []
     files: list[RecordedFile] = []
     for stop in planned.stops:
+        if stop.role == "bypassed":
+            continue  # simulated beside simulated stops only
         own, inputs = _files_of(stop, trusted)
         names = [f"{stop.case.id}.{file.name}" for file in own]
         named = [replace(file, name=name) for file, name in zip(own, names, strict=True)]
@@ -41,7 +43,7 @@ def _recorded(
 
 def _as_recorded(stop: series.PlannedStop, file: RecordedFile, inputs: dict[str, str]) -> series.PlannedStop:
     """Return a stop as the one in a recording."""
-    return replace(stop, case=file.case(lambda name, speed: stop.case, inputs))
+    return replace(stop, rail="", case=file.case(lambda name, speed: stop.case, inputs))
 
 
 def _files_of(

@@ -52,6 +52,11 @@ class Applicability(Model):
     rail_condition_other_than: tuple[str, ...] | None = Field(
         default=None, description="Names of rail conditions that the criterion is not for, e.g. dry."
     )
+    rail_cleaned: bool | None = Field(
+        default=None,
+        strict=True,
+        description="Whether sliding cleans the rail; a recorded rail answers as it does and meets either.",
+    )
     wsp: tuple[Literal["active", "bypassed"], ...] | None = Field(
         default=None, description="States of the WSP."
     )

@@ -48,7 +48,8 @@ class Criterion(Model):
         description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails."
     )
     applies: Applicability = Field(
-        default=Applicability(), description="Stops that the criterion applies to."
+        default=Applicability(),
+        description="Stops that the criterion applies to; of a series the wet ones that are judged.",
     )
     scope: Scope = Field(
         default="stop",
@@ -217,7 +218,7 @@ class Criterion(Model):
 
     def _series_problems(self) -> Iterator[Inconsistency]:
         """Yield what says something of a stop in a criterion of a series."""
-        for name in ("wheelsets", "applies", "definition", "readings"):
+        for name in ("wheelsets", "definition", "readings"):
             if name in self.model_fields_set:
                 message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
                 yield Inconsistency((name,), message, "leave it out")

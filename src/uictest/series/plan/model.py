@@ -91,7 +91,7 @@ class SeriesFile(Model):
     confidence: Annotated[Quantity, of_kind("share", at_least="50 %", at_most="99.99 %")] = Field(
         default=default("95 %", "share"), description="Confidence of the intervals."
     )
-    expect: Literal["pass", "fail", "invalid"] = Field(
+    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
         default="pass", description="The expected outcome; fail is for series that must not pass."
     )
     matrix: dict[str, Any] | None = Field(

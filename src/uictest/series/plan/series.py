@@ -8,7 +8,7 @@ from pathlib import Path
 
 from uictest.scenario import Case, Criteria, Criterion
 from uictest.series.plan.model import SeriesFile
-from uictest.series.result import Role
+from uictest.series.result import Rail, Role
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,11 +21,15 @@ class Recorded:
 
 @dataclass(frozen=True, slots=True)
 class PlannedStop:
-    """One case of a series; `recorded` is None where the file names no recording of it."""
+    """One case of a series; `recorded` is None where the file names no recording of it.
+
+    `rail` is the kind of rail of a simulated stop that is not dry.
+    """
 
     role: Role
     case: Case
     recorded: Recorded | None = None
+    rail: Rail = ""
 
     @property
     def speed(self) -> float:

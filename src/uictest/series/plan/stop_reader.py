@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from uictest import evaluation
 from uictest.scenario import LONGEST, Case, Criteria, Files, load_file
 from uictest.scenario.yaml import (
     Diagnostic,
@@ -25,7 +26,7 @@ from uictest.series.plan.model import SeriesFile, Stops
 from uictest.series.plan.same_train import differences_of_train
 from uictest.series.plan.series import PlannedStop
 from uictest.series.plan.stop_entry import recorded_by, scenario_of, values_set_by
-from uictest.series.result import Role
+from uictest.series.result import Rail, Role
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
 """Keys of a scenario that decide, with the seed, how the stop goes."""
@@ -70,7 +71,26 @@ class StopReader:
             diagnostics.extend(_unmatched(read))
         if diagnostics:
             raise ScenarioErrors(in_reading_order(list(dict.fromkeys(diagnostics))))
-        return tuple(stop for stop, _ in read)
+        return (*(stop for stop, _ in read), *self._without_wsp([stop for stop, _ in read]))
+
+    def _without_wsp(self, stops: Sequence[PlannedStop]) -> Iterator[PlannedStop]:
+        """Yield the wet stops by which K_wet is judged, with the WSP bypassed: what the tested one is for."""
+        of_k_wet = [
+            criterion
+            for profile in self.criteria
+            for criterion in profile.criteria
+            if criterion.scope == "series" and criterion.measure == "k_wet"
+        ]
+        for stop in stops:
+            scenario = stop.case.scenario
+            judged = any(evaluation.applies_to(criterion, scenario) for criterion in of_k_wet)
+            if stop.role == "wet" and scenario.rig.wsp == "active" and judged:
+                rig = scenario.rig.model_copy(update={"wsp": "bypassed"})
+                # Wheels lock: a stop that fails is nothing to record or to draw before others.
+                changed = scenario.model_copy(update={"rig": rig, "expect": "fail"})
+                name = f"{self.series}.bypassed.{stop.case.id.removeprefix(f'{self.series}.')}"
+                case = replace(stop.case, id=name[:LONGEST], scenario=changed)
+                yield PlannedStop("bypassed", case, rail=stop.rail)
 
     def _of_entry(self, role: Role, entry: Entry) -> Iterator[PlannedStop]:
         reference = scenario_of(entry.node)
@@ -82,7 +102,8 @@ class StopReader:
             message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
             raise single_error(reference.place, message, role, "give each its own entry, with `set`")
         for case in cases:
-            yield PlannedStop(role, self._case(case, reference), recorded)
+            rail: Rail = "uncleaned" if case.scenario.rail.cleaning_in_force is None else "cleaned"
+            yield PlannedStop(role, self._case(case, reference), recorded, "" if role == "dry" else rail)
 
     def _case(self, case: Case, reference: Scalar) -> Case:
         """Return a case of a scenario as a stop of this series."""

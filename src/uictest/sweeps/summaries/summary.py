@@ -209,7 +209,7 @@ def _requirement_notes(plan: Plan) -> Iterator[str]:
 
 def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
     if count := outcomes["skipped"]:
-        yield f"{counted(count, 'case')} not judged, since no criterion applies: met where `pass` is expected"
+        yield f"{counted(count, 'case')} not judged, since no criterion applies: met by `expect: skipped`"
     if count := outcomes["inconclusive"]:
         yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
 

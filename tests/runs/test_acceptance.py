@@ -1,0 +1,58 @@
+"""The acceptance of a WSP over a series: what it may not pass."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import uictest
+
+SCENARIOS = Path(__file__).parents[2] / "scenarios"
+CLEANED = "  - {scenario: cleaned-rail-120.yaml, set: {rail.friction: [0.09, 0.10]}}\n"
+UNCLEANED = "  - {scenario: slip-120.yaml, set: {rail.friction: 0.09}}\n"
+SERIES = """\
+schema: uictest/series/1
+name: acceptance
+repeat: 3
+set: {{criteria: uictest-stop, rig.compensation: thermal}}
+dry: {{scenario: dry-120.yaml, repeat: 1}}
+wet:
+{wet}criteria: uictest-wsp
+"""
+NEVER_SOUNDS = {"extends": "threshold", "sounding_interval": "20 s"}
+"""A controller that hardly ever lets a wheelset roll to look at the speed of the train."""
+
+
+@pytest.fixture
+def accept(tmp_path: Path) -> object:
+    """Judge a controller by a series of these wet stops."""
+
+    def judged(wet: str, controller: object) -> uictest.SeriesResult:  # type: ignore[name-defined]
+        for name in ("dry-120", "cleaned-rail-120", "slip-120"):
+            (tmp_path / f"{name}.yaml").write_text((SCENARIOS / f"{name}.yaml").read_text("utf-8"), "utf-8")
+        path = tmp_path / "acceptance.series.yaml"
+        path.write_text(SERIES.format(wet=wet), "utf-8")
+        (result,) = uictest.run(path, set={"controller": controller}).series
+        return result
+
+    return judged
+
+
+def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept) -> None:  # type: ignore[no-untyped-def]
+    """It keeps every limit where sliding grinds the rail clean, and locks wheels wherever it does not."""
+    assert accept(CLEANED, NEVER_SOUNDS).met
+    both = accept(CLEANED + UNCLEANED, NEVER_SOUNDS)
+    missed = {each.verdict.id for each in both.criteria if each.verdict.status == "fail"}
+    assert not both.met
+    assert "passing-stops" in missed
+    uncleaned = next(each for each in both.speeds if each.rail == "uncleaned")
+    assert uncleaned.measures["passing_share"].estimate.value <= 10.0
+
+
+def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept) -> None:  # type: ignore[no-untyped-def]
+    result = accept(CLEANED + UNCLEANED, "threshold")
+    tested = next(each for each in result.criteria if each.verdict.id == "k-wet").estimate
+    assert result.met
+    assert result.bypassed_k_wet.estimate.value > tested.value
+    assert result.bypassed_k_wet.estimate.stops == tested.stops == 6
