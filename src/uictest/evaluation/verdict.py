@@ -16,8 +16,9 @@ Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 not_applicable: the criterion says nothing about such a stop. inconclusive: data to judge it are missing.
 """
 
-Layer = Literal["validity", "requirement"]
-"""validity: the stop counts as a test. requirement: the vehicle or its WSP is good enough."""
+Layer = Literal["rig", "validity", "requirement"]
+"""rig: the rig can be believed. validity: the stop counts as a test. requirement: the vehicle or its WSP is
+good enough."""
 
 
 @dataclass(frozen=True, slots=True)
