@@ -27,6 +27,7 @@ from .disc_temperature import (
 )
 from .flow import (
     REFERENCE_DENSITY as REFERENCE_DENSITY,
+    REFERENCE_TEMPERATURE as REFERENCE_TEMPERATURE,
     coldness as coldness,
     mass_flow as mass_flow,
     orifice_law as orifice_law,

@@ -2,6 +2,7 @@ from .choice import chosen_case as chosen_case
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
     RigDifference as RigDifference,
+    listed_rig as listed_rig,
     misfits as misfits,
     rig_as_built as rig_as_built,
     rig_differences as rig_differences,
@@ -55,6 +56,7 @@ from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
     Compensation as Compensation,
+    ModuleAir as ModuleAir,
     RigTolerances as RigTolerances,
 )
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from uictest.scenario.parts.brake import WspValve
-from uictest.scenario.parts.compensation import CaliperAsBuilt, RigAsBuilt
+from uictest.scenario.parts.compensation import CaliperAsBuilt, Compensation, RigAsBuilt, ValveAsBuilt
 from uictest.scenario.wheelset_values import WHEELSET_NUMBERS, wheelset_value
-from uictest.scenario.yaml import Quantity
+from uictest.scenario.yaml import Quantity, Source
 from uictest.units import PERCENT
 
 FIT_KEYS: Final = (
@@ -16,6 +16,8 @@ FIT_KEYS: Final = (
 )
 """Keys of a scenario at or below which :func:`rig_differences` reads."""
 
+_LISTED: Final = "identified-for"
+"""Source of the numbers of a listed rig."""
 _LEAST: Final = 1e-300
 """What a tolerance of a number that is zero is at least: any other number is beyond it."""
 
@@ -96,6 +98,24 @@ def rig_as_built(scenario: Any) -> dict[str, Quantity]:
             for name in WspValve.model_fields
         },
     }
+
+
+def listed_rig(model: Compensation, scenario: Any) -> Compensation:
+    """Return a compensation that lists the rig of a scenario, with the tolerances of what stood in for it."""
+    stated = scenario.rig.compensation_model
+    sections: dict[str, dict[str, Any]] = {"caliper": {}, "wsp_valve": {}, "tank": {}}
+    for key, value in rig_as_built(scenario).items():
+        section, name = key.split(".")[-2:]
+        sections[section][name] = Quantity(value, value.text, value.unit, _LISTED)
+    rig = RigAsBuilt.model_construct(
+        caliper=CaliperAsBuilt.model_construct(**sections["caliper"]),
+        wsp_valve=ValveAsBuilt.model_construct(**sections["wsp_valve"]),
+        tank_volume=sections["tank"]["volume"],
+        tolerances=stated.identified_for.tolerances,
+    )
+    listed = {_LISTED: Source(mark="identified", text="The rig of the bench, as built")}
+    sources = {**stated.sources, **model.sources, **listed}
+    return model.model_copy(update={"identified_for": rig, "sources": sources})
 
 
 def misfits(scenario: Any) -> list[RigDifference]:
