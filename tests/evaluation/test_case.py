@@ -93,7 +93,9 @@ def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     """What is not known leaves the outcome alone; without any other criterion there is no judgement."""
     monkeypatch.setattr("uictest.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
     stopped = stop(compensation_misfit=misfit)
-    result = evaluate(case(scenario(shipped("uictest-stop"), shipped("uictest-rig"))), stopped, wheelsets(0.0))
+    result = evaluate(
+        case(scenario(shipped("uictest-stop"), shipped("uictest-rig"))), stopped, wheelsets(0.0)
+    )
     fits = next(each for each in result.criteria if each.id == "compensation-fits")
     assert (result.outcome, fits.layer, fits.status) == (outcome, "rig", statuses)
     assert result.reason == ("compensation-fits: the lever ratio is 3" if outcome == "invalid" else "")

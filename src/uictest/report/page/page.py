@@ -21,7 +21,15 @@ from uictest.report.page.rerun_command import rerun_commands
 from uictest.report.page.series_view import SERIES_WORDS, series_view
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
-from uictest.report.wording import CASE_WORDS, counted, counted_in, failing_first, number, tone
+from uictest.report.wording import (
+    CASE_WORDS,
+    counted,
+    counted_in,
+    failing_first,
+    number,
+    tone,
+    without_rig_that_holds,
+)
 
 
 def page_html(content: RunContent) -> str:
@@ -58,6 +66,7 @@ def page_html(content: RunContent) -> str:
         running_head=content.name,
         baseline_lines=_baseline_lines(content.baseline),
         failing_first=failing_first,
+        without_rig_that_holds=without_rig_that_holds,
         gauge_of=gauge_of,
         number=number,
         tone=tone,

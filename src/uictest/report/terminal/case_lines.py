@@ -17,6 +17,7 @@ from uictest.report.wording import (
     line_word,
     listed,
     number,
+    without_rig_that_holds,
 )
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
@@ -49,7 +50,7 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the definitions of each criterion, once for all cases in which they are the same."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
-        for verdict in result.criteria:
+        for verdict in without_rig_that_holds(result.criteria):
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
     meanings = [criterion for criterion, _ in cases]
     for (criterion, sentence), names in cases.items():

@@ -31,7 +31,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, failing_first, tone
+from uictest.report.wording import counted, failing_first, tone, without_rig_that_holds
 
 _MOST_VALUES = 40
 """Values of a parameter that get a bar each."""
@@ -73,6 +73,7 @@ def sweep_page_html(content: SweepContent) -> str:
         circumstances_words=circumstances_words,
         counted=counted,
         failing_first=failing_first,
+        without_rig_that_holds=without_rig_that_holds,
         measure_words=measure_words,
         gauge_of=gauge_of,
         share_words=share_words,
