@@ -57,6 +57,7 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
         brake=SimpleNamespace(position=settings["position"], command=settings["command"]),
         simulation=SimpleNamespace(maximum_duration=SimpleNamespace(text="60 s")),
         criteria=profiles,
+        judged_by=profiles,
         measures=MeasureDefinitions.model_validate(_written("standard", "measures")),
         expect=settings["expect"],
         requirements=(),

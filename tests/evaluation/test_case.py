@@ -77,9 +77,30 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
 def test_our_own_profile_judges_any_stop(
     shipped, scenario, case, stop, wheelsets, changes, slides, outcome, what
 ) -> None:
-    result = evaluate(case(scenario(shipped("uictest-stop"))), stop(**changes), wheelsets(*slides))
+    profiles = shipped("uictest-stop"), shipped("uictest-rig")
+    result = evaluate(case(scenario(*profiles)), stop(**changes), wheelsets(*slides))
     assert result.outcome == outcome
     assert what in result.reason
+
+
+@pytest.mark.parametrize(
+    ("misfit", "statuses", "outcome"),
+    [(0.9, "pass", "pass"), (1.1, "fail", "invalid"), (math.nan, "inconclusive", "pass")],
+)
+def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
+    shipped, scenario, case, stop, wheelsets, monkeypatch, misfit, statuses, outcome
+) -> None:
+    """What is not known leaves the outcome alone; without any other criterion there is no judgement."""
+    monkeypatch.setattr("uictest.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
+    stopped = stop(compensation_misfit=misfit)
+    result = evaluate(
+        case(scenario(shipped("uictest-stop"), shipped("uictest-rig"))), stopped, wheelsets(0.0)
+    )
+    fits = next(each for each in result.criteria if each.id == "compensation-fits")
+    assert (result.outcome, fits.layer, fits.status) == (outcome, "rig", statuses)
+    assert result.reason == ("compensation-fits: the lever ratio is 3" if outcome == "invalid" else "")
+    alone = evaluate(case(scenario(shipped("uictest-rig"))), stopped, wheelsets(0.0))
+    assert alone.outcome == ("invalid" if outcome == "invalid" else "skipped")
 
 
 def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, stop, wheelsets) -> None:

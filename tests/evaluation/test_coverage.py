@@ -160,14 +160,18 @@ def test_a_gap_leaves_what_was_seen_besides_it(locked) -> None:
     assert locked([0.0, 0.5, 0.0, 0.0], **every).status == "inconclusive"
 
 
-def test_a_balance_of_the_simulation_says_nothing_about_a_recorded_stop(
+def test_checks_of_the_rig_say_nothing_about_a_recorded_stop(
     shipped, scenario, case, stop, wheelsets
 ) -> None:
     measures = stop(energy_residual=math.nan, air_residual=math.nan, air_energy_residual=math.nan)
     records = wheelsets(0.1, 0.1, 0.1, 0.1)
-    result = evaluate(case(scenario(shipped("uictest-stop"))), measures, records, coverage=Coverage({}))
+    judged = scenario(shipped("uictest-stop"))
+    judged.judged_by = (*judged.criteria, shipped("uictest-rig"))
+    result = evaluate(case(judged), measures, records, coverage=Coverage({}))
     assert result.outcome == "pass"
-    assert [v.status for v in result.criteria] == [*["not_applicable"] * 3, "pass", "pass"]
+    assert [v.id for v in result.criteria] == ["standstill", "locked-wheels"]
+    named = evaluate(case(scenario(shipped("uictest-rig"))), measures, records, coverage=Coverage({}))
+    assert {v.status for v in named.criteria} == {"not_applicable"}
 
 
 def test_without_the_initial_speed_a_criterion_that_asks_for_one_is_open(

@@ -65,7 +65,7 @@ def test_the_same_number_in_another_unit_does_not_differ(cases: Cases) -> None:
 def test_values_of_the_matrix_and_of_the_command_line_are_among_them(cases: Cases) -> None:
     text = "matrix: {controller.hold_limit: [1 s, 2 s]}\n"
     first, second = cases(text, "vehicle.body.mass=40 t", "rig.compensation=none")
-    common = {"vehicle.body.mass": ("40 t", "32370 kg"), "rig.compensation": ("none", "full")}
+    common = {"vehicle.body.mass": ("40 t", "32370 kg"), "rig.compensation": ("none", "thermal")}
     assert changed(of(first)) == {**common, "controller.hold_limit": ("1 s", "2 s")}
     assert changed(of(second)) == common
 

@@ -41,7 +41,8 @@ def test_a_result_has_the_ids_of_the_case_and_each_verdict_those_of_its_criterio
 ) -> None:
     result = evaluate(named, stop(), wheelsets(0.0, 0.0, 0.0, 0.0))
     assert (result.requirements, result.test_case) == (("BR-1",), "WSP-TC-7")
-    assert [verdict.requirements for verdict in result.criteria] == [("BR-2", "BR-1"), ("BR-3",)]
+    own = [verdict.requirements for verdict in result.criteria if verdict.layer != "rig"]
+    assert own == [("BR-2", "BR-1"), ("BR-3",)]
 
 
 def test_a_case_that_could_not_be_judged_hides_no_requirement_of_its_criteria(named: Case) -> None:

@@ -24,7 +24,7 @@ def test_defaults_are_filled_in(loaded: Loaded, head: str) -> None:
     assert (scenario.rail.friction, scenario.rail.gradient) == (None, 0.0)
     assert (scenario.rig.topology, scenario.rig.compensation, scenario.rig.wsp) == (
         "one-caliper",
-        "full",
+        "thermal",
         "active",
     )
     assert (scenario.expect, scenario.seed) == ("pass", 0)

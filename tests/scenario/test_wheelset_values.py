@@ -10,6 +10,7 @@ from uictest.scenario import Case, ScenarioErrors, load, wheelset_value
 from uictest.scenario.parts.wheelsets import REGULAR
 
 Load = Callable[..., Case]
+FOUR_CALIPERS = "rig.topology=four-caliper"
 
 
 @pytest.fixture(name="case")
@@ -23,7 +24,7 @@ def _case(tmp_path: Path) -> Load:
 
 
 def test_a_wheelset_has_its_own_value_where_it_says_one(case: Load) -> None:
-    scenario = case("vehicle.wheelsets.4.caliper.load_friction=7 %").scenario
+    scenario = case("vehicle.wheelsets.4.caliper.load_friction=7 %", FOUR_CALIPERS).scenario
     radii = [wheelset_value(scenario, number, "wheel_radius") for number in (1, 2, 3, 4)]
     regular = scenario.vehicle.wheelset.radius
     assert radii == [regular, 0.42, regular, regular]
@@ -34,12 +35,21 @@ def test_a_wheelset_has_its_own_value_where_it_says_one(case: Load) -> None:
     assert wheelset_value(scenario, 1, "brake_force") == 1.0
 
 
+@pytest.mark.parametrize("name", ["load_friction=9 %", "coulomb_friction=60 N"])
+def test_a_wheelset_whose_module_is_a_tank_has_no_caliper_of_its_own(case: Load, name: str) -> None:
+    """Nothing would read the value."""
+    with pytest.raises(ScenarioErrors, match=r"vehicle\.wheelsets\.2\.caliper.*wheelset 2 has no caliper"):
+        case(f"vehicle.wheelsets.2.caliper.{name}")
+    assert case(f"vehicle.wheelsets.1.caliper.{name}")
+
+
 @pytest.mark.parametrize("name", REGULAR)
 def test_every_own_value_replaces_one_of_the_same_kind(case: Load, name: str) -> None:
     """What the scenario says for all is accepted for one, and read from there."""
     scenario = case().scenario
     regular = wheelset_value(scenario, 3, name)
-    other = case(f"vehicle.wheelsets.3.{name}={getattr(regular, 'text', regular)}").scenario
+    own = f"vehicle.wheelsets.3.{name}={getattr(regular, 'text', regular)}"
+    other = case(own, FOUR_CALIPERS).scenario
     assert wheelset_value(other, 3, name) == regular
     assert attrgetter(name)(other.vehicle.wheelsets["3"]) == regular
     assert attrgetter(name)(other.vehicle.wheelsets["1"]) is None

@@ -22,6 +22,8 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     m->reservoir_minimum_pressure = reservoir_pressure;
     m->reservoir_margin = INFINITY;
     m->air_consumed = m->energy_residual = m->air_residual = m->air_energy_residual = NAN;
+    m->line_saturation = 0.0;
+    m->saturation_time = NAN;
     m->samples = 1.0;
     m->fault_time = m->reference_excess = NAN;
 }

@@ -63,6 +63,11 @@ OURS real analogue_reading(real value, real gain_error, real offset, real noise,
     return nearest(limited * steps_per_unit) * resolution;
 }
 
+OURS real beyond_range(real value, real gain_error, real offset, real noise, real measuring_range)
+{
+    return choose(fma(value, 1.0 + gain_error, offset + noise) > measuring_range, number(1.0), number(0.0));
+}
+
 OURS real brake_torque(real force, real calipers, real pads, real pad_friction, real mean_radius)
 {
     return calipers * pads * pad_friction * force * mean_radius;

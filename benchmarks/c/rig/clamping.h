@@ -48,12 +48,17 @@ OURS void step_clamping(Wheelset *wheelset, const Parameters *p)
     step_caliper(wheelset, gauge, p);
     real reading = analogue_reading(gauge, wheelset->pressure_gain_error, wheelset->pressure_offset, wheelset->pressure_error,
                                     p->pressure_range, p->pressure_resolution, p->pressure_steps);
+    wheelset->pressure_saturated_steps += beyond_range(gauge, wheelset->pressure_gain_error, wheelset->pressure_offset,
+                                                       wheelset->pressure_error, p->pressure_range);
     wheelset->pressure_reading = reading;
     step_cylinder(wheelset, reading, p);
     step_hysteresis(wheelset, p);
     real loadcells = analogue_reading(wheelset->caliper_force, wheelset->loadcell_gain_error, wheelset->loadcell_offset,
                                       wheelset->loadcell_error, p->loadcell_range,
                                       p->loadcell_resolution, p->loadcell_steps);
+    wheelset->loadcell_saturated_steps +=
+        wheelset->has_caliper * beyond_range(wheelset->caliper_force, wheelset->loadcell_gain_error,
+                                             wheelset->loadcell_offset, wheelset->loadcell_error, p->loadcell_range);
     wheelset->clamping_force = choose(wheelset->has_caliper > 0.0, loadcells, wheelset->computed_force);
 }
 

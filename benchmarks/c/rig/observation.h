@@ -17,6 +17,7 @@ static inline void begin_stop_measures(const Car *car, Measures *measures, Wheel
     begin_build_up(measures, p->commanded_pressure, car->line_pressure - p->atmospheric_pressure);
     begin_utilisation(measures);
     begin_slow_times(measures, wheelset_measures);
+    measures->compensation_misfit = p->compensation_misfit;
     for (int i = 0; i < 4; i++) {
         begin_wheelset(&wheelset_measures[i]);
         begin_contact(&wheelset_measures[i]);
@@ -35,6 +36,19 @@ static inline void observe_wheelset_and_contact(const Car *car, const Wheelset *
                     2.0 * force);
 }
 
+static inline void observe_saturation(const Wheelset *wheelsets, Measures *measures,
+                                      WheelsetMeasures *wheelset_measures, const Parameters *p, double time)
+{
+    double steps = 0.0; /* the sensor of the brake line is read for the modelled air alone */
+    for (int i = 0; i < 4; i++) {
+        wheelset_measures[i].pressure_saturation = wheelsets[i].pressure_saturated_steps * p->step;
+        wheelset_measures[i].loadcell_saturation = wheelsets[i].loadcell_saturated_steps * p->step;
+        steps += wheelsets[i].pressure_saturated_steps + wheelsets[i].loadcell_saturated_steps;
+    }
+    if (steps > 0.0 && !(measures->saturation_time >= 0.0))
+        measures->saturation_time = time;
+}
+
 static inline void observe_cycle(const Car *car, const Wheelset *wheelsets, Measures *measures,
                                  WheelsetMeasures *wheelset_measures, const Parameters *p)
 {
@@ -47,6 +61,7 @@ static inline void observe_cycle(const Car *car, const Wheelset *wheelsets, Meas
         observe_wheelset_and_contact(car, &wheelsets[i], measures, &wheelset_measures[i], p, i + 1, time, speed, stands);
     double leading = maximum(wheelsets[0].compensated_pressure, wheelsets[1].compensated_pressure);
     double trailing = maximum(wheelsets[2].compensated_pressure, wheelsets[3].compensated_pressure);
+    observe_saturation(wheelsets, measures, wheelset_measures, p, time);
     observe_reservoir_margin(measures, reservoir, maximum(leading, trailing));
     observe_build_up(measures, p, time, position, speed, car->line_pressure - p->atmospheric_pressure);
     observe_train(measures, p, time, position, speed, reservoir);

@@ -10,6 +10,7 @@ from typing import Literal
 from uictest import evaluation, rig, scenario
 from uictest.controllers import ControllerError
 from uictest.recording import Recording
+from uictest.rig import bench
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,7 @@ def failed_run(case: scenario.Case, error: Exception, duration: float) -> CaseRu
 def _simulate_and_judge(
     case: scenario.Case, request: RecordingRequest, started: float, run: rig.RunInputs | None
 ) -> CaseRun:
+    case = bench.identified(case)
     # A controller from outside may answer differently when its stop is repeated.
     from_outside = case.scenario.controller.program is not None
     at_once = request.cases == "all" or (request.cases == "failed" and from_outside)

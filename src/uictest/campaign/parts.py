@@ -7,15 +7,26 @@ from dataclasses import replace
 
 from uictest import evaluation, scenario
 from uictest.campaign.case import CaseRun
+from uictest.rig import bench
 
 PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
 """Case id -> role -> part."""
 
 
 def parts_of_cases(cases: Sequence[scenario.Case]) -> PartsOfCases:
-    """Return the parts of simulated stops; a part that many cases share is computed once."""
+    """Return the parts of simulated stops; a part that many cases share is computed once.
+
+    A compensation that is to be identified is: those parts are what the stop is run with.
+    """
     effective = evaluation.EffectiveParts()
-    return {case.id: effective.of(case.scenario) for case in cases}
+    return {case.id: effective.of(_as_run(case).scenario) for case in cases}
+
+
+def _as_run(case: scenario.Case) -> scenario.Case:
+    try:
+        return bench.identified(case)
+    except ValueError:  # nothing can be identified: the stop says why
+        return case
 
 
 def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from uictest import evaluation, rig, scenario
 from uictest.campaign.case import CaseRun, RecordingRequest, failed_run
 from uictest.recording import Recording
+from uictest.rig import bench
 
 
 class Stop(NamedTuple):
@@ -57,6 +58,7 @@ def run_repeat(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None 
     case = case_of_stop(stop)
     every = request.every if stop.place == 0 and request.cases != "none" else None
     try:
+        case = bench.identified(case)
         simulated: rig.SimulatedStop = rig.simulate(case, every, run)
         records = simulated.measures, simulated.wheelset_measures
         result = evaluation.evaluate_simulated(case, *records, perf_counter() - started, explain=False)

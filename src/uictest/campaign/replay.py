@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from uictest import recording, rig, scenario
 from uictest.campaign.threaded_map import map_on_threads
+from uictest.rig import bench
 
 
 def shortest_cycle(cases: Iterable[scenario.Case]) -> float:
@@ -18,7 +19,9 @@ def replay(
     cases: Sequence[scenario.Case], *, every: float, jobs: int
 ) -> Iterator[tuple[scenario.Case, recording.Recording]]:
     """Yield each case with its recording, a sample `every` so many seconds, in the order of the cases."""
-    stops = map_on_threads(lambda case: rig.simulate(case, record_every=every), cases, jobs=jobs)
+    stops = map_on_threads(
+        lambda case: rig.simulate(bench.identified(case), record_every=every), cases, jobs=jobs
+    )
     for case, stop in zip(cases, stops, strict=True):
         if stop.recording is not None:
             yield case, stop.recording

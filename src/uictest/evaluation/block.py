@@ -140,7 +140,7 @@ def _evaluate_together(stops: StopBlock) -> ResultColumns:
     resolved = stops.case_at(0).scenario
     verdicts = [
         block_verdicts(criterion, stops.together, stops.alone, stops.measures.size)
-        for profile in resolved.criteria
+        for profile in resolved.judged_by
         for criterion in profile.criteria
     ]
     for places, outcome, deciding in _outcomes(verdicts, stops.measures.size):
@@ -178,10 +178,10 @@ def _outcomes(
 
 
 def _put_narrowest_margins(columns: ResultColumns, verdicts: Sequence[BlockVerdicts]) -> None:
-    """Set the smallest margins; among equal ones that of the criterion whose id comes first."""
+    """Set the smallest margins, of equal ones that of the first id; checks of the rig have no part in it."""
     margins, criteria = columns.margins, columns.criteria
     found = np.zeros(margins.size, bool)
-    for each in verdicts:
+    for each in (verdict for verdict in verdicts if verdict.layer != "rig"):
         is_less = (each.margins < margins) | ((each.margins == margins) & (each.id < criteria))
         smaller = each.has_margin & (~found | is_less.astype(bool))
         margins[smaller], criteria[smaller] = each.margins[smaller], each.id

@@ -22,6 +22,7 @@ from uictest.evaluation.bounds import Bounds, bounds_of
 from uictest.evaluation.coverage import ObservedStop
 from uictest.evaluation.decision import Decision, read_measure, too_few_wheelsets, why_decided
 from uictest.evaluation.judgement import undecided
+from uictest.evaluation.rig_reasons import why_rig_fails
 from uictest.evaluation.verdict import Layer, Status
 from uictest.measures import MEASURES
 
@@ -85,7 +86,13 @@ def block_verdicts(
     statuses[has_value] = np.where(bounded.hold, _PASS, _FAIL)[has_value]
 
     def reason(place: int) -> str:
-        return reasons[place]() if place in reasons else bounded.reason(place, criterion.unit)
+        if place in reasons:
+            return reasons[place]()
+        if criterion.layer == "rig":
+            resolved, stop = alone(place)
+            if why := why_rig_fails(criterion, resolved, stop.measures, list(stop.wheelsets)):
+                return why
+        return bounded.reason(place, criterion.unit)
 
     margins, has_margin = bounded.relative_margins
     return BlockVerdicts(criterion.id, criterion.layer, statuses, margins, has_margin & has_value, reason)

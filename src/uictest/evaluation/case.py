@@ -29,6 +29,13 @@ JUDGED_KEYS = (
     "rail.gradient",
     "rig.topology",
     "rig.wsp",
+    # what the reasons of failed checks of the rig name
+    "rig.caliper",
+    "rig.compensation_model",
+    "rig.sensors",
+    "brake.system.tank.volume",
+    "brake.system.wsp_valve",
+    "vehicle.wheelsets",
     "simulation.maximum_duration",
     "faults",
     "criteria",

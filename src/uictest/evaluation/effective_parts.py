@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -37,7 +37,7 @@ class EffectiveParts:
         for kind, key in _PARTS.items():
             overridden = _overridden(scenario) if kind == "rail" else ()
             parts[kind] = self.part(_at(scenario, key), kind, key, overridden)
-        return parts | self._criteria(scenario)
+        return parts | self._criteria(scenario.judged_by)
 
     def of_recorded(self, scenario: Scenario) -> dict[str, EffectivePart]:
         """Return the parts of a recorded stop: conditions, measures and criteria, nothing of a rig."""
@@ -48,7 +48,7 @@ class EffectiveParts:
         return {
             "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
             "measures": self.part(scenario.measures, "measures", "measures"),
-            **self._criteria(scenario),
+            **self._criteria(scenario.criteria),
         }
 
     def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
@@ -59,10 +59,9 @@ class EffectiveParts:
             self._computed[id(part), overridden] = kept
         return kept[1]
 
-    def _criteria(self, scenario: Scenario) -> dict[str, EffectivePart]:
+    def _criteria(self, profiles: Iterable[Part]) -> dict[str, EffectivePart]:
         return {
-            f"criteria.{place}": self.part(profile, "criteria", "")
-            for place, profile in enumerate(scenario.criteria)
+            f"criteria.{place}": self.part(profile, "criteria", "") for place, profile in enumerate(profiles)
         }
 
 

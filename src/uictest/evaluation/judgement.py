@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Final
 
 from uictest import scenario
 from uictest.evaluation.applicability import TestConditions, test_conditions_of, unmet_conditions
@@ -11,12 +12,14 @@ from uictest.evaluation.bounds import Bounds, bounds_of
 from uictest.evaluation.coverage import Coverage, ObservedStop, why_cut_off
 from uictest.evaluation.decision import Decision, decide
 from uictest.evaluation.definitions import applied_definitions, definition_texts
+from uictest.evaluation.rig_reasons import why_rig_fails
 from uictest.evaluation.sensitivity import sensitivity
 from uictest.evaluation.verdict import READINGS, ReadVerdict, Sensitivity, Verdict, VerdictInterval
 from uictest.measures import StopMeasures, Wheelsets, is_nan
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
+_NO_RIG: Final = "not known: rig.compensation_model does not list the rig that it was identified for"
 
 
 def judge(
@@ -27,7 +30,7 @@ def judge(
     explain: bool = True,
     coverage: Coverage | None = None,
 ) -> list[Verdict]:
-    """Judge one stop by every criterion of its scenario, in the order written.
+    """Judge one stop by every criterion of its scenario, in the order written, then by the checks of the rig.
 
     Args:
         resolved: scenario with the conditions of the stop and the criteria.
@@ -38,7 +41,8 @@ def judge(
         coverage: what the record of a real stop lacks; None for a simulation.
 
     Returns:
-        One verdict per criterion: `not_applicable` where the criterion does not apply to such a stop,
+        One verdict per criterion, those of the rig for simulated stops alone:
+        `not_applicable` where the criterion does not apply to such a stop,
         `inconclusive` where data to judge it are missing, both with the reason. NaN never passes.
 
     """
@@ -46,9 +50,12 @@ def judge(
     cut_off = why_cut_off(resolved, measures, coverage)
     stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
     verdicts = []
-    for profile in resolved.criteria:
+    for profile in resolved.judged_by if coverage is None else resolved.criteria:
         for criterion in profile.criteria:
             verdict = _judge(criterion, conditions, stop, resolved.measures, explain=explain)
+            if verdict.layer == "rig" and verdict.status == "fail":
+                why = why_rig_fails(criterion, resolved, measures, list(wheelset_measures))
+                verdict = replace(verdict, reason=why or verdict.reason)
             if explain:
                 verdict = with_definitions(verdict, criterion, profile, resolved.measures)
             verdicts.append(verdict)
@@ -176,6 +183,8 @@ def _not_applicable(
         return Decision("inconclusive", None, unknown)
     if criterion.of_faults and conditions.has_faults and is_nan(stop.measures.fault_time):
         return Decision("inconclusive", None, "no fault of the scenario began while the train moved")
+    if criterion.measure == "compensation_misfit" and is_nan(stop.measures.compensation_misfit):
+        return Decision("inconclusive", None, _NO_RIG)
     return None
 
 

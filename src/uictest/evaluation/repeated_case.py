@@ -87,10 +87,23 @@ def judge_repeats(
         for each in repeats
         if each.measures is not None
     ]
-    for profile in resolved.criteria if stops else ():
+    for profile in resolved.judged_by if stops else ():
         for criterion in profile.criteria:
             verdict = _judge(criterion, conditions, resolved.measures, rule, stops)
+            if verdict.layer == "rig" and verdict.status == "fail":
+                verdict = replace(verdict, reason=f"{verdict.reason}; {_first_reason(repeats, verdict.id)}")
             yield with_definitions(verdict, criterion, profile, resolved.measures)
+
+
+def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
+    """Return why the first stop that a check of the rig fails in fails it, with its seed."""
+    reasons = (
+        f"seed {each.seed}: {verdict.reason}"
+        for each in repeats
+        for verdict in each.result.criteria
+        if verdict.id == criterion and verdict.status == "fail"
+    )
+    return next(reasons, "")
 
 
 def _judge(

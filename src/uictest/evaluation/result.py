@@ -152,14 +152,17 @@ AnyDecided = TypeVar("AnyDecided", bound=Decided)
 def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[AnyDecided]]:
     """Return the outcome of a stop and the verdicts that decide it, none where it passes.
 
-    A failed validity criterion makes the stop invalid: it does not count as a test, whatever its
-    requirements. Otherwise a failed requirement fails the stop, unless a validity criterion is inconclusive:
-    the stop may be no test. Any other inconclusive criterion makes the stop inconclusive. A stop that no
-    criterion of validity or requirement could judge is skipped, whatever criteria of other layers say.
+    A failed check of the rig or a failed validity criterion makes the stop invalid: it does not count as a
+    test, whatever its requirements. Checks of the rig decide nothing else. Otherwise a failed requirement
+    fails the stop, unless a validity criterion is inconclusive: the stop may be no test. Any other
+    inconclusive criterion makes the stop inconclusive. A stop that no criterion of validity or requirement
+    could judge is skipped.
     """
-    verdicts = [verdict for verdict in verdicts if verdict.layer in _JUDGING]
-    if failed := _with_status(verdicts, ("fail",), "validity"):
+    verdicts = list(verdicts)
+    failed = [*_with_status(verdicts, ("fail",), "rig"), *_with_status(verdicts, ("fail",), "validity")]
+    if failed:
         return "invalid", failed
+    verdicts = [verdict for verdict in verdicts if verdict.layer in _JUDGING]
     failed = _with_status(verdicts, ("fail",), "requirement")
     if failed and not _with_status(verdicts, ("inconclusive",), "validity"):
         return "fail", failed
@@ -177,10 +180,13 @@ def _with_status(
 
 
 def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
-    """Return the smallest relative margin of a case and the id of its criterion; None and "" without any."""
+    """Return the smallest relative margin of a case and the id of its criterion; None and "" without any.
+
+    Checks of the rig have no part in it.
+    """
     margins = [
         (margin, verdict.id)
         for verdict in result.criteria
-        if (margin := relative_margin(verdict)) is not None
+        if verdict.layer != "rig" and (margin := relative_margin(verdict)) is not None
     ]
     return min(margins, default=(None, ""))

@@ -19,8 +19,9 @@ not_applicable: the criterion says nothing about such a stop. inconclusive: data
 READINGS: Final = "readings"
 """Name among the definitions of a criterion for its readings, taken together."""
 
-Layer = Literal["validity", "requirement"]
-"""validity: the stop counts as a test. requirement: the vehicle or its WSP is good enough."""
+Layer = Literal["rig", "validity", "requirement"]
+"""rig: the rig can be believed. validity: the stop counts as a test. requirement: the vehicle or its WSP is
+good enough."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from .channels import (
 from .compensation_file import (
     Provenance as Provenance,
     check_compensation as check_compensation,
+    is_of_one_rig as is_of_one_rig,
     load_compensation as load_compensation,
     with_air as with_air,
     with_cylinder as with_cylinder,

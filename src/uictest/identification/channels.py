@@ -20,6 +20,8 @@ from uictest.units import KINDS
 _SI = {"pressure": "Pa", "force": "N"}
 _UNKNOWN_ORIGIN = "recorded, origin not stated"
 _LONGEST_ORIGIN = 200
+AS_BUILT = "as built: "
+"""Before the key of a scenario in the metadata of a bench test."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,10 +31,12 @@ class RecordedChannels:
     Attributes:
         channels: role -> samples in SI units, and the time in s.
         origin: what was recorded, as the file states it.
+        rig: the rig of the record as built, key -> value, as a bench test states it; else empty.
     """
 
     channels: dict[str, Samples]
     origin: str
+    rig: dict[str, str]
 
 
 def read_record(path: Path, names: Mapping[str, str]) -> RecordedChannels:
@@ -48,7 +52,8 @@ def read_record(path: Path, names: Mapping[str, str]) -> RecordedChannels:
     """
     try:
         contents = formats.read_contents(path)
-        return RecordedChannels(_channels(contents.groups, {TIME: TIME, **names}), _origin(contents.metadata))
+        channels = _channels(contents.groups, {TIME: TIME, **names})
+        return RecordedChannels(channels, _origin(contents.metadata), _rig(contents.metadata))
     except (formats.UnreadableError, formats.MissingExtraError, UnsuitableRecordError) as error:
         raise UnsuitableRecordError(f"{path}: {error}") from error
 
@@ -68,6 +73,11 @@ def _channels(groups: Sequence[recording.Group], names: Mapping[str, str]) -> di
 
 def _origin(metadata: Mapping[str, str]) -> str:
     return " ".join(metadata.get(ORIGIN, "").split())[:_LONGEST_ORIGIN] or _UNKNOWN_ORIGIN
+
+
+def _rig(metadata: Mapping[str, str]) -> dict[str, str]:
+    found = {key.removeprefix(AS_BUILT): value for key, value in metadata.items() if key.startswith(AS_BUILT)}
+    return {key: value for key, value in found.items() if len(value) <= _LONGEST_ORIGIN}
 
 
 def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Samples:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +14,22 @@ from uictest.identification.air import AirResult
 from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
-from uictest.scenario import Compensation, Files, Parts, Roots
+from uictest.scenario import Compensation, Files, Parts, RigTolerances, Roots
 from uictest.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
 
-_FACTS = ("record", "record sha256", "samples sha256", "record origin", "command", "version", "fit", "date")
+_SUBJECTS = ("hysteresis", "cylinder", "air")
+_FACTS = (
+    *("record", "record sha256", "samples sha256", "record origin", "rig sha256"),
+    *("command", "version", "fit", "date"),
+)
 """Facts of one identification, in the order of `_provenance`."""
+_RIG_SOURCE = "identified-for"
+_TOLERANCES_OF = "six-inch"
+"""The compensation of the library whose tolerances others take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +44,7 @@ class Provenance:
         command: the command line.
         version: of this program.
         date: as stated by the user; empty: omitted, so that the same record gives the same file.
+        rig: the rig of the record as built, key of a scenario -> value as written; empty: not known.
     """
 
     record: str
@@ -45,6 +54,12 @@ class Provenance:
     command: str
     version: str
     date: str = ""
+    rig: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def rig_digest(self) -> str:
+        """SHA-256 of the rig; empty where it is not known."""
+        return sha256(repr(sorted(self.rig.items())).encode()).hexdigest() if self.rig else ""
 
 
 def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensation:
@@ -98,7 +113,7 @@ def with_hysteresis(
             "text": "Options --transition-time and --acting-time of the identification",
         },
     }
-    return _text(base, name, numbers, sources, _provenance("hysteresis", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, _provenance("hysteresis", base, provenance, fit))
 
 
 def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
@@ -121,7 +136,7 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
         f" fit {result.fit:.2f} %"
     )
     sources = {source: _identified("Cylinder dynamics", provenance, fit)}
-    return _text(base, name, numbers, sources, _provenance("cylinder", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, _provenance("cylinder", base, provenance, fit))
 
 
 def with_air(base: Compensation, name: str, result: AirResult, provenance: Provenance) -> str:
@@ -141,7 +156,7 @@ def with_air(base: Compensation, name: str, result: AirResult, provenance: Prove
         f" of {result.largest_pressure / BAR:.3f} bar"
     )
     sources = {source: _identified("Air of the caliper's module", provenance, fit)}
-    return _text(base, name, numbers, sources, _provenance("air", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, _provenance("air", base, provenance, fit))
 
 
 def _line(line: FittedLine, source: str) -> Numbers:
@@ -189,6 +204,7 @@ def _provenance(subject: str, base: Compensation, provenance: Provenance, fit: s
         provenance.digest,
         provenance.samples_digest,
         provenance.origin,
+        provenance.rig_digest,
         provenance.command,
         provenance.version,
         fit,
@@ -203,10 +219,18 @@ def _text(
     name: str,
     numbers: Numbers,
     sources: Mapping[str, Any],
+    provenance: Provenance,
     facts: Mapping[str, str],
 ) -> str:
     """The file as YAML."""
     described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
+    if is_of_one_rig(facts) and provenance.rig:
+        tolerances = load_compensation(_TOLERANCES_OF)
+        others = {key: source.model_dump() for key, source in tolerances.sources.items()}
+        rig = {"mark": "identified", "text": "The rig of the records, as built"}
+        described = {**others, **described, _RIG_SOURCE: rig}
+        assert tolerances.identified_for is not None
+        numbers["identified_for"] = _rig(provenance.rig, tolerances.identified_for.tolerances)
     used = set(_sources_of(numbers))
     document = {
         "schema": "uictest/compensation/1",
@@ -222,6 +246,28 @@ def _text(
     return heading + yaml.dump(
         document, Dumper=_Dumper, sort_keys=False, width=118, allow_unicode=True, default_flow_style=False
     )
+
+
+def is_of_one_rig(facts: Mapping[str, str]) -> bool:
+    """Return whether all numbers of a compensation with this provenance were identified on one known rig."""
+    digests = {facts.get(f"{subject} rig sha256", "") for subject in _SUBJECTS}
+    return len(digests) == 1 and "" not in digests
+
+
+def _rig(rig: Mapping[str, str], tolerances: RigTolerances) -> Numbers:
+    """Return the section that lists a rig; a value is found by the last two elements of its key."""
+    numbers: Numbers = {"caliper": {}, "wsp_valve": {}}
+    for key, text in rig.items():
+        section, name = key.split(".")[-2:]
+        if section == "tank":
+            numbers["tank_volume"] = (text, _RIG_SOURCE)
+        else:
+            numbers[section][name] = (text, _RIG_SOURCE)
+    return numbers | {
+        "tolerances": {
+            name: _pair(value) if isinstance(value, Quantity) else _pairs(value) for name, value in tolerances
+        }
+    }
 
 
 def _marked(numbers: Any) -> Any:

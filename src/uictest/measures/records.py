@@ -57,6 +57,9 @@ class StopMeasures(Record):
     energy_residual: float  # share of the initial kinetic energy
     air_residual: float  # share of the air taken from the reservoir
     air_energy_residual: float  # share of the enthalpy of that air
+    line_saturation: float  # time for which the brake line's pressure sensor is limited by its range, s
+    saturation_time: float  # first sample by which any sensor has been, s
+    compensation_misfit: float  # difference from the rig it was identified for, over the tolerance
     samples: float
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
@@ -87,6 +90,8 @@ class WheelsetMeasures(Record):
     venting: float  # 1 while the vent is commanded open
     maximum_clamping_force: float  # of one caliper, N
     air_vented: float  # kg
+    pressure_saturation: float  # time for which its pressure sensor is limited by its range, s
+    loadcell_saturation: float  # the same of the loadcells of its caliper, s
     maximum_disc_temperature: float  # of the friction surface, where modelled, K
     faulty: float  # 1 once one of its parts has had a fault
     release: float  # time without brake force that lasts at present, s

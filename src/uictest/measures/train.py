@@ -30,6 +30,9 @@ def begin_train(
     measures.energy_residual = NAN
     measures.air_residual = NAN
     measures.air_energy_residual = NAN
+    measures.line_saturation = 0.0
+    measures.saturation_time = NAN
+    measures.compensation_misfit = NAN
     measures.samples = 1.0
     measures.fault_time = NAN
     measures.reference_excess = NAN

@@ -23,6 +23,8 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.venting = 0.0
     measures.maximum_clamping_force = 0.0
     measures.air_vented = NAN
+    measures.pressure_saturation = 0.0
+    measures.loadcell_saturation = 0.0
     measures.maximum_disc_temperature = NAN
     measures.faulty = 0.0
     measures.release = 0.0

@@ -27,6 +27,7 @@ from .disc_temperature import (
 )
 from .flow import (
     REFERENCE_DENSITY as REFERENCE_DENSITY,
+    REFERENCE_TEMPERATURE as REFERENCE_TEMPERATURE,
     coldness as coldness,
     mass_flow as mass_flow,
     orifice_law as orifice_law,
@@ -70,7 +71,11 @@ from .rail_cleaning import (
 )
 from .reservoir import compressor_running as compressor_running, isothermal_pressure as isothermal_pressure
 from .resistance import gradient_force as gradient_force, running_resistance as running_resistance
-from .sensors import analogue_reading as analogue_reading, speed_reading as speed_reading
+from .sensors import (
+    analogue_reading as analogue_reading,
+    beyond_range as beyond_range,
+    speed_reading as speed_reading,
+)
 from .tank import air_changes as air_changes, enthalpy as enthalpy
 from .vehicle import (
     kinetic_energy as kinetic_energy,

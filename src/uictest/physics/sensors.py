@@ -30,6 +30,13 @@ def analogue_reading(
     return rounded_to_whole(limited * steps_per_unit) * resolution
 
 
+def beyond_range(
+    value: float, gain_error: float, offset: float, noise: float, measuring_range: float
+) -> float:
+    """1 where an analogue sensor would read more than its range and is limited to it, else 0."""
+    return select(fma(value, 1.0 + gain_error, offset + noise) > measuring_range, 1.0, 0.0)
+
+
 def rounded_to_whole(x: float) -> float:
     """Nearest whole number, ties to even, of a number below 2^51 in size."""
     return (x + _ROUNDING) - _ROUNDING

@@ -143,7 +143,10 @@ def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[st
 def _word(own: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
     """Return what the criteria of one requirement say; what is no test says nothing good or bad."""
     of_validity = {
-        verdict.status for verdict in verdicts if verdict.layer == "validity" and verdict not in own
+        verdict.status
+        for verdict in verdicts
+        if verdict not in own
+        and (verdict.layer == "validity" or (verdict.layer == "rig" and verdict.status == "fail"))
     }
     statuses = {verdict.status for verdict in own} - {"not_applicable"}
     if not statuses:

@@ -64,6 +64,20 @@ def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Ver
     return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.status))
 
 
+def without_rig_that_holds(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
+    """Return verdicts without the checks of the rig that hold: for people, one sentence says that they do."""
+    return [each for each in verdicts if each.layer != "rig" or each.status not in ("pass", "not_applicable")]
+
+
+def rig_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
+    """Return how many checks of the rig hold, of those that apply; empty where there are none."""
+    checks = [each for each in verdicts if each.layer == "rig" and each.status != "not_applicable"]
+    held = sum(each.status == "pass" for each in checks)
+    if not checks:
+        return ""
+    return f"checks of the rig: {'all' if held == len(checks) else f'{held} of {len(checks)}'} hold"
+
+
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
     value, margin = (quantity(size, verdict.unit) for size in (verdict.value, verdict.margin))
@@ -115,7 +129,7 @@ def outcome_sentence(outcome: str, expected: str, deciding: Sequence[str], *, un
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
     """Yield the verdict of each criterion, failing ones first, and how sensitive it is to definitions."""
-    for verdict in failing_first(result.criteria):
+    for verdict in failing_first(without_rig_that_holds(result.criteria)):
         yield verdict_sentence(verdict)
         for sensitivity in verdict.sensitivity:
             yield printable(f"{verdict.id}: {sensitivity}")
@@ -123,6 +137,8 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
             yield printable(f"{verdict.id} read as {sentence}")
             for sensitivity in reading.sensitivity:
                 yield printable(f"{verdict.id} read as {reading.id}: {sensitivity}")
+    if checks := rig_sentence(result.criteria):
+        yield checks
 
 
 def reading_sentences(verdict: evaluation.Verdict) -> list[str]:
@@ -163,8 +179,9 @@ def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
 
 def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     for verdict in result.criteria:
-        undecided = verdict.status == "inconclusive" and result.outcome == "inconclusive"
-        if verdict.status == "fail" or undecided or result.outcome == "skipped":
+        decides = verdict.status == "inconclusive" and result.outcome == "inconclusive"
+        decides = verdict.layer != "rig" and (decides or result.outcome == "skipped")
+        if verdict.status == "fail" or decides:
             yield verdict
 
 

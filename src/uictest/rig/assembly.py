@@ -51,7 +51,13 @@ class StopInputs(NamedTuple):
 
 
 def assemble(case: Case) -> StopInputs:
-    """Return what the rig is given for the stop of a case."""
+    """Return what the rig is given for the stop of a case.
+
+    Raises ValueError where its compensation is still to be identified, see `uictest.rig.bench.identified`.
+    """
+    rig = case.scenario.rig
+    if rig.compensation_model.to_identify and rig.topology == "one-caliper":
+        raise ValueError("rig.compensation_model is to be identified first: uictest.rig.bench.identified")
     record, wheelsets = np.zeros(1, PARAMETERS), np.zeros(4, WHEELSET_PARAMETERS)
     values = assigned(ASSIGNMENTS, case.scenario)
     values["noise_key"] = 0  # follows from the other values

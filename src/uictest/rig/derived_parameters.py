@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from uictest.ensemble import Ensemble
 from uictest.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.rig.cylinder_sampling import resampled_transfer_function
@@ -18,8 +20,10 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import MARGIN, POINTS
 from uictest.scenario import (
     COMPENSATION_SETTINGS,
+    FIT_KEYS,
     WHEELSET_NUMBERS,
     Scenario,
+    rig_differences,
     wheelset_value,
 )
 from uictest.units import STANDARD_GRAVITY
@@ -68,6 +72,14 @@ def _topology(p: Parameters, scenario: Scenario) -> None:
     p.uses_module_air = float(setting.pressure == "air")
     p.uses_hysteresis = float(setting.hysteresis)
     p.wsp_active = int(rig.wsp == "active")
+
+
+@_reads(*FIT_KEYS)
+def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
+    differences = rig_differences(scenario)
+    p.compensation_misfit = math.nan if differences is None else 0.0
+    for each in differences or ():
+        p.compensation_misfit = np.maximum(p.compensation_misfit, each.share)
 
 
 @_reads("brake.command", "brake.position", "brake.system.positions")

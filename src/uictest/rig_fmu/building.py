@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from uictest import evaluation, rig, scenario
+from uictest.rig import bench
 from uictest.rig_fmu.c_data import case_header
 from uictest.rig_fmu.documentation import documentation, provenance
 from uictest.rig_fmu.linking import library
@@ -39,6 +40,7 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
         ValueError: the seed of the case is too large for the version.
         RuntimeError: the compiler failed; the message is its own.
     """
+    case = bench.identified(case)
     inputs, identifier = rig.assemble(case), re.sub(r"\W", "_", f"rig_{case.scenario.name}")
     header, code = case_header(inputs), rig.stepping_code(_TARGET)
     model = Model(

@@ -1,4 +1,12 @@
 from .choice import chosen_case as chosen_case
+from .compensation_fit import (
+    FIT_KEYS as FIT_KEYS,
+    RigDifference as RigDifference,
+    listed_rig as listed_rig,
+    misfits as misfits,
+    rig_as_built as rig_as_built,
+    rig_differences as rig_differences,
+)
 from .controller_loading import load_controller as load_controller
 from .declared_parameters import with_parameters as with_parameters
 from .discovery import (
@@ -47,7 +55,12 @@ from .part_keys import (
 from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
 from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
-from .parts.compensation import COMPENSATION_SETTINGS as COMPENSATION_SETTINGS, Compensation as Compensation
+from .parts.compensation import (
+    COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
+    Compensation as Compensation,
+    ModuleAir as ModuleAir,
+    RigTolerances as RigTolerances,
+)
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.external_controller import ExternalController as ExternalController

@@ -28,6 +28,7 @@ from uictest.scenario.parts.repeats import OutcomeOfRepeats, Repeat, seeds_too_l
 from uictest.scenario.parts.requirements import RequirementId, RequirementIds, repeated_requirements
 from uictest.scenario.parts.vehicle import Vehicle
 from uictest.scenario.pole_wheels import impossible_pole_wheels
+from uictest.scenario.rig_checks import RIG_CHECKS, rig_checks
 from uictest.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_values, wheelset_value
@@ -145,6 +146,7 @@ class Scenario(Model):
             yield Inconsistency(
                 ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
             )
+        yield from self._calipers_that_are_not_there()
         yield from impossible_pole_wheels(self)
         yield from seeds_too_large(self.seed, self.repeat)
         yield from impossible_faults(self)
@@ -219,6 +221,8 @@ class Scenario(Model):
     def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
         """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""
         profile_of: dict[str, str] = {}
+        if all(profile.name != RIG_CHECKS for profile in self.criteria):
+            profile_of |= {criterion.id: RIG_CHECKS for criterion in rig_checks().criteria}
         for number, profile in enumerate(self.criteria):
             for index, criterion in enumerate(profile.criteria):
                 if criterion.id in profile_of:
@@ -229,6 +233,19 @@ class Scenario(Model):
                         "leave one profile out, or give the criterion another id",
                     )
             profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
+
+    def _calipers_that_are_not_there(self) -> Iterator[Inconsistency]:
+        """Yield values of a wheelset's own caliper where its module is a tank: nothing would read them."""
+        if self.rig.topology != "one-caliper":
+            return
+        for number in WHEELSET_NUMBERS[1:]:
+            own = self.vehicle.wheelsets[str(number)].caliper
+            for name in sorted(own.model_fields_set):
+                yield Inconsistency(
+                    ("vehicle", "wheelsets", str(number), "caliper", name),
+                    f"wheelset {number} has no caliper in the rig with one caliper: its module is a tank",
+                    "write `rig.topology: four-caliper`, or leave it out",
+                )
 
     def _stop_without_end(self, shortest: float) -> Inconsistency:
         limit = self.simulation.maximum_duration
@@ -242,6 +259,13 @@ class Scenario(Model):
             f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
             f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
         )
+
+    @property
+    def judged_by(self) -> tuple[Criteria, ...]:
+        """The profiles that judge a simulated stop: those that are named, and the checks of the rig."""
+        if any(profile.name == RIG_CHECKS for profile in self.criteria):
+            return self.criteria
+        return (*self.criteria, rig_checks())
 
     @property
     def tank_volume_with_caliper(self) -> float:

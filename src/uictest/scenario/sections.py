@@ -141,9 +141,9 @@ class Rig(Model):
         default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
     )
     compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = Field(
-        default="full",
-        description="What the modules without a caliper compute: hysteresis, cylinder dynamics, both (full),"
-        " or hysteresis with the air of the caliper's module (thermal).",
+        default="thermal",
+        description="What the modules without a caliper compute: hysteresis with the air of the caliper's"
+        " module (thermal); or, as in the paper, hysteresis, cylinder dynamics, both (full) or none.",
     )
     wsp: Literal["active", "bypassed"] = Field(
         default="active", description="Whether the WSP valves obey the controller or always fill."

@@ -11,7 +11,7 @@ from typing import Final
 from uictest import evaluation, scenario
 from uictest.controllers import ControllerError, Inputs, Outputs, read_inputs, write_outputs
 from uictest.recording import Recording
-from uictest.rig import SteppedStop, assemble, noise_key_text, recording_of_stop
+from uictest.rig import SteppedStop, assemble, bench, noise_key_text, recording_of_stop
 from uictest.stepping.state import RigState, state_of
 
 Magnets = Sequence[bool | int]
@@ -40,7 +40,7 @@ class Rig:
         trust: Iterable[str | Path] = (),
         record: float | None = None,
     ) -> None:
-        """Read a scenario; nothing is simulated yet.
+        """Read a scenario; no stop is simulated yet.
 
         Args:
             path: scenario file.
@@ -55,7 +55,7 @@ class Rig:
         if record is not None and not 0.0 < record < math.inf:
             raise ValueError(f"record is {record!r}, expected samples per second or None")
         cases = scenario.load([Path(path)], trusted=[Path(folder) for folder in trust])
-        self.case = scenario.chosen_case(cases, case)
+        self.case = bench.identified(scenario.chosen_case(cases, case))
         self._record = record
         self._stop: SteppedStop | None = None
         self._noise_key = ""

@@ -28,9 +28,12 @@ FADING = f"rail.friction_over_time={{points: [{TIMES}]}}"
 UNALIKE = (
     "{1: {wheel_radius: 0.42 m, wsp_valve: {switching_delay: 31 ms, vent_conductance: 2e-8 m3/(s Pa)}},"
     " 2: {configured_radius: 0.44 m, brake_force: 80 %, sensors: {speed: {teeth: 60}}},"
-    " 3: {pad_friction: 0.3, caliper: {load_friction: 9 %}, sensors: {pressure: {offset: 0.1 bar}}},"
-    " 4: {caliper: {coulomb_friction: 200 N}, sensors: {loadcell: {gain_error: -3 %}}}}"
+    " 3: {pad_friction: 0.3, %s sensors: {pressure: {offset: 0.1 bar}}},"
+    " 4: {%s sensors: {loadcell: {gain_error: -3 %%}}}}"
 )
+WITH_TANKS = UNALIKE % ("", "")
+WITH_CALIPERS = UNALIKE % ("caliper: {load_friction: 9 %},", "caliper: {coulomb_friction: 200 N},")
+LIMITED = "rig.sensors={extends: standard, pressure: {range: 2 bar}, loadcell: {range: 6 kN}}"
 FAULTS = (
     "faults=[{at: 0.4 s, wheelset: 2, part: speed-sensor, kind: stuck},"
     " {at: 8 km/h, until: 6 km/h, wheelset: 1, part: speed-sensor, kind: drop-out, value: 30 %},"
@@ -59,9 +62,11 @@ VARIANTS: tuple[tuple[str, ...], ...] = (
     ("simulation.time_step=0.25 ms", *WET),
     ("vehicle=crh380a", "rail.gradient=10 permille"),
     ("brake.position=G", "brake.command=70 %"),
-    (f"vehicle.wheelsets={UNALIKE}", *WET),
-    ("rig.sensors=pole-wheel", f"vehicle.wheelsets={UNALIKE}", *WET),
-    ("rig.topology=four-caliper", f"vehicle.wheelsets={UNALIKE}", *WET),
+    (f"vehicle.wheelsets={WITH_TANKS}", *WET),
+    ("rig.sensors=pole-wheel", f"vehicle.wheelsets={WITH_TANKS}", *WET),
+    ("rig.topology=four-caliper", f"vehicle.wheelsets={WITH_CALIPERS}", *WET),
+    (LIMITED, *WET),
+    (LIMITED, "rig.topology=four-caliper", *WET),
     (CLEANED, "rail.friction=0.05"),
     (CLEANED, "rail.friction=0.05", "vehicle=crh380a", "rail.condition.cleaning.carry_over=1"),
     (CLEANED, STEPPED, "rig.wsp=bypassed"),

@@ -9,6 +9,7 @@ import pytest
 from uictest.identification import UnsuitableRecordError
 from uictest.recording import Recording
 from uictest.rig.bench import BenchTest, identify_air, load_bench, run_test
+from uictest.scenario.yaml import parse_quantity
 
 RECIPE = """schema: uictest/bench/1
 name: cycling
@@ -63,6 +64,19 @@ def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, record: Reco
     assert result.opening_pressure == pytest.approx(opening, rel=0.1)
     assert result.largest_before > 0.03
     assert result.largest_after < 0.02
+
+
+@pytest.mark.parametrize("volume", ["1 L", "4 L"])
+def test_a_record_of_a_tank_of_another_volume_contradicts_the_rig(
+    test: BenchTest, record: Recording, volume: str
+) -> None:
+    """Heat conductances fitted to it would be wrong by a factor, with small errors."""
+    system = test.case.scenario.brake.system
+    tank = system.tank.model_copy(update={"volume": parse_quantity(volume, "volume")})
+    brake = test.case.scenario.brake.model_copy(update={"system": system.model_copy(update={"tank": tank})})
+    other = replace(test.case, scenario=test.case.scenario.model_copy(update={"brake": brake}))
+    with pytest.raises(UnsuitableRecordError, match=rf"as one of .* L would, .* has {volume}"):
+        identify_air(channels(record), other)
 
 
 def test_the_numbers_do_not_depend_on_those_of_the_compensation(test: BenchTest, record: Recording) -> None:

@@ -85,6 +85,7 @@ sample:
     brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
 """,
     "wheelsets": """
+grid: {rig.topology: [four-caliper]}
 sample:
   method: sobol
   size: 16

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -55,7 +55,21 @@ def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yam
     except yaml.ScenarioErrors as errors:
         return list(errors.diagnostics), ""
     files = {case.path for case in cases}
+    if unfit := list(dict.fromkeys(each for case in cases for each in _misfits(case))):
+        return unfit, ""
     return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
+
+
+def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
+    """Yield why the stop of a case is invalid before it is run: its compensation is for another rig."""
+    if case.scenario.expect == "invalid":
+        return
+    for each in scenario.misfits(case.scenario):
+        key = tuple(each.key.split("."))
+        entry, depth = yaml.entry_at(yaml.read_file(case.path), key)
+        place = entry.node.place if depth == len(key) else yaml.whole_file(case.path)
+        hint = "write `rig.topology: four-caliper` or `rig.compensation_model: identify`"
+        yield yaml.diagnose(place, str(each).removeprefix(f"{each.key} "), each.key, hint)
 
 
 def _is_of_other_kind(path: Path) -> bool:
@@ -68,10 +82,10 @@ def _errors_of_series(
     if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
         return (scenario.link_outside(path),)
     try:
-        series.load_series(path, trusted=trusted)
+        loaded = series.load_series(path, trusted=trusted)
     except yaml.ScenarioErrors as errors:
         return errors.diagnostics
-    return ()
+    return tuple(dict.fromkeys(each for one in loaded for case in one.cases for each in _misfits(case)))
 
 
 def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path]) -> Sequence[yaml.Diagnostic]:
@@ -81,6 +95,8 @@ def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path])
         plan = sweeps.load_sweep(path, trusted=trusted)
     except yaml.ScenarioErrors as errors:
         return errors.diagnostics
+    if unfit := tuple(_misfits(plan.base)):
+        return unfit
     for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
             message(f"{plan.file}: warning: {each}; {_consequence(plan)}")

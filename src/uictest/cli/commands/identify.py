@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -142,7 +142,9 @@ def air(
     part_name = "" if output is None else _name(name, record)
     roles = {"input": tank, "output": cylinder, "line": line, "command": command}
     recorded = _record(record, roles)
-    result = _air(record, recorded, _rig_of(record, overrides or (), trusted or ()), held_out)
+    case = _rig_of(record, overrides or (), trusted or ())
+    _require_same_rig(record, recorded.rig, case)
+    result = _air(record, recorded, case, held_out)
     data(identification.air_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
@@ -153,6 +155,21 @@ def air(
 def _rig_of(record: Path, overrides: Sequence[str], trusted: Sequence[Path]) -> scenario.Case:
     """Return the rig of a record: that of the library with overrides."""
     return bench.trace_recipe(record, "", None, overrides, None, trusted).case
+
+
+def _require_same_rig(record: Path, recorded: Mapping[str, str], case: scenario.Case) -> None:
+    """Raise InvalidInputError where a record states another tank or valve than the rig that is assumed."""
+    assumed = scenario.rig_as_built(case.scenario)
+    of_air = [key for key in recorded if key in assumed and key.startswith("brake.system.")]
+    stated = _rig_of(record, [f"{key}={recorded[key]}" for key in of_air], ())
+    values = scenario.rig_as_built(stated.scenario)
+    other = [key for key in of_air if values[key] != assumed[key]]
+    if other:
+        listed = "; ".join(f"{key} {values[key].text}, not {assumed[key].text}" for key in other)
+        options = " ".join(f"--set {shlex.quote(f'{key}={values[key].text}')}" for key in other)
+        raise runs.InvalidInputError(
+            f"{record}: recorded on another rig than assumed: {listed}; write {options}"
+        )
 
 
 def _air(
@@ -265,6 +282,7 @@ def _provenance(
         command=shlex.join(["uictest", *context.obj.arguments]),
         version=__version__,
         date=date,
+        rig=recorded.rig,
     )
 
 
@@ -282,3 +300,8 @@ def _write(output: Path, record: Path, text: str) -> None:
         ) from errors
     files.write_to(output, text)
     message(f"uictest: wrote {output}")
+    if not identification.is_of_one_rig(identification.load_compensation(str(output)).provenance):
+        message(
+            "uictest: it lists no rig that it was identified for, since hysteresis, cylinder dynamics and air"
+            " are not all known to be of one"
+        )

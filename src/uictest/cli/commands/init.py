@@ -32,7 +32,7 @@ rail:
   condition: dry
 rig:
   topology: one-caliper       # one real caliper, three tanks with computed force
-  compensation: full
+  compensation: thermal
   wsp: active
 criteria: uictest-stop
 expect: pass

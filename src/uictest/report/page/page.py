@@ -30,6 +30,7 @@ from uictest.report.wording import (
     reading_sentences,
     reading_sources,
     tone,
+    without_rig_that_holds,
 )
 
 
@@ -70,6 +71,7 @@ def page_html(content: RunContent) -> str:
         failing_first=failing_first,
         reading_sentences=reading_sentences,
         reading_sources=reading_sources,
+        without_rig_that_holds=without_rig_that_holds,
         gauge_of=gauge_of,
         number=number,
         tone=tone,

@@ -10,7 +10,7 @@ from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.wording import failing_first
+from uictest.report.wording import failing_first, without_rig_that_holds
 
 MOST_STOPS = 100
 """Stops that are listed and drawn one by one; the numbers and the counts are those of all."""
@@ -84,7 +84,7 @@ def repeats_view(result: evaluation.CaseResult) -> RepeatsView | None:
 
 
 def _criteria(result: evaluation.CaseResult, repeats: evaluation.Repeats) -> Iterator[CriterionDots]:
-    for verdict in failing_first(result.criteria):
+    for verdict in failing_first(without_rig_that_holds(result.criteria)):
         counts = verdict.over_stops
         if counts is not None and counts.lowest is not None and counts.highest is not None:
             yield _dots(verdict, counts, repeats.stops[:MOST_STOPS])

@@ -19,6 +19,7 @@ from uictest.report.wording import (
     listed,
     number,
     reading_sources,
+    without_rig_that_holds,
 )
 
 SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
@@ -54,7 +55,7 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the definitions of each criterion, once for all cases in which they are the same."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
-        for verdict in result.criteria:
+        for verdict in without_rig_that_holds(result.criteria):
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
             for reading, sentence in reading_sources(verdict).items():
                 cases.setdefault((f"{verdict.id} read as {reading}", sentence), []).append(result.id)

@@ -1,14 +1,15 @@
 """The air of the caliper's module identified from a record, by the code that follows it in the rig."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import identification
+from uictest.physics import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, VENT
 from uictest.rig.bench.modelled_pressure import ModelledPressure
-from uictest.scenario import Case
-from uictest.units import BAR
+from uictest.scenario import Case, ModuleAir
+from uictest.units import BAR, in_unit
 
 Samples = NDArray[np.float64]
 _SPACING = 0.01
@@ -23,6 +24,12 @@ _AT_REST = 0.02
 """Share of its largest value that a pressure may have where the record begins; chosen."""
 _LEAST_PRESSURE = -0.5 * BAR
 """Gauge pressure in Pa below which no valve leads; chosen."""
+_VENT_WINDOW = 0.05
+"""s: over which the rate of an emptying tank is taken; chosen."""
+_LEAST_VENTED = 0.2
+"""s: of choked venting that a record must have to tell the tank's volume; chosen."""
+_VOLUME_MARGIN = 1.2
+"""Factor by which volume or conductance may be off: heat conductances hardly depend on so much; chosen."""
 _NAMES = (
     "tank_heat_conductance",
     "caliper_heat_conductance",
@@ -46,7 +53,10 @@ _CONVERGED = 1e-10
 
 
 def identify_air(
-    channels: Mapping[str, Samples], case: Case, held_out_share: float = 0.25
+    channels: Mapping[str, Samples],
+    case: Case,
+    held_out_share: float = 0.25,
+    starts_near: ModuleAir | None = None,
 ) -> identification.AirResult:
     """Find heat conductances, swept volume and the pressures at which the piston moves.
 
@@ -59,6 +69,7 @@ def identify_air(
             of the valves of both modules. The record begins with released brakes.
         case: the rig of the record.
         held_out_share: share of the record that is excluded from the fit and gives the errors.
+        starts_near: where the one search starts [default: three searches from far apart].
 
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
@@ -66,11 +77,13 @@ def identify_air(
     pressures = {name: channels[name] for name in ("tank", "cylinder", "line")}
     step = identification.required_sampling_time(channels["time"], pressures, _SHORTEST, _LONGEST_STEP)
     _require_rest(pressures)
+    _require_volume(channels, case, step)
     model = ModelledPressure(channels, case, step)
     held_out = identification.held_out(len(channels["time"]), held_out_share)
     fitted = np.flatnonzero(~held_out)[:: max(round(_SPACING / step), 1)]
     cylinder, scale = channels["cylinder"], float(channels["cylinder"].max())
-    unknowns = _least_squares(lambda x: (model(x) - cylinder)[fitted] / scale)
+    starts = _STARTS if starts_near is None else (_start_near(starts_near, case),)
+    unknowns = _least_squares(lambda x: (model(x) - cylinder)[fitted] / scale, starts)
     after = (model(unknowns) - cylinder)[held_out] / scale
     before = (channels["tank"] - cylinder)[held_out] / scale
     _require_gain(before, after)
@@ -102,6 +115,36 @@ def _require_rest(pressures: Mapping[str, Samples]) -> None:
             )
 
 
+def _require_volume(channels: Mapping[str, Samples], case: Case, step: float) -> None:
+    """Raise UnsuitableRecordError for a tank that empties as one of quite another volume would.
+
+    Through an open vent that is choked, d ln p / dt = -n C rho0 R sqrt(T0 T) / V (ISO 6358, ideal gas), n
+    from 1 (isothermal) to the ratio of heat capacities (adiabatic). A record without such vents says nothing.
+    """
+    system = case.scenario.brake.system
+    air, valve, window = system.air, system.wsp_valve, max(round(_VENT_WINDOW / step), 1)
+    absolute = channels["tank"] + air.atmospheric_pressure
+    settling = round((valve.switching_delay + valve.travel_time) / step) + window
+    flows = (channels["command"] == VENT) & (
+        absolute > air.atmospheric_pressure / system.critical_pressure_ratio
+    )
+    since_shut = np.arange(flows.size) - np.maximum.accumulate(np.where(flows, -1, np.arange(flows.size)))
+    ends = np.flatnonzero(since_shut > settling)
+    if ends.size * step < _LEAST_VENTED:
+        return
+    rates = np.log(absolute[ends - window] / absolute[ends]) / (window * step)
+    temperature = float(np.sqrt(REFERENCE_TEMPERATURE * air.temperature))
+    flow = valve.vent_conductance * REFERENCE_DENSITY * air.gas_constant * temperature
+    lowest = flow / max(float(np.median(rates)), 1e-9)
+    highest = lowest * air.heat_capacity_ratio
+    if not lowest / _VOLUME_MARGIN <= system.tank.volume <= highest * _VOLUME_MARGIN:
+        raise identification.UnsuitableRecordError(
+            f"the tank empties through its vent as one of {in_unit(lowest, 'L'):.3g} to"
+            f" {in_unit(highest, 'L'):.3g} L would, the assumed rig has {system.tank.volume.text}:"
+            " set brake.system.tank.volume, or brake.system.wsp_valve.vent_conductance, of the record's rig"
+        )
+
+
 def _require_gain(before: Samples, after: Samples) -> None:
     if not np.mean(after**2) < np.mean(before**2):
         raise identification.UnsuitableRecordError(
@@ -109,7 +152,15 @@ def _require_gain(before: Samples, after: Samples) -> None:
         )
 
 
-def _least_squares(error: Callable[[Samples], Samples]) -> Samples:
+def _start_near(air: ModuleAir, case: Case) -> Samples:
+    swept = float(air.swept_volume) / float(case.scenario.brake.system.tank.volume)
+    gap = float(air.closing_pressure) - float(air.opening_pressure)
+    pressures = float(air.opening_pressure), gap
+    start = np.array([air.tank_heat_conductance, air.caliper_heat_conductance, swept, *pressures])
+    return np.asarray(np.clip(start, 1.01 * _LOWEST, 0.99 * _HIGHEST))
+
+
+def _least_squares(error: Callable[[Samples], Samples], starts: Sequence[Samples]) -> Samples:
     """Return the best unknowns of all starts. Raises UnsuitableRecordError where one is not determined."""
     from scipy.optimize import least_squares
 
@@ -123,7 +174,7 @@ def _least_squares(error: Callable[[Samples], Samples]) -> Samples:
             ftol=_CONVERGED,
             xtol=_CONVERGED,
         )
-        for start in _STARTS
+        for start in starts
     ]
     best = np.exp(min(ends, key=lambda end: end.cost).x)
     for name, value, low, high in zip(_NAMES, best, _LOWEST, _HIGHEST, strict=True):

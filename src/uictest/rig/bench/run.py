@@ -13,7 +13,7 @@ from uictest.rig.bench.loading import BenchTest
 from uictest.rig.bench.native import run_compiled
 from uictest.rig.bench.rig import bench_rig
 from uictest.rig.bench.trace import BENCH_CHANNELS, BENCH_SAMPLE
-from uictest.scenario import Case
+from uictest.scenario import Case, rig_as_built
 
 
 def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_compiled) -> Recording:
@@ -40,6 +40,7 @@ def run_test(test: BenchTest) -> Recording:
     facts = {
         **recording.metadata,
         "version": uictest.__version__,
+        **{f"as built: {key}": value.text for key, value in rig_as_built(test.case.scenario).items()},
         **{f"sha256 of {name}": value for name, value in test.case.inputs.items()},
     }
     return Recording(recording.channels, recording.units, facts)

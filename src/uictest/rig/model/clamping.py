@@ -2,6 +2,7 @@
 
 from uictest.physics import (
     analogue_reading,
+    beyond_range,
     clamping_force,
     fma,
     force_after,
@@ -34,6 +35,13 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         p.pressure_resolution,
         p.pressure_steps,
     )
+    wheelset.pressure_saturated_steps += beyond_range(
+        gauge,
+        wheelset.pressure_gain_error,
+        wheelset.pressure_offset,
+        wheelset.pressure_error,
+        p.pressure_range,
+    )
     wheelset.pressure_reading = reading
     _step_cylinder_pressure(wheelset, reading, p)
     _step_hysteresis(wheelset, p)
@@ -45,6 +53,13 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         p.loadcell_range,
         p.loadcell_resolution,
         p.loadcell_steps,
+    )
+    wheelset.loadcell_saturated_steps += wheelset.has_caliper * beyond_range(
+        wheelset.caliper_force,
+        wheelset.loadcell_gain_error,
+        wheelset.loadcell_offset,
+        wheelset.loadcell_error,
+        p.loadcell_range,
     )
     wheelset.clamping_force = select(wheelset.has_caliper > 0.0, loadcells, wheelset.computed_force)
 

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from uictest.physics import (
     amount_gained,
     analogue_reading,
+    beyond_range,
     fma,
     pressure_volume_after,
     reduced_flow,
@@ -30,8 +31,12 @@ def follow_module_air(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) ->
 
 def read_line_pressure(car: Car, p: Parameters) -> float:
     """Return the absolute pressure of the brake line in Pa, as its sensor reads it."""
+    actual = car.line_pressure - p.atmospheric_pressure
+    car.line_saturated_steps += beyond_range(
+        actual, p.line_sensor_gain_error, p.line_sensor_offset, car.line_pressure_error, p.pressure_range
+    )
     gauge = analogue_reading(
-        car.line_pressure - p.atmospheric_pressure,
+        actual,
         p.line_sensor_gain_error,
         p.line_sensor_offset,
         car.line_pressure_error,

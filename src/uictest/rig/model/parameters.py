@@ -124,6 +124,8 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     )
     phase_change_per_step: float = derived()  # share of the way between the two pairs of lines
     wsp_acting_cycles: int = derived()  # cycles of filling after which the WSP no longer counts as acting
+    # compensation: how far the rig is from the one it was identified for, over the tolerance; NaN: not known
+    compensation_misfit: float = derived()
     # disc brake
     calipers_per_wheelset: float = from_scenario("brake.system.disc.calipers_per_wheelset")
     pads_per_caliper: float = from_scenario("brake.system.disc.pads_per_caliper")

@@ -42,6 +42,7 @@ class Car(Frame, TrainMemory):
     line_coldness: float  # physics.flow.coldness of its air
     line_pressure_error: float  # momentary noise of its sensor, Pa
     demanded_pressure: float  # at present, gauge, Pa
+    line_saturated_steps: float  # in which its sensor was read and limited by its range
     # ledgers
     compressor_air: float  # delivered, kg
     consumed_air: float  # taken from the reservoir, kg
@@ -141,6 +142,8 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     # sensors, held for a controller cycle
     pressure_error: float  # momentary noise, Pa
     loadcell_error: float  # N
+    pressure_saturated_steps: float  # in which its pressure sensor was limited by its range
+    loadcell_saturated_steps: float  # in which the loadcells of its caliper were
     # brake and rail
     clamping_force: float  # as the vehicle simulation receives it
     torque: float

@@ -41,6 +41,7 @@ def begin_stop_measures(
     begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
     begin_build_up(measures, p.commanded_pressure, car.line_pressure - p.atmospheric_pressure)
     begin_utilisation(measures)
+    measures.compensation_misfit = p.compensation_misfit
     for i in range(4):
         begin_wheelset(wheelset_measures[i])
         begin_contact(wheelset_measures[i])
@@ -95,10 +96,33 @@ def observe_cycle(
             wheelset.contact_loss,
             _highest_force(wheelset, speed, p),
         )
+    _observe_saturation(car, wheelsets, measures, wheelset_measures, p, time)
     observe_reservoir_margin(measures, reservoir_pressure, _highest_cylinder_pressure(wheelsets))
     observe_build_up(measures, p, time, position, speed, line_pressure)
     observe_train(measures, p, time, position, speed, reservoir_pressure)
     note_standstill(measures, stands, time, position)
+
+
+def _observe_saturation(
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
+    time: float,
+) -> None:
+    """Keep how long sensors have been limited by their range, and by when the first was."""
+    steps = car.line_saturated_steps
+    measures.line_saturation = steps * p.step
+    for i in range(4):
+        wheelset = wheelsets[i]
+        observed = wheelset_measures[i]
+        observed.pressure_saturation = wheelset.pressure_saturated_steps * p.step
+        observed.loadcell_saturation = wheelset.loadcell_saturated_steps * p.step
+        steps += wheelset.pressure_saturated_steps + wheelset.loadcell_saturated_steps
+    known = measures.saturation_time >= 0.0  # false for the NaN before the first
+    first = select(steps > 0.0, time, NAN)
+    measures.saturation_time = select(known, measures.saturation_time, first)
 
 
 def observe_faults(

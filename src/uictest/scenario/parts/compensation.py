@@ -3,12 +3,14 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Annotated, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Field, create_model
 
+from uictest.scenario.parts.brake import Volume, WspValve
+from uictest.scenario.parts.caliper import Caliper
 from uictest.scenario.total import total
-from uictest.scenario.yaml import Inconsistency, Part, Quantity, Section, of_kind
+from uictest.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
 from uictest.units import BAR
 
 Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
@@ -158,6 +160,48 @@ class ModuleAir(Section):
             )
 
 
+Tolerance = Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")]
+
+
+def _numbers_of(name: str, model: type[Model], kind: Any = None) -> Any:
+    """Return a section with the quantities of a model, or with one of `kind` for each of them."""
+    fields: dict[str, Any] = {}
+    for key, declared in model.model_fields.items():
+        if declared.annotation is Quantity:
+            own = kind or Annotated[(Quantity, *declared.metadata)]
+            fields[key] = (own, Field(description=declared.description))
+    return create_model(name, __base__=Section, __doc__=model.__doc__, __module__=__name__, **fields)
+
+
+if TYPE_CHECKING:
+    CaliperAsBuilt: TypeAlias = Section
+    ValveAsBuilt: TypeAlias = Section
+    CaliperTolerances: TypeAlias = Section
+    ValveTolerances: TypeAlias = Section
+else:
+    CaliperAsBuilt = _numbers_of("CaliperAsBuilt", Caliper)
+    ValveAsBuilt = _numbers_of("ValveAsBuilt", WspValve)
+    CaliperTolerances = _numbers_of("CaliperTolerances", Caliper, Tolerance)
+    ValveTolerances = _numbers_of("ValveTolerances", WspValve, Tolerance)
+
+
+class RigTolerances(Section):
+    """How far a rig may differ from the one that a compensation was identified for, as shares."""
+
+    caliper: CaliperTolerances = Field(description="Of the caliper.")
+    wsp_valve: ValveTolerances = Field(description="Of the WSP valve.")
+    tank_volume: Tolerance = Field(description="Of the volume of an empty tank.")
+
+
+class RigAsBuilt(Section):
+    """The rig that a compensation was identified for, as built: without faults."""
+
+    caliper: CaliperAsBuilt = Field(description="Its caliper.")
+    wsp_valve: ValveAsBuilt = Field(description="Its WSP valves.")
+    tank_volume: Volume = Field(description="Volume of an empty tank.")
+    tolerances: RigTolerances = Field(description="How far another rig may differ from it.")
+
+
 class Compensation(Part):
     """The model that computes clamping force from the tank pressure of a module without caliper."""
 
@@ -177,6 +221,15 @@ class Compensation(Part):
     hysteresis: FourPhaseHysteresis = Field(description="Four-phase hysteresis.")
     cylinder: CylinderDynamics = Field(description="Tank pressure to cylinder pressure.")
     air: ModuleAir = Field(description="Air of the caliper's module, used by the setting 'thermal'.")
+    identified_for: RigAsBuilt | None = Field(
+        default=None,
+        description="The rig that it was identified for; none: not known, so that no stop is checked for it.",
+    )
+    to_identify: bool = Field(
+        default=False,
+        strict=True,
+        description="Whether the numbers only stand in: others are identified from the bench for the rig.",
+    )
     provenance: dict[str, str] = Field(
         default_factory=dict, description="How the numbers were identified, as text by topic."
     )

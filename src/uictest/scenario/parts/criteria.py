@@ -44,8 +44,9 @@ class Criterion(Model):
     requirements: RequirementIds = Field(
         default=(), description="Ids of the requirements that the criterion verifies."
     )
-    layer: Literal["validity", "requirement"] = Field(
-        description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails."
+    layer: Literal["rig", "validity", "requirement"] = Field(
+        description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails;"
+        " rig: a check of the rig, which makes the stop invalid and judges nothing else."
     )
     applies: Applicability = Field(
         default=Applicability(),
@@ -193,10 +194,8 @@ class Criterion(Model):
         if other := [name for name, bound in bounds.items() if bound is not None and name not in shares]:
             message = f"{quoted(other[0])} is no share of the dry stop, {quoted(shares[0])} is one"
             yield Inconsistency((other[0],), message, "write two criteria, or both bounds in the same way")
-        if self.scope == "stop" and self.layer == "validity":
-            message = (
-                "a criterion of validity cannot refer to the dry stop: which stops count decides that one"
-            )
+        if self.scope == "stop" and self.layer != "requirement":
+            message = "only a requirement can refer to the dry stop: which stops count decides that one"
             yield Inconsistency(("layer",), message, "write `layer: requirement`")
         if not self._of_single_stops():
             yield Inconsistency(

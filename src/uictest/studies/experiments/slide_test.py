@@ -69,7 +69,7 @@ QUANTITIES = (
 
 
 def run(stop_runner: StopRunner) -> StudyFindings:
-    """Simulate the stop from 80 km/h on the rig with one caliper and full compensation."""
+    """Simulate the stop from 80 km/h on the rig with one caliper and the paper's full compensation."""
     case = stop_runner.cases("slide-80")[0]
     stops = stop_runner.repeated([case], SEEDS)[0].stops
     recording = stop_runner.recordings([case], CYCLE)[0]

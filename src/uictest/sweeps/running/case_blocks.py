@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from uictest.controllers import Config, Controller, ControllerProgram
 from uictest.ensemble import Places
 from uictest.evaluation import JUDGED_KEYS
+from uictest.identification import UnsuitableRecordError
 from uictest.rig import (
     ASSIGNMENTS,
     FRICTION_KEYS,
@@ -20,6 +21,7 @@ from uictest.rig import (
     Assignment,
     assemble,
     assigned,
+    bench,
     controller_config,
     controller_of,
     friction_laws,
@@ -86,7 +88,12 @@ class BlockAssembler:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        inputs = assemble(plan.base)
+        base = bench.identified(plan.base)
+        self._identifies = bool(related_keys(plan.keys, bench.IDENTIFIED_KEYS)) and (
+            base is not plan.base or "rig.compensation_model" in plan.keys
+        )
+        self._base = plan.base if self._identifies else base
+        inputs = assemble(base)
         self._record, self._wheelset_records = inputs.parameters, inputs.wheelset_parameters
         self._parameters = _setters(plan.keys, ASSIGNMENTS)
         self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
@@ -105,7 +112,7 @@ class BlockAssembler:
 
     def of_settings(self, indices: NDArray[np.int64], ids: list[str], settings: Settings) -> CaseBlock:
         """Return the records of cases that are given by their ids and values."""
-        variants = ScenarioVariants(self._plan.base.scenario, settings, indices.size)
+        variants = ScenarioVariants(self._base.scenario, settings, indices.size)
         rejections = self._rejections(variants)
         parameters = np.repeat(self._record[None], indices.size)
         for setter in self._parameters:
@@ -114,6 +121,8 @@ class BlockAssembler:
         for place, setters in enumerate(self._wheelset_parameters):
             for setter in setters:
                 _fill(wheelsets[:, place], setter.results(variants), rejections)
+        if self._identifies:
+            self._identify(variants, parameters, rejections)
         rail = _stacked(list(self._rail.results(variants)), indices.size, rejections)
         parameters["noise_key"] = noise_keys(parameters, wheelsets, rail)
         programs = self._programs.per_case(variants)
@@ -122,6 +131,19 @@ class BlockAssembler:
             *(self._controllers.per_case(variants), programs, _configs(programs, parameters, wheelsets)),
             *(self._judged_as(variants), rejections),
         )
+
+    def _identify(self, variants: ScenarioVariants, parameters: NDArray[Any], rejections: list[str]) -> None:
+        """Assemble the cases whose compensation is to be identified for a rig that varies, one by one."""
+        for place in range(variants.count):
+            scenario = variants.at(place)
+            if rejections[place] or not scenario.rig.compensation_model.to_identify:
+                continue
+            try:
+                case = bench.identified(replace(self._base, scenario=scenario))
+            except UnsuitableRecordError as error:
+                rejections[place] = f"rig.compensation_model: {error}"
+            else:
+                parameters[place] = assemble(case).parameters
 
     def _rejections(self, variants: ScenarioVariants) -> list[str]:
         rejections = [""] * variants.count

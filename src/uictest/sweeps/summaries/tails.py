@@ -27,7 +27,7 @@ _STANDSTILL = "braking_distance_m"
 
 _SLIDING = "sliding_time_s"
 _MOST_SLIDING = 1.0
-"""s: a wheelset that slides for longer slides, as `dry-stop-is-dry` of uictest-wsp has it; chosen."""
+"""s: a wheelset that slides for longer slides, as `dry-stop-rolls` of uictest-wsp has it; chosen."""
 
 
 class TailDraws:

@@ -9,7 +9,7 @@ from uictest import evaluation
 from uictest.report.page.stop.taken import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.wording import limits, quantity
+from uictest.report.wording import limits, quantity, rig_sentence, without_rig_that_holds
 from uictest.units import in_unit
 
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
@@ -82,11 +82,12 @@ class Margin:
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """The criteria that were judged, the narrowest margin first, and those that were not."""
+    """Criteria that were judged, the narrowest margin first, those that were not, and the rig's checks."""
 
     judged: Sequence[Margin]
     inconclusive: Sequence[evaluation.Verdict]
     not_applicable: Sequence[evaluation.Verdict]
+    rig: str
 
 
 def margins_of(
@@ -100,7 +101,8 @@ def margins_of(
         trace: of the stop that is drawn.
 
     """
-    verdicts, of_stop = list(verdicts), {verdict.id: verdict for verdict in drawn}
+    rig = rig_sentence(verdicts := list(verdicts))
+    verdicts, of_stop = without_rig_that_holds(verdicts), {verdict.id: verdict for verdict in drawn}
     judged = [
         Margin(verdict, margin_share(verdict), taken_at(of_stop.get(verdict.id, verdict), trace))
         for verdict in verdicts
@@ -110,6 +112,7 @@ def margins_of(
         sorted(judged, key=_urgency),
         [verdict for verdict in verdicts if verdict.status == "inconclusive"],
         [verdict for verdict in verdicts if verdict.status == "not_applicable"],
+        rig,
     )
 
 

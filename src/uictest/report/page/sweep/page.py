@@ -31,7 +31,14 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.wording import counted, failing_first, reading_sentences, reading_sources, tone
+from uictest.report.wording import (
+    counted,
+    failing_first,
+    reading_sentences,
+    reading_sources,
+    tone,
+    without_rig_that_holds,
+)
 
 _MOST_VALUES = 40
 """Values of a parameter that get a bar each."""
@@ -75,6 +82,7 @@ def sweep_page_html(content: SweepContent) -> str:
         failing_first=failing_first,
         reading_sentences=reading_sentences,
         reading_sources=reading_sources,
+        without_rig_that_holds=without_rig_that_holds,
         measure_words=measure_words,
         gauge_of=gauge_of,
         share_words=share_words,

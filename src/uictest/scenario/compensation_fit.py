@@ -1,0 +1,124 @@
+"""Whether a compensation was identified for the rig that it computes the forces of."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+from uictest.scenario.parts.brake import WspValve
+from uictest.scenario.parts.compensation import CaliperAsBuilt, Compensation, RigAsBuilt, ValveAsBuilt
+from uictest.scenario.wheelset_values import WHEELSET_NUMBERS, wheelset_value
+from uictest.scenario.yaml import Quantity, Source
+from uictest.units import PERCENT
+
+FIT_KEYS: Final = (
+    *("rig.topology", "rig.caliper", "rig.compensation_model"),
+    *("brake.system.tank.volume", "brake.system.wsp_valve", "vehicle.wheelsets"),
+)
+"""Keys of a scenario at or below which :func:`rig_differences` reads."""
+
+_LISTED: Final = "identified-for"
+"""Source of the numbers of a listed rig."""
+_LEAST: Final = 1e-300
+"""What a tolerance of a number that is zero is at least: any other number is beyond it."""
+
+
+@dataclass(frozen=True, slots=True)
+class RigDifference:
+    """A number of a rig beside that of the rig which a compensation was identified for.
+
+    Args:
+        key: of the scenario.
+        found: in the rig.
+        identified: in the rig that the compensation was identified for.
+        tolerance: as a share of `identified`.
+
+    """
+
+    key: str
+    found: Any
+    identified: Any
+    tolerance: Any
+
+    @property
+    def share(self) -> Any:
+        """The difference as a share of its tolerance: beyond 1 the compensation does not fit."""
+        return abs(self.found - self.identified) / max(self.tolerance * self.identified, _LEAST)
+
+    def __str__(self) -> str:
+        """Return key, both values and the tolerance for a reader."""
+        found, identified = (
+            each.text if isinstance(each, Quantity) else f"{each:.6g}"
+            for each in (self.found, self.identified)
+        )
+        tolerance = f"{self.tolerance / PERCENT:g} %"
+        return f"{self.key} is {found}, the compensation is for {identified} within {tolerance}"
+
+
+def rig_differences(scenario: Any) -> list[RigDifference] | None:
+    """Return what modules without a caliper stand for beside what their compensation was identified for.
+
+    None where the compensation does not list its rig; empty where a caliper is in every module, and where the
+    compensation is to be identified for this very rig. Numbers of
+    several cases (:mod:`uictest.ensemble`) give differences of several.
+    """
+    if scenario.rig.topology != "one-caliper":
+        return []
+    model = scenario.rig.compensation_model
+    if model.to_identify:
+        return []
+    rig = model.identified_for
+    return None if rig is None else list(_differences(scenario, rig))
+
+
+def _differences(scenario: Any, rig: RigAsBuilt) -> Iterator[RigDifference]:
+    for name in CaliperAsBuilt.model_fields:
+        sections = scenario.rig.caliper, rig.caliper, rig.tolerances.caliper
+        yield RigDifference(f"rig.caliper.{name}", *(getattr(each, name) for each in sections))
+    volume = scenario.brake.system.tank.volume
+    yield RigDifference("brake.system.tank.volume", volume, rig.tank_volume, rig.tolerances.tank_volume)
+    regular = scenario.brake.system.wsp_valve
+    for name in WspValve.model_fields:
+        expected, tolerance = (getattr(each, name) for each in (rig.wsp_valve, rig.tolerances.wsp_valve))
+        yield RigDifference(f"brake.system.wsp_valve.{name}", getattr(regular, name), expected, tolerance)
+        for number in WHEELSET_NUMBERS[1:]:
+            own = wheelset_value(scenario, number, f"wsp_valve.{name}")
+            if own is not getattr(regular, name):
+                key = f"vehicle.wheelsets.{number}.wsp_valve.{name}"
+                yield RigDifference(key, own, expected, tolerance)
+
+
+def rig_as_built(scenario: Any) -> dict[str, Quantity]:
+    """Return what a compensation lists of the rig that it was identified for, by the keys of a scenario."""
+    caliper, system = scenario.rig.caliper, scenario.brake.system
+    return {
+        **{f"rig.caliper.{name}": getattr(caliper, name) for name in CaliperAsBuilt.model_fields},
+        "brake.system.tank.volume": system.tank.volume,
+        **{
+            f"brake.system.wsp_valve.{name}": getattr(system.wsp_valve, name)
+            for name in WspValve.model_fields
+        },
+    }
+
+
+def listed_rig(model: Compensation, scenario: Any) -> Compensation:
+    """Return a compensation that lists the rig of a scenario, with the tolerances of what stood in for it."""
+    stated = scenario.rig.compensation_model
+    sections: dict[str, dict[str, Any]] = {"caliper": {}, "wsp_valve": {}, "tank": {}}
+    for key, value in rig_as_built(scenario).items():
+        section, name = key.split(".")[-2:]
+        sections[section][name] = Quantity(value, value.text, value.unit, _LISTED)
+    rig = RigAsBuilt.model_construct(
+        caliper=CaliperAsBuilt.model_construct(**sections["caliper"]),
+        wsp_valve=ValveAsBuilt.model_construct(**sections["wsp_valve"]),
+        tank_volume=sections["tank"]["volume"],
+        tolerances=stated.identified_for.tolerances,
+    )
+    listed = {_LISTED: Source(mark="identified", text="The rig of the bench, as built")}
+    sources = {**stated.sources, **model.sources, **listed}
+    return model.model_copy(update={"identified_for": rig, "sources": sources})
+
+
+def misfits(scenario: Any) -> list[RigDifference]:
+    """Return the differences beyond their tolerance, the largest first."""
+    beyond = [each for each in rig_differences(scenario) or () if each.share > 1.0]
+    return sorted(beyond, key=lambda each: -each.share)

@@ -1,0 +1,57 @@
+"""Sensors that are limited by their range: counted while they are, and named."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.campaign import RecordingRequest, run_case
+from uictest.scenario import load
+
+STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 60 km/h\n"
+
+
+def judged(folder: Path, *overrides: str, sensors: str = "{}") -> Any:
+    path = folder / "stop.yaml"
+    path.write_text(f"{STOP}rig: {{sensors: {sensors}}}\n" if sensors != "{}" else STOP)
+    [case] = load([path], overrides)
+    return run_case(case, RecordingRequest("all", 0.01))
+
+
+def check(run: Any, name: str) -> Any:
+    return next(each for each in run.result.criteria if each.id == name)
+
+
+@pytest.mark.parametrize(
+    ("topology", "named"), [("one-caliper", ["1"]), ("four-caliper", ["1", "2", "3", "4"])]
+)
+def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(
+    tmp_path: Path, topology: str, named: list[str]
+) -> None:
+    """The train brakes with what they show; the time is that of the recording."""
+    run = judged(
+        tmp_path, f"rig.topology={topology}", sensors="{extends: standard, loadcell: {range: 12 kN}}"
+    )
+    verdict = check(run, "loadcells-in-range")
+    assert (run.result.outcome, verdict.status) == ("invalid", "fail")
+    assert [n for n in "1234" if f"loadcells of wheelset {n} limited to 12 kN" in verdict.reason] == named
+    force = run.recording["clamping_force_1"]
+    first = float(run.recording["time"][np.argmax(force >= 11.9e3)])
+    assert f"the first by {first:.4g} s" in verdict.reason
+    limited = 0.01 * float(np.sum(force >= 11.99e3)) * len(named)
+    assert verdict.value == pytest.approx(limited, abs=0.05 * len(named))
+    assert check(run, "pressure-sensors-in-range").status == "pass"
+
+
+def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(tmp_path: Path) -> None:
+    run = judged(tmp_path, sensors="{extends: standard, pressure: {range: 3 bar}}")
+    reason = check(run, "pressure-sensors-in-range").reason
+    assert run.result.outcome == "invalid"
+    for place in ("wheelset 1", "wheelset 4", "the brake line"):
+        assert f"pressure sensor of {place} limited to 3 bar for" in reason
+
+
+def test_a_stop_within_the_ranges_has_its_checks_hold(tmp_path: Path) -> None:
+    run = judged(tmp_path)
+    assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}

@@ -1,0 +1,83 @@
+"""Whether a compensation was identified for the rig of a stop."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uictest.scenario import Case, ScenarioErrors, load, misfits, rig_differences
+
+Load = Callable[..., Case]
+
+
+@pytest.fixture(name="case")
+def _case(tmp_path: Path) -> Load:
+    path = tmp_path / "stop.yaml"
+    path.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n")
+    return lambda *overrides: load([path], overrides)[0]
+
+
+def told(case: Case) -> list[str]:
+    return [str(each) for each in misfits(case.scenario)]
+
+
+def test_the_shipped_compensation_is_for_the_shipped_rig(case: Load) -> None:
+    differences = rig_differences(case().scenario)
+    assert differences
+    assert all(each.share == 0.0 for each in differences)
+
+
+@pytest.mark.parametrize(
+    ("override", "reason"),
+    [
+        (
+            "rig.caliper.load_friction=15 %",
+            "rig.caliper.load_friction is 15 %, the compensation is for 7.5 % within 7.5 %",
+        ),
+        (
+            "rig.caliper.lever_ratio=3",
+            "rig.caliper.lever_ratio is 3, the compensation is for 2.45 within 0.5 %",
+        ),
+        (
+            "brake.system.tank.volume=4 L",
+            "brake.system.tank.volume is 4 L, the compensation is for 2 L within 50 %",
+        ),
+        (
+            "vehicle.wheelsets.3.wsp_valve.vent_conductance=9e-8 m3/(s Pa)",
+            "vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), the compensation is for"
+            " 2.73e-08 m3/(s Pa) within 50 %",
+        ),
+    ],
+)
+def test_a_number_beyond_its_tolerance_is_named_with_both_values(
+    case: Load, override: str, reason: str
+) -> None:
+    assert told(case(override)) == [reason]
+    assert told(case(override, "rig.topology=four-caliper")) == []
+    assert told(case(override, "rig.compensation_model=identify")) == []
+
+
+def test_a_number_within_its_tolerance_fits(case: Load) -> None:
+    assert told(case("rig.caliper.load_friction=8 %", "brake.system.tank.volume=2.9 L")) == []
+
+
+def test_the_valve_of_the_module_with_the_caliper_does_not_matter(case: Load) -> None:
+    """No compensation stands in for that one."""
+    assert told(case("vehicle.wheelsets.1.wsp_valve.vent_conductance=9e-8 m3/(s Pa)")) == []
+
+
+def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> None:
+    scenario = case().scenario
+    model = scenario.rig.compensation_model.model_copy(update={"identified_for": None})
+    rig = scenario.rig.model_copy(update={"compensation_model": model})
+    assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
+
+
+def test_no_profile_takes_the_id_of_a_check_of_the_rig(case: Load, tmp_path: Path) -> None:
+    (tmp_path / "own.yaml").write_text(
+        "schema: uictest/criteria/1\nname: own\ncriteria:\n"
+        "  - {id: compensation-fits, layer: validity, measure: braking_distance, upper: 1 km}\n"
+    )
+    with pytest.raises(ScenarioErrors, match="is in profile 'uictest-rig' as well"):
+        case("criteria=own.yaml")
+    assert [each.name for each in case("criteria=uictest-rig").scenario.judged_by] == ["uictest-rig"]
