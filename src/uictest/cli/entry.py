@@ -73,10 +73,12 @@ def _outcome(invocation: CommandLine) -> ExitCode:
 def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:
     """Return whether an argument is a path that cannot be: too long, through a file, below nothing."""
     texts = [text.partition("=")[2] if text.startswith("--") and "=" in text else text for text in arguments]
+    if isinstance(error, RuntimeError):  # Python 3.11 and 3.12 raise no OSError for links in a circle
+        return str(error).startswith("Symlink loop")
     if isinstance(error, UnicodeEncodeError):
         return any(not text.isascii() and error.object[error.start] in text for text in texts)
     if isinstance(error, ValueError):
-        return any("\0" in text for text in texts)
+        return any("\0" in text for text in texts) or ("" in texts and "an empty name" in str(error))
     if not isinstance(error, OSError) or error.errno not in _OF_PATHS or not error.filename:
         return False
     place = Path(os.path.abspath(os.fsdecode(error.filename)))  # noqa: PTH100 - links stay
