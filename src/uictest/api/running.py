@@ -111,9 +111,8 @@ def _found(what: What | None, texts: Sequence[str], seed: int | None, trusted: S
     names = [each for each in sources if not isinstance(each, scenario.Case)]
     cases = [each for each in sources if isinstance(each, scenario.Case)]
     if not cases:
-        paths = runs.scenario_paths(as_paths(names))
-        planned = runs.load_series(list(runs.series_files(paths)), texts, seed, trusted)
-        return _Found(runs.load_cases(paths, texts, seed, trusted), planned, ["run", *map(str, names)])
+        loaded, planned = runs.load_cases_and_series(as_paths(names), texts, seed, trusted)
+        return _Found(loaded, planned, ["run", *map(str, names)])
     if names:
         raise ValueError("name files or give cases, not both")
     if texts or seed is not None or trusted:

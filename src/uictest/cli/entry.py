@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import traceback
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Final
 
 import typer
@@ -17,6 +20,15 @@ from uictest.cli.output import lost_data, message, use_safe_encoding
 _TYPER_INTERRUPTED = 130
 _OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask", "device": "--device"}
 """Argument that an error names -> the option that sets it."""
+_OF_PATHS: Final = frozenset(
+    {
+        *(errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.EEXIST, errno.ENAMETOOLONG, errno.ELOOP),
+        *(errno.EACCES, errno.EPERM, errno.EROFS),
+    }
+)
+"""Errors that say that a path cannot be used, and not that the machine fails."""
+_DEFAULT_OUTPUT: Final = "reports"
+"""Where a command writes if it is not told."""
 
 
 def execute(arguments: Sequence[str]) -> ExitCode:
@@ -36,8 +48,10 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         message(f"uictest: {error.format_message()}\nTry 'uictest --help', or 'uictest COMMAND --help'.")
         return ExitCode.USAGE
     except scenario.ScenarioErrors as error:
+        for trace in error.traces if invocation.verbosity > 0 else ():
+            message(trace)
         message(str(error))
-        return ExitCode.USAGE
+        return ExitCode.ERROR if error.traces else ExitCode.USAGE
     except runs.InvalidInputError as error:
         for text in error.messages:
             message(f"uictest: {text}{_options(error.arguments)}")
@@ -48,10 +62,32 @@ def _outcome(invocation: CommandLine) -> ExitCode:
     except SystemExit:
         # Outside its standalone mode typer exits only if the reader of `--help` has gone.
         return ExitCode.MET
-    except OSError as error:
-        return _failed(_reason(error), invocation)
     except Exception as error:
-        return _failed(f"internal error: {type(error).__name__}: {error}", invocation)
+        reason = _reason(error) if isinstance(error, OSError) else ""
+        if _is_of_argument(error, invocation.arguments):
+            message(f"uictest: {reason or error}")
+            return ExitCode.USAGE
+        return _failed(reason or f"internal error: {type(error).__name__}: {error}", invocation)
+
+
+def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:
+    """Return whether an argument is a path that cannot be: too long, through a file, below nothing."""
+    texts = [text.partition("=")[2] if text.startswith("--") and "=" in text else text for text in arguments]
+    if isinstance(error, RuntimeError):  # Python 3.11 and 3.12 raise no OSError for links in a circle
+        return str(error).startswith("Symlink loop")
+    if isinstance(error, UnicodeEncodeError):
+        return any(not text.isascii() and error.object[error.start] in text for text in texts)
+    if isinstance(error, ValueError):
+        return any("\0" in text for text in texts) or ("" in texts and "an empty name" in str(error))
+    if not isinstance(error, OSError) or error.errno not in _OF_PATHS or not error.filename:
+        return False
+    place = Path(os.path.abspath(os.fsdecode(error.filename)))  # noqa: PTH100 - links stay
+    for named in (Path(os.path.abspath(text)) for text in (*texts, _DEFAULT_OUTPUT) if "\0" not in text):  # noqa: PTH100
+        if named.is_relative_to(place) or place.parent == named.parent:
+            return True
+        if error.errno != errno.ENOENT and place.is_relative_to(named):
+            return True
+    return False
 
 
 def _options(arguments: Sequence[str]) -> str:

@@ -37,6 +37,7 @@ from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,
     is_series as is_series,
     load_cases as load_cases,
+    load_cases_and_series as load_cases_and_series,
     load_series as load_series,
     scenario_paths as scenario_paths,
     series_files as series_files,

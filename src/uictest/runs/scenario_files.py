@@ -38,6 +38,33 @@ def load_cases(
     return scenario.load(places, tuple(overrides or ()), seed, trusted or ()) if places else []
 
 
+def load_cases_and_series(
+    paths: Sequence[Path] | None,
+    overrides: Sequence[str] | None = None,
+    seed: int | None = None,
+    trusted: Sequence[Path] | None = None,
+) -> tuple[list[scenario.Case], list[series.Series]]:
+    """Return all cases and all series; errors of neither hide those of the others.
+
+    Raises ScenarioErrors, and InvalidInputError as :func:`load_series`.
+    """
+    places = scenario_paths(paths)
+    cases: list[scenario.Case] = []
+    planned: list[series.Series] = []
+    diagnostics: list[yaml.Diagnostic] = []
+    try:
+        cases = load_cases(places, overrides, seed, trusted)
+    except yaml.ScenarioErrors as errors:
+        diagnostics.extend(errors.diagnostics)
+    try:
+        planned = load_series(list(series_files(places)), overrides, seed, trusted)
+    except yaml.ScenarioErrors as errors:
+        diagnostics.extend(errors.diagnostics)
+    if diagnostics:
+        raise yaml.ScenarioErrors(diagnostics)
+    return cases, planned
+
+
 def is_series(path: Path) -> bool:
     """Return whether a path names a series file."""
     return path.name.endswith(scenario.SERIES_SUFFIXES)
@@ -75,10 +102,8 @@ def load_series(
     loaded: list[series.Series] = []
     diagnostics: list[yaml.Diagnostic] = []
     for path in paths:
-        try:
+        with yaml.collecting(diagnostics, yaml.whole_file(path)):
             loaded += series.load_series(path, tuple(overrides or ()), seed, trusted or ())
-        except yaml.ScenarioErrors as errors:
-            diagnostics.extend(errors.diagnostics)
     if diagnostics:
         raise yaml.ScenarioErrors(diagnostics)
     _require_distinct(loaded)

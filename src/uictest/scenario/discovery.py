@@ -12,6 +12,7 @@ from uictest.scenario.yaml import (
     Map,
     Scalar,
     ScenarioErrors,
+    collecting,
     diagnose,
     unreadable_error,
     whole_file,
@@ -42,14 +43,14 @@ def scenario_trees(
         if not named and not files.roots.contain(path):
             diagnostics.append(link_outside(path))
             continue
-        try:
-            tree = files.at(path)
-        except ScenarioErrors as errors:
-            diagnostics.extend(errors.diagnostics)
-            if not isinstance(errors.salvaged, Map):
-                continue
-            tree = errors.salvaged
-        if named or not _is_of_other_kind(tree):
+        tree = None
+        with collecting(diagnostics, whole_file(path)):
+            try:
+                tree = files.at(path)
+            except ScenarioErrors as errors:
+                tree = errors.salvaged if isinstance(errors.salvaged, Map) else None
+                raise
+        if tree is not None and (named or not _is_of_other_kind(tree)):
             yield path, tree
 
 

@@ -31,6 +31,7 @@ from uictest.scenario.yaml import (
     ScenarioErrors,
     apply_overrides,
     as_written,
+    collecting,
     describe,
     display_name,
     dotted,
@@ -39,6 +40,7 @@ from uictest.scenario.yaml import (
     parse_overrides,
     quoted,
     single_error,
+    whole_file,
     with_value,
 )
 
@@ -103,16 +105,15 @@ class _Loader:
 
     def cases(self, path: Path, tree: Map) -> Iterator[Case]:
         """Yield the cases of one file, as far as they are without errors."""
-        try:
+        file, variants = None, list[Variant]()
+        with collecting(self.diagnostics, whole_file(path)):
             file, variants = self._read(path, tree)
-        except ScenarioErrors as errors:
-            self.diagnostics.extend(errors.diagnostics)
-            return
-        for variant in variants:
-            try:
-                yield self._case(file, variant)
-            except ScenarioErrors as errors:
-                self.diagnostics.extend(errors.diagnostics)
+        for variant in variants if file is not None else ():
+            case = None
+            with collecting(self.diagnostics, whole_file(path)):
+                case = self._case(file, variant)
+            if case is not None:
+                yield case
 
     def _read(self, path: Path, tree: Map) -> tuple[_ScenarioFile, list[Variant]]:
         _require_scenario_schema(tree)

@@ -2,10 +2,10 @@
 
 import ast
 import io
-import lzma
+import re
 import zipfile
-import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from types import MappingProxyType
 from typing import Any, Final
 from xml.etree import ElementTree
@@ -15,11 +15,11 @@ from uictest.controllers import shown_version
 _FMU_DESCRIPTION: Final = "modelDescription.xml"
 _BEGINNING: Final = 65536
 """Bytes of an FMU's description that are read: its first element states the version."""
-_NO_DESCRIPTION: Final = (
-    *(zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, RuntimeError, OSError),
-    *(KeyError, ValueError, ElementTree.ParseError),
-)
-"""What a file raises that is no FMU; who loads it says so."""
+_BLOCK: Final = 65536
+"""Most bytes of the statement that gives a version."""
+_NEXT_STATEMENT: Final = re.compile(rb"\n(?=[^\s#)\]}])")
+_TEXTS: Final = rb"""#[^\n]*|(['"]{3})(?:[^\\]|\\.)*?\1|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|"""
+"""Comments and texts, in which a name is none."""
 
 
 def stated_version(kind: str, content: bytes) -> str:
@@ -32,11 +32,23 @@ def stated_version(kind: str, content: bytes) -> str:
 
 
 def _of_python(content: bytes) -> str:
-    try:
-        statements = ast.parse(content).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ""
-    return next((text for text in map(_assigned_version, statements) if text is not None), "")
+    versions = map(_assigned_version, _statements(content, b"__version__"))
+    return next((text for text in versions if text is not None), "")
+
+
+def _statements(content: bytes, name: bytes) -> Iterator[ast.stmt]:
+    """Yield the statements of a module that begin with a name.
+
+    Nothing else is parsed: a syntax tree takes hundreds of times the memory of its text.
+    """
+    begins = rb"^" + name + rb"\b"
+    if re.search(begins, content, re.MULTILINE) is None:
+        return
+    for found in re.finditer(_TEXTS + begins, content, re.MULTILINE | re.DOTALL):
+        if found[0] == name:
+            block = _NEXT_STATEMENT.split(content[found.start() : found.start() + _BLOCK], maxsplit=1)[0]
+            with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+                yield from ast.parse(block).body
 
 
 def _assigned_version(statement: ast.stmt) -> str | None:
@@ -52,7 +64,7 @@ def _of_fmu(content: bytes) -> str:
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive, archive.open(_FMU_DESCRIPTION) as file:
             return _attribute_of_first_element(file.read(_BEGINNING), "version")
-    except _NO_DESCRIPTION:
+    except Exception:  # a library that meets a damaged file may raise anything; who loads the FMU says so
         return ""
 
 

@@ -1,9 +1,15 @@
 from __future__ import annotations
 
 import json
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import pytest
+
+from uictest import series
+from uictest.scenario import loading
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -68,3 +74,77 @@ def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(
     answer = call("check")
     assert answer.code == 0
     assert "warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range" in answer.err
+
+
+def _broken_in(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Let the program fail with what one scenario says, whichever way it is read."""
+    resolve = loading.resolve
+
+    def resolved(tree: Any, parts: Any) -> Any:
+        if tree.get("name").value == name:
+            raise ZeroDivisionError("no wheel load")
+        return resolve(tree, parts)
+
+    monkeypatch.setattr(loading, "resolve", resolved)
+
+
+@pytest.mark.parametrize(
+    "arguments", [["check"], ["list"], ["run"], ["run", "scenarios/a.yaml", "scenarios/b.yaml"]]
+)
+def test_an_internal_error_names_its_file_and_hides_no_other(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
+) -> None:
+    scenario("a")
+    scenario("b", "vehicel: x\n")
+    Path("scenarios", "c.series.yaml").write_text("schema: uictest/series/1\nname: c\n")
+    _broken_in(monkeypatch, "a")
+    answer = call(*arguments)
+    assert answer.code == 3
+    assert "scenarios/a.yaml:1:1: internal error: ZeroDivisionError: no wheel load" in answer.err
+    assert "scenarios/b.yaml:4:1: vehicel: unknown key" in answer.err
+    assert ("scenarios/c.series.yaml:" in answer.err) is (len(arguments) == 1)
+    assert "Traceback" not in answer.err
+    assert "Traceback" in call(*arguments, "-v").err
+
+
+def test_an_internal_error_in_a_series_hides_no_other_file(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenario("a")
+    for name in "cd":
+        text = f"schema: uictest/series/1\nname: {name}\ndry: a.yaml\nwet: a.yaml\nno: 1\n"
+        Path("scenarios", f"{name}.series.yaml").write_text(text)
+    load = series.load_series
+
+    def failing(path: Path, *arguments: Any, **options: Any) -> Any:
+        if path.name.startswith("c"):
+            raise RecursionError("too deep")
+        return load(path, *arguments, **options)
+
+    monkeypatch.setattr(series, "load_series", failing)
+    for command in ("check", "run", "list"):
+        answer = call(command)
+        assert answer.code == 3
+        assert "scenarios/c.series.yaml:1:1: internal error: RecursionError: too deep" in answer.err
+        assert "scenarios/d.series.yaml:5:1: no: unknown key" in answer.err
+
+
+def test_a_word_for_a_fault_is_an_error_at_its_place(call: Call, scenario: Write) -> None:
+    answer = call("check", scenario("a", "faults: [lost]\n"))
+    assert answer.code == 4
+    assert "scenarios/a.yaml:4:10: faults.0: expected a mapping, found a text" in answer.err
+    assert "a mapping of at, kind, part, until, value, wheelset" in answer.err
+
+
+def test_a_large_program_costs_hardly_more_than_its_text(call: Call, scenario: Write) -> None:
+    """A syntax tree of 2 MB of Python takes a gigabyte."""
+    scenario("a", "controller: {python: wsp.py, class: Wsp}\n")
+    rows = "".join(f"    ({number}, 'text'),\n" for number in range(80_000))
+    Path("scenarios", "wsp.py").write_text(f"class Wsp: ...\nTABLE = [\n{rows}]\n__version__ = '4.2'\n")
+    call("check")
+    tracemalloc.start()
+    try:
+        assert call("check").code == 0
+        assert tracemalloc.get_traced_memory()[1] < 30e6
+    finally:
+        tracemalloc.stop()

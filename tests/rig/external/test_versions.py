@@ -14,6 +14,8 @@ from uictest.rig.external.workers import Workers
 from uictest.scenario import load
 
 VersionOf = Callable[[str], StopInputs]
+Compile = Callable[..., Path]
+StopOf = Callable[..., StopInputs]
 WSP = """
 from uictest.controllers import Outputs
 import shared_logic
@@ -74,3 +76,15 @@ def test_a_forked_copy_of_a_controller_does_not_answer(version_of: VersionOf, fo
         stop = assemble(load([folder / "stop.yaml"])[0])
         for _ in range(3):
             assert workers.run(stop).measures.tobytes() == expected
+
+
+def test_in_one_process_a_library_that_was_built_anew_is_refused(library: Compile, stop_of: StopOf) -> None:
+    """The system's loader returns the library that it has loaded from the same path."""
+    path = library()
+    run_in_process(stop_of(library=path.name))
+    path.unlink()
+    library("-g")
+    with pytest.raises(
+        ControllerError, match=r"^libbad\.so was built anew: this process has loaded it before"
+    ):
+        run_in_process(stop_of(library=path.name))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -29,16 +29,20 @@ def check(
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = runs.scenario_paths(paths)
     errors, counts = _scenarios([path for path in places if not _is_of_other_kind(path)], trusted or ())
-    sweep_paths = list(sweeping.sweep_files(places))
-    for path in sweep_paths:
-        errors.extend(_errors_of_sweep(path, places, trusted or ()))
-    series_paths = list(runs.series_files(places))
-    for path in series_paths:
-        errors.extend(_errors_of_series(path, places, trusted or ()))
+    sweep_paths, series_paths = list(sweeping.sweep_files(places)), list(runs.series_files(places))
+    for path, load in [
+        *((each, _load_sweep) for each in sweep_paths),
+        *((each, _load_series) for each in series_paths),
+    ]:
+        if path not in places and not scenario.Roots.of(places, trusted or ()).contain(path):
+            errors.append(scenario.link_outside(path))
+            continue
+        with yaml.collecting(errors, yaml.whole_file(path)):
+            load(path, trusted or ())
     if errors:
-        _show(errors, shown)
+        _show(errors, shown, verbosity)
         message(f"uictest: {report.counted(len(errors), 'error')}")
-        return ExitCode.USAGE
+        return ExitCode.ERROR if any(each.trace for each in errors) else ExitCode.USAGE
     if shown is Format.JSON:
         data("[]")
     if not quiet:
@@ -52,11 +56,10 @@ def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yam
     """Return the errors of scenario files, and without any how many files and cases there are."""
     try:
         cases = scenario.load(paths, trusted=trusted)
+        _require_fit(cases)
     except yaml.ScenarioErrors as errors:
         return list(errors.diagnostics), ""
     files = {case.path for case in cases}
-    if unfit := list(dict.fromkeys(each for case in cases for each in _misfits(case))):
-        return unfit, ""
     return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
 
 
@@ -76,31 +79,22 @@ def _is_of_other_kind(path: Path) -> bool:
     return sweeping.is_sweep(path) or runs.is_series(path)
 
 
-def _errors_of_series(
-    path: Path, paths: Sequence[Path], trusted: Sequence[Path]
-) -> Sequence[yaml.Diagnostic]:
-    if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
-        return (scenario.link_outside(path),)
-    try:
-        loaded = series.load_series(path, trusted=trusted)
-    except yaml.ScenarioErrors as errors:
-        return errors.diagnostics
-    return tuple(dict.fromkeys(each for one in loaded for case in one.cases for each in _misfits(case)))
+def _require_fit(cases: Iterable[scenario.Case]) -> None:
+    if unfit := tuple(dict.fromkeys(each for case in cases for each in _misfits(case))):
+        raise yaml.ScenarioErrors(unfit)
 
 
-def _errors_of_sweep(path: Path, paths: Sequence[Path], trusted: Sequence[Path]) -> Sequence[yaml.Diagnostic]:
-    if path not in paths and not scenario.Roots.of(paths, trusted).contain(path):
-        return (scenario.link_outside(path),)
-    try:
-        plan = sweeps.load_sweep(path, trusted=trusted)
-    except yaml.ScenarioErrors as errors:
-        return errors.diagnostics
-    if unfit := tuple(_misfits(plan.base)):
-        return unfit
+def _load_series(path: Path, trusted: Sequence[Path]) -> None:
+    loaded = series.load_series(path, trusted=trusted)
+    _require_fit(case for one in loaded for case in one.cases)
+
+
+def _load_sweep(path: Path, trusted: Sequence[Path]) -> None:
+    plan = sweeps.load_sweep(path, trusted=trusted)
+    _require_fit([plan.base])
     for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
             message(f"{plan.file}: warning: {each}; {_consequence(plan)}")
-    return ()
 
 
 def _consequence(plan: sweeps.Plan) -> str:
@@ -109,7 +103,7 @@ def _consequence(plan: sweeps.Plan) -> str:
     return "sensitivities hold for the range only"
 
 
-def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
+def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format, verbosity: int) -> None:
     if shown is Format.JSON:
         data(json.dumps([{name: getattr(each, name) for name in _FIELDS} for each in diagnostics], indent=2))
         return
@@ -117,4 +111,6 @@ def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
         if shown is Format.GITHUB:
             title = each.key or "scenario"
             data(report.annotation(str(each.file), title, each.message, each.line, each.column))
+        if each.trace and verbosity > 0:
+            message(each.trace)
         message(str(each))

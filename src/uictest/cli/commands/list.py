@@ -64,8 +64,7 @@ def list_cases(
             plans = (_plan(path, overrides, trusted) for path in paths)
             return list_requirements([plan.base for plan in plans], request, shown)
         return _list_sweeps(paths, expression, overrides, trusted)
-    cases = runs.load_cases(paths, overrides, None, trusted)
-    planned = runs.load_series(list(runs.series_files(runs.scenario_paths(paths))), overrides, None, trusted)
+    cases, planned = runs.load_cases_and_series(paths, overrides, None, trusted)
     selected = select_by_options(cases, expression, tag)
     of_series = select_series_by_options(planned, expression, tag)
     if not (selected or of_series):

@@ -95,9 +95,7 @@ def run(
     names = options.report_formats(formats, "--report", report.format_names())
     choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
-    files = list(runs.series_files(runs.scenario_paths(paths)))
-    cases = runs.load_cases(paths, changes, seed, trusted)
-    planned = runs.load_series(files, changes, seed, trusted)
+    cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
     selected, of_series = _selected(cases, planned, expression, tag, output if last_failed else None)
     if not (selected or of_series):
         message(f"uictest: {runs.nothing_selected(cases, planned)}")

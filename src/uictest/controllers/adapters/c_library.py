@@ -37,6 +37,8 @@ _FUNCTIONS: Final[dict[str, tuple[Any, tuple[Any, ...]]]] = {
     "last_error": (ctypes.c_char_p, (ctypes.c_void_p,)),
 }
 """Name behind `uictest_` -> type of the result, types of the arguments."""
+_LOADED: Final[dict[str, str]] = {}
+"""Libraries that this process has loaded: path -> SHA-256."""
 
 
 class LibraryInstance:
@@ -89,12 +91,15 @@ def open_controller(program: ControllerProgram, config: Config) -> ControllerIns
 def _loaded(location: str, sha256: str) -> Any:
     """Return a library whose functions are there and have their types."""
     path = Path(location)
-    _check_content(path, sha256)
+    if _LOADED.get(location, sha256) != sha256:  # the system's loader would return the one that it has
+        raise ControllerError(f"{path.name} was built anew: this process has loaded it before; start another")
+    _require_unchanged(path, sha256)
     try:
         library = ctypes.CDLL(location)
     except OSError as error:
         raise ControllerError(f"{path.name} cannot be loaded: {_without(location, error)}") from error
-    _check_content(path, sha256)  # the loader has read the file anew
+    _LOADED[location] = sha256
+    _require_unchanged(path, sha256)  # nothing else was loaded meanwhile
     missing = [f"uictest_{name}" for name in _FUNCTIONS if not hasattr(library, f"uictest_{name}")]
     if missing:
         raise ControllerError(f"{path.name} does not export {', '.join(missing)}")
@@ -107,7 +112,7 @@ def _loaded(location: str, sha256: str) -> Any:
     return library
 
 
-def _check_content(path: Path, sha256: str) -> None:
+def _require_unchanged(path: Path, sha256: str) -> None:
     if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
         raise ControllerError(f"{path.name} has changed since the scenario was read")
 

@@ -2,6 +2,7 @@ from .assignment import FIXED as FIXED, with_value as with_value
 from .diagnostics import (
     Diagnostic as Diagnostic,
     ScenarioErrors as ScenarioErrors,
+    collecting as collecting,
     diagnose as diagnose,
     in_reading_order as in_reading_order,
     single_error as single_error,

@@ -1,8 +1,10 @@
 """Diagnostics: the place in a file, what is wrong, and what to write."""
 
+import traceback
 import unicodedata
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from typing import Final
 
 from uictest.scenario.yaml.tree import Node, Place
@@ -16,7 +18,8 @@ _LEAD: Final = 60
 class Diagnostic:
     """One error in one file. Everything a user wrote appears escaped, safe for a terminal.
 
-    ``line`` and ``column`` count from one; ``excerpt`` is the line with a caret line below it.
+    ``line`` and ``column`` count from one; ``excerpt`` is the line with a caret line below it. ``trace`` is
+    where an error of the program arose that the file brought about; empty for an error of the file.
     """
 
     file: str
@@ -26,6 +29,7 @@ class Diagnostic:
     message: str
     excerpt: str
     hint: str
+    trace: str = ""
 
     def __str__(self) -> str:
         subject = f"{self.key}: " if self.key else ""
@@ -53,6 +57,11 @@ class ScenarioErrors(Exception):  # noqa: N818 - it holds many errors, and its n
     def __str__(self) -> str:
         return "\n".join(map(str, self.diagnostics))
 
+    @property
+    def traces(self) -> tuple[str, ...]:
+        """Where errors of the program arose; empty where all are errors of the files."""
+        return tuple(each.trace for each in self.diagnostics if each.trace)
+
 
 def diagnose(place: Place, message: str, key: str = "", hint: str = "") -> Diagnostic:
     """A diagnostic at ``place`` with an excerpt; ``message`` and ``hint`` must be escaped already."""
@@ -65,6 +74,19 @@ def diagnose(place: Place, message: str, key: str = "", hint: str = "") -> Diagn
         excerpt=_excerpt(place),
         hint=hint,
     )
+
+
+@contextmanager
+def collecting(diagnostics: list[Diagnostic], place: Place) -> Iterator[None]:
+    """Append the errors of a file, or of a case in it, at ``place`` those of the program: others go on."""
+    try:
+        yield
+    except ScenarioErrors as errors:
+        diagnostics.extend(errors.diagnostics)
+    except Exception as error:
+        message = visible(f"internal error: {type(error).__name__}: {error}")
+        trace = visible(traceback.format_exc()).replace("\\x0a", "\n").rstrip()
+        diagnostics.append(replace(diagnose(place, message, hint="-v shows where"), trace=trace))
 
 
 def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:

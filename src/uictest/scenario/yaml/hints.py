@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 from typing import Annotated, Any, Final, get_origin
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError, create_model
 
 from uictest import library
 from uictest.scenario.yaml.model import Key, PartReference
@@ -88,7 +88,8 @@ def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
         for each in models_at(model, key):
             for inner, field in each.model_fields.items():
                 if _accepts(field, node):
-                    return visible(f"write `{name}: {{{inner}: {value}}}`")
+                    item = "- " if name.isdecimal() else f"{name}: "
+                    return visible(f"write `{item}{{{inner}: {value}}}`")
     keys = accepted_keys(model, key)
     return "a mapping of " + ", ".join(sorted(keys)) if keys else ""
 
@@ -102,11 +103,12 @@ def _accepts(field: Any, node: Node) -> bool:
     if field.annotation is str or node == Scalar(None, "", node.place):
         return False
     annotation: Any = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    # A model, since validators of fields may look at the fields before theirs.
+    alone: Any = create_model("Alone", field=(annotation, ...))
     try:
-        TypeAdapter(annotation).validate_python(plain(node))
+        return alone(field=plain(node)).field is not None
     except ValidationError:
         return False
-    return True
 
 
 def hint_for_list(key: str, node: List) -> str:

@@ -378,3 +378,40 @@ def test_a_missing_extra_is_named(
         ControllerError, match=r"^controllers as FMUs need FMPy: pip install 'uictest\[fmu\]'$"
     ):
         open_fmu(path)
+
+
+@pytest.mark.parametrize("size", ["0", "-0.01", "nan", "inf", "soon"])
+def test_a_step_size_that_is_none_is_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, size: str
+) -> None:
+    stated = {"experiment": f'<DefaultExperiment stepSize="{size}"/>'}
+    if fmi == 3:
+        stated = {"interface": f'fixedInternalStepSize="{size}"'}
+    assert "states a step size that is none" in refused(open_fmu, make_fmu(fmi, **stated))
+
+
+@pytest.mark.parametrize("reference", [-1, 2**32])
+def test_a_value_reference_that_no_fmu_can_have_is_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, reference: int
+) -> None:
+    listed = make_fmu.variables(fmi)
+    listed["hold_1"] = (reference, *listed["hold_1"][1:])
+    message = refused(open_fmu, make_fmu(fmi, listed))
+    assert message == f"has value reference {reference} of hold_1, expected a number from 0 to 4294967295"
+
+
+@pytest.mark.parametrize("identifier", ["../../evil", "a/b", "", "1a", "a b", "\u00e4", "any\n"])
+def test_a_library_is_loaded_from_the_fmu_alone(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, identifier: str, temporary_folder: Path
+) -> None:
+    path = make_fmu(fmi)
+    with zipfile.ZipFile(path) as archive:
+        content = {name: archive.read(name) for name in archive.namelist()}
+    [library] = [name for name in content if name.startswith("binaries")]
+    (temporary_folder / f"evil{fmpy.sharedLibraryExtension}").write_bytes(content[library])
+    named = f'modelIdentifier="{identifier}"'.encode()
+    content["modelDescription.xml"] = content["modelDescription.xml"].replace(b'modelIdentifier="any"', named)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, each in content.items():
+            archive.writestr(name, each)
+    assert "expected a name of C" in refused(open_fmu, path)

@@ -2,6 +2,7 @@
 
 import hashlib
 import io
+import re
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 from zipfile import BadZipFile, ZipFile
@@ -12,6 +13,8 @@ from uictest import files
 from uictest.controllers.adapters.instance import ControllerError, reason_of
 
 _VERSIONS: Final = ("2.0", "3.0")
+_LARGEST_REFERENCE: Final = 2**32 - 1
+_C_NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 LARGEST: Final = 2**30
 """Most bytes that an FMU may have unpacked; chosen: FMUs with their resources have some megabytes."""
 
@@ -72,9 +75,19 @@ def _check(folder: Path, description: Any) -> None:
         raise ControllerError(f"is an FMU of FMI {description.fmiVersion}, expected {' or '.join(_VERSIONS)}")
     if description.coSimulation is None:
         raise ControllerError("is an FMU without co-simulation: export it for co-simulation")
+    for each in description.modelVariables:
+        if not 0 <= each.valueReference <= _LARGEST_REFERENCE:
+            found = f"value reference {each.valueReference} of {each.name}"
+            raise ControllerError(f"has {found}, expected a number from 0 to {_LARGEST_REFERENCE}")
     platform = fmpy.platform if description.fmiVersion == "2.0" else fmpy.platform_tuple
-    binary = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-    if not (folder / "binaries" / platform / binary).is_file():
+    identifier = str(description.coSimulation.modelIdentifier)
+    if not _C_NAME.fullmatch(identifier):
+        raise ControllerError(
+            f"has modelIdentifier {identifier!r}, expected a name of C: it names the library"
+        )
+    binary = f"{identifier}{fmpy.sharedLibraryExtension}"
+    library = folder / "binaries" / platform / binary
+    if not (library.is_file() and library.resolve().is_relative_to(folder.resolve())):
         platforms = ", ".join(sorted(each.name for each in folder.glob("binaries/*") if each.is_dir()))
         found = f"only for {platforms}" if platforms else "for no platform"
         raise ControllerError(f"is built {found}, expected {platform} with {binary}")

@@ -1,5 +1,6 @@
 """An FMU in memory: the calls of FMI 2.0 and FMI 3.0 behind one face."""
 
+import math
 import weakref
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
@@ -56,7 +57,12 @@ class Slave(ABC):
 
     def check_step_size(self, cycle_time: float) -> None:
         """Raise ControllerError if the FMU cannot make steps of one cycle, s."""
-        size = self._only_step_size()
+        try:
+            size = self._only_step_size()
+        except ValueError:
+            size = math.nan
+        if size is not None and not 0.0 < size < math.inf:
+            raise ControllerError("states a step size that is none: expected a number of seconds above 0")
         if size is None or self.description.coSimulation.canHandleVariableCommunicationStepSize:
             return
         steps = cycle_time / size

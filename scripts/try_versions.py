@@ -1,0 +1,95 @@
+"""Test the package with other versions of what it needs, in an environment of its own.
+
+    python scripts/try_versions.py oldest       # the lowest versions that pyproject.toml allows
+    python scripts/try_versions.py newest       # the newest of each
+    python scripts/try_versions.py next-numba   # the minor version of numba after the one that is allowed
+
+It answers what `uictest selftest` knows and passes some tests; arguments after `--` go to pytest
+`next-numba` may fail: the lanes use numba's internals. Exit code 5: no such numba has been released.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import tomllib
+import venv
+from collections.abc import Sequence
+from pathlib import Path
+
+from packaging.requirements import Requirement
+
+REPOSITORY = Path(__file__).parents[1]
+EXTRAS = ("figures", "mdf", "tdms", "mat", "fmu", "gym", "dask")
+TOOLS = ("hypothesis", "jsonschema", "junitparser", "openpyxl", "pytest")
+"""What the tests below need besides, in any version."""
+TESTS = (
+    *("tests/lanes", "tests/scenario", "tests/recording", "tests/statistics", "tests/identification"),
+    *("tests/evaluation", "tests/rig/backends/test_native.py", "tests/rig/backends/test_lanes.py"),
+    *("tests/report/formats", "tests/sweeps/summaries", "tests/cli/commands/test_run.py", "tests/stepping"),
+)
+NOT_RELEASED = 5
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Make the environment, test in it, and return the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("versions", choices=("oldest", "newest", "next-numba"))
+    parser.add_argument("tests", nargs="*", default=TESTS, metavar="-- TEST")
+    chosen = parser.parse_args(arguments)
+    with tempfile.TemporaryDirectory(prefix="uictest-versions-") as folder:
+        python = installed(chosen.versions, Path(folder))
+        if python is None:
+            print(f"numba {next_numba()} is not released")
+            return NOT_RELEASED
+        # Nothing compiled with other versions is found, and nothing is left for them.
+        environment = {**os.environ, "UICTEST_CACHE": str(Path(folder, "cache"))}
+        run = [str(python), "-m", "pytest", "-q", "-W", "default", "-p", "no:cacheprovider", *chosen.tests]
+        for command in ([str(python), "-m", "uictest", "selftest"], run):
+            code = subprocess.run(command, cwd=REPOSITORY, env=environment, check=False).returncode
+            if code != 0:
+                return code
+    return 0
+
+
+def installed(versions: str, folder: Path) -> Path | None:
+    """Return the interpreter of a new environment; None where the next numba is not released."""
+    venv.create(folder / "environment", with_pip=False)
+    python = folder / "environment" / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
+    pip = [sys.executable, "-m", "pip", "--python", str(python), "install", "--quiet"]
+    constraints = folder / "constraints.txt"
+    constraints.write_text("\n".join(lowest()) if versions == "oldest" else "", encoding="utf-8")
+    package = f"{REPOSITORY}[{','.join(EXTRAS)}]"
+    subprocess.run([*pip, "--constraint", str(constraints), "--editable", package, *TOOLS], check=True)
+    if versions == "next-numba":
+        # Against our own bound: pip says so and installs it.
+        done = subprocess.run([*pip, "--pre", f"numba=={next_numba()}.*"], check=False)
+        if done.returncode != 0:
+            return None
+    return python
+
+
+def requirements() -> list[Requirement]:
+    """Return what the package needs directly, with the extras that are tested."""
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    return [Requirement(text) for text in (*project["dependencies"], *(e for x in EXTRAS for e in extras[x]))]
+
+
+def lowest() -> list[str]:
+    """Return `name==version` of the lowest version that is allowed of every package."""
+    bounds = {
+        each.name: next(one for one in each.specifier if one.operator == ">=") for each in requirements()
+    }
+    return [f"{name}=={bound.version}" for name, bound in bounds.items()]
+
+
+def next_numba() -> str:
+    """Return the first minor version of numba that is not allowed, such as 0.69."""
+    [numba] = [each for each in requirements() if each.name == "numba"]
+    return next(one.version for one in numba.specifier if one.operator == "<")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+"""Arguments that name no usable path: a usage error, whichever command they are given to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.recording import Recording, write_parquet
+
+Call = Callable[..., Any]
+Write = Callable[..., Path]
+
+LONG = "n" * 300
+COMMANDS = {
+    "run": ["run", "PATH"],
+    "run of a series": ["run", "PATH.series.yaml"],
+    "run, output": ["run", "scenarios", "-o", "PATH"],
+    "run, last failed": ["run", "scenarios", "--lf", "--dry-run", "-o", "PATH"],
+    "run, baseline": ["run", "scenarios", "--baseline", "PATH"],
+    "run, new baseline": ["run", "scenarios", "--baseline", "PATH", "--accept"],
+    "sweep, output": ["sweep", "two.sweep.yaml", "-o", "PATH"],
+    "check": ["check", "PATH"],
+    "list": ["list", "PATH"],
+    "list, requirements": ["list", "--requirements", "--requirement-list", "PATH", "scenarios"],
+    "evaluate": ["evaluate", "PATH", "--scenario", "scenarios/stop.yaml"],
+    "evaluate, map": ["evaluate", "stop.parquet", "--scenario", "scenarios/stop.yaml", "--map", "PATH.yaml"],
+    "export": ["export", "PATH", "--to", "csv"],
+    "export, output": ["export", "stop.parquet", "--to", "csv", "-o", "PATH"],
+    "bench": ["bench", "PATH"],
+    "report": ["report", "PATH"],
+    "open": ["open", "PATH"],
+    "open, output": ["open", "-o", "PATH"],
+    "compare": ["compare", "PATH", "stop.parquet"],
+    "compare, page": ["compare", "stop.parquet", "stop.parquet", "--html", "PATH"],
+    "schema, output": ["schema", "-o", "PATH"],
+    "init": ["init", "PATH"],
+    "init controller": ["init", "controller", "--python", "PATH"],
+    "controller check": ["controller", "check", "PATH"],
+}
+PATHS = {
+    "too long": LONG,
+    "below one too long": f"{LONG}/inner",
+    "through a file": "file/inner",
+    "through nothing": "/proc/none/inner",
+    "in a circle": "circle",
+}
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+@pytest.mark.parametrize("arguments", COMMANDS.values(), ids=COMMANDS)
+def test_a_path_that_cannot_be_is_a_usage_error(
+    call: Call, scenario: Write, made_up: list[str], arguments: list[str], path: str
+) -> None:
+    scenario("stop")
+    Path("file").touch()
+    Path("circle").symlink_to("circle")
+    text = "schema: uictest/sweep/1\nname: two\nscenario: scenarios/stop.yaml\ngrid: {seed: [1, 2]}\n"
+    Path("two.sweep.yaml").write_text(text)
+    time = np.arange(10) * 0.1
+    write_parquet(
+        Recording({"time": time, "speed": 1.0 - time}, {"time": "s", "speed": "m/s"}), Path("stop.parquet")
+    )
+    answer = call(*(argument.replace("PATH", path) for argument in arguments))
+    if answer.code == 0:  # no earlier run, or a file in place of a link
+        assert "--lf" in arguments or path == "circle"
+        return
+    assert answer.code == 4, answer.err
+    assert "internal error" not in answer.err
+
+
+@pytest.mark.parametrize("taken", ["scenarios", "schema"])
+def test_init_onto_a_file_in_the_way_is_a_usage_error(call: Call, workplace: Path, taken: str) -> None:
+    Path(taken).touch()
+    answer = call("init")
+    assert answer.code == 4
+    assert taken in answer.err
+
+
+def test_a_page_into_a_folder_that_is_not_there_is_a_usage_error(call: Call, workplace: Path) -> None:
+    time = np.arange(10) * 0.1
+    write_parquet(
+        Recording({"time": time, "speed": 1.0 - time}, {"time": "s", "speed": "m/s"}), Path("stop.parquet")
+    )
+    answer = call("compare", "stop.parquet", "stop.parquet", "--html", "none/page.html")
+    assert answer.code == 4
+    assert "none" in answer.err
+
+
+def test_an_error_of_the_machine_stays_one(
+    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*arguments: object, **options: object) -> None:
+        raise OSError(28, "No space left on device", "reports/x")
+
+    monkeypatch.setattr("uictest.runs.load_cases_and_series", full)
+    scenario("stop")
+    assert call("run", "-o", "reports").code == 3

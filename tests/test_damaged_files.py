@@ -1,0 +1,732 @@
+"""Every kind of file that the program reads, damaged: an input error or a result, never an internal error.
+
+A kind is a row of `KINDS`: valid files and how the program reads one. Values are replaced, deleted, repeated,
+swapped and given other types, and bytes are damaged. `FOUND` holds what a search has found.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import functools
+import hashlib
+import io
+import json
+import re
+import shutil
+import zipfile
+from collections.abc import Callable, Iterator, Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from unittest.mock import MagicMock
+from xml.etree import ElementTree
+
+import fmpy
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import typer.main
+import yaml
+from hypothesis import HealthCheck, Phase, given, settings, strategies as st
+
+from uictest import comparison, report, rig, scenario, validation
+from uictest.cli.entry import execute
+from uictest.cli.exit_codes import ExitCode
+from uictest.controllers import Config, ControllerError
+from uictest.controllers.adapters.fmu import file as fmu_file, instance as fmu_instance, slave as fmu_slave
+from uictest.recording import Recording
+from uictest.recording.formats import (
+    FORMATS,
+    Dialect,
+    UnreadableError,
+    isolation,
+    read_contents,
+    reader,
+    writer_of,
+)
+from uictest.scenario import yaml as scenario_yaml
+
+SOURCE = Path(__file__).parents[1]
+LIBRARY = SOURCE / "src" / "uictest" / "library"
+EXAMPLES = settings().max_examples * 3 // 10
+"""Files that are tried of a kind in each way."""
+Tree = Any
+
+
+# --- forms: from the bytes of a file to a tree of values, and back
+
+
+def _read_yaml(content: bytes) -> Tree:
+    return yaml.safe_load(content)
+
+
+def _written_json(tree: Tree) -> bytes:
+    """JSON, which is YAML as well; texts that UTF-8 cannot write are escaped."""
+    return json.dumps(tree, default=str).encode()
+
+
+def _read_csv(content: bytes) -> Tree:
+    return list(csv.reader(io.StringIO(content.decode())))
+
+
+def _written_csv(tree: Tree) -> bytes:
+    rows = [row if isinstance(row, list) else [row] for row in (tree if isinstance(tree, list) else [tree])]
+    text = io.StringIO()
+    csv.writer(text).writerows(rows)
+    return text.getvalue().encode("utf-8", "surrogatepass")
+
+
+def _read_xml(content: bytes) -> Tree:
+    def read(element: ElementTree.Element) -> Tree:
+        return [element.tag, dict(element.attrib), [read(each) for each in element]]
+
+    return read(ElementTree.fromstring(content))
+
+
+def _written_xml(tree: Tree) -> bytes:
+    def write(node: Tree) -> ElementTree.Element:
+        tag, attributes, inner = [*node, "", {}, []][:3] if isinstance(node, list) else [node, {}, []]
+        given = attributes.items() if isinstance(attributes, dict) else ()
+        element = ElementTree.Element(
+            re.sub(r"\W", "", str(tag)) or "x", {re.sub(r"\W", "", str(k)) or "x": str(v) for k, v in given}
+        )
+        element.extend(write(each) for each in (inner if isinstance(inner, list) else []))
+        return element
+
+    return ElementTree.tostring(write(tree)).translate(None, bytes({*range(9), 11, 12, *range(14, 32)}))
+
+
+def _read_parquet(content: bytes) -> Tree:
+    table = pq.read_table(pa.BufferReader(content)).slice(0, 60)
+    facts = {name.decode(): text.decode() for name, text in table.schema.metadata.items() if b"uic" in name}
+    columns = {name: table.column(name).to_pylist() for name in table.column_names[:6]}
+    facts |= {name: json.loads(facts[name]) for name in ("uictest.units", "uictest.metadata")}
+    return {"columns": columns, "facts": facts}
+
+
+def _written_parquet(tree: Tree) -> bytes:
+    columns = tree["columns"] if isinstance(tree["columns"], dict) else {"time": [tree["columns"]]}
+    facts = tree["facts"] if isinstance(tree["facts"], dict) else {}
+    arrays = {str(name): each if isinstance(each, list) else [each] for name, each in columns.items()}
+    rows = min(map(len, arrays.values()), default=0)
+    table = pa.table({name: pa.array(each[:rows]) for name, each in arrays.items()})
+    texts = {name: each if isinstance(each, str) else json.dumps(each) for name, each in facts.items()}
+    stream = io.BytesIO()
+    pq.write_table(table.replace_schema_metadata(texts), stream)
+    return stream.getvalue()
+
+
+READ_FORM: Mapping[str, Callable[[bytes], Tree]] = {
+    "yaml": _read_yaml,
+    "json": json.loads,
+    "csv": _read_csv,
+    "xml": _read_xml,
+    "parquet": _read_parquet,
+}
+WRITTEN_FORM: Mapping[str, Callable[[Tree], bytes]] = {
+    "yaml": _written_json,
+    "json": _written_json,
+    "csv": _written_csv,
+    "xml": _written_xml,
+    "parquet": _written_parquet,
+}
+
+
+# --- damage
+
+VALUES: tuple[Tree, ...] = (
+    *(None, True, False, 0, 1, -1, 2, 4, 5, 10**30, 0.1, -0.0, 1e-320, 1e308, float("nan"), float("inf")),
+    *(
+        "",
+        " ",
+        "0",
+        "-1",
+        "nan",
+        "1e999",
+        "on",
+        "lost",
+        "all",
+        "half",
+        "library",
+        "../../evil",
+        "/etc/passwd",
+    ),
+    *("0 s", "5 s", "120 km/h", "0 km/h", "100 %", "0 %", "90 % of the dry stop", "20 degC", "-3 bar"),
+    *("a\x00b", "\x1b[31m", "\ud800", "\u202e", "ä", "x" * 5000, "n" * 300 + ".yaml", "tcp://h:99999", "{n}"),
+    *([], {}, [[]], [None], [0, 1], ["a"], {"": None}, {"a": 1}, {"value": "1 s"}, {"extends": "threshold"}),
+    *(
+        {"value": None, "source": 1},
+        {"points": []},
+        {"at_least": "90 %"},
+        [{"position": "0 m"}],
+        [1, [2, {}]],
+    ),
+)
+WAYS = ("replace", "delete", "repeat", "swap", "wrap", "rename", "retype", "copy")
+Damage = tuple[str, int, int, int]
+damages = st.lists(
+    st.tuples(st.sampled_from(WAYS), *(st.integers(0, 9999) for _ in range(3))), min_size=1, max_size=3
+)
+byte_damages = st.lists(
+    st.tuples(
+        st.sampled_from(("change", "delete", "insert", "repeat", "cut", "line", "no line")),
+        *(st.integers(0, 10**6), st.integers(0, 40)),
+        st.sampled_from(
+            (b"\x00", b"\xff", b"-", b":", b"{", b"]", b'"', b"\n", b"\t", b"9", b"e", b"\xed\xa0\x80")
+        ),
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+def _places(tree: Tree, above: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Every place below the root: the keys and numbers that lead to it."""
+    for key, inner in (
+        tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+    ):
+        yield (*above, key)
+        yield from _places(inner, (*above, key))
+
+
+def _at(tree: Tree, place: tuple[Any, ...]) -> Tree:
+    for key in place:
+        tree = tree[key]
+    return tree
+
+
+def damaged(tree: Tree, wanted: list[Damage]) -> Tree:
+    """A copy of a tree, damaged at places that are given by number."""
+    root = [deepcopy(tree)]
+    for way, number, other_number, value in wanted:
+        places = list(_places(root))
+        place, other = places[number % len(places)], places[other_number % len(places)]
+        above, key, found = _at(root, place[:-1]), place[-1], _at(root, place)
+        if way == "delete":
+            del above[key]
+        elif way == "repeat":
+            above.insert(key, deepcopy(found)) if isinstance(above, list) else above.update(
+                {f"{key}2": found}
+            )
+        elif way == "rename" and isinstance(above, dict):
+            above[str(VALUES[value % len(VALUES)])] = above.pop(key)
+        elif way == "wrap":
+            above[key] = [found] if value % 2 else {"value": found}
+        elif way == "retype":
+            above[key] = str(found) if value % 2 or not isinstance(found, str) else len(found)
+        elif way == "swap":
+            above[key], _at(root, other[:-1])[other[-1]] = deepcopy(_at(root, other)), deepcopy(found)
+        elif way == "copy":
+            above[key] = deepcopy(_at(root, other))
+        else:
+            above[key] = deepcopy(VALUES[value % len(VALUES)])
+        if not root:
+            return None
+    return root[0]
+
+
+def damaged_bytes(content: bytes, wanted: list[tuple[str, int, int, bytes]]) -> bytes:
+    """A copy of the bytes of a file, damaged."""
+    for way, where, length, new in wanted:
+        at = where % (len(content) + 1)
+        lines = content.splitlines(keepends=True)
+        if way == "change":
+            content = content[:at] + new + content[at + len(new) :]
+        elif way == "insert":
+            content = content[:at] + new + content[at:]
+        elif way == "repeat":
+            content = content[: at + length] + content[at:]
+        elif way == "cut":
+            content = content[:at]
+        elif way == "delete":
+            content = content[:at] + content[at + length :]
+        elif lines:
+            line = where % len(lines)
+            content = b"".join(
+                [*lines[:line], *([lines[line]] * 2 if way == "line" else []), *lines[line + 1 :]]
+            )
+    return content
+
+
+# --- kinds
+
+
+def command(*arguments: str) -> Callable[[Path], None]:
+    """Read a file by a command, of which `{}` is its path."""
+
+    def read(path: Path) -> None:
+        shown = io.StringIO()
+        with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(shown):
+            code = execute([argument.replace("{}", str(path)) for argument in arguments])
+        assert code is not ExitCode.ERROR, shown.getvalue()
+
+    return read
+
+
+def function(read: Callable[[Path], object], *errors: type[Exception]) -> Callable[[Path], None]:
+    """Read a file by a function that raises these errors."""
+
+    def call(path: Path) -> None:
+        with contextlib.suppress(scenario.ScenarioErrors, *errors):
+            read(path)
+
+    return call
+
+
+def described_fmu(description: Path) -> None:
+    """Take an FMU of some description for a controller, as far as no code of it runs."""
+    with zipfile.ZipFile("any.fmu", "w") as archive:
+        archive.writestr("modelDescription.xml", description.read_bytes())
+        for platform in (fmpy.platform, fmpy.platform_tuple):
+            archive.writestr(f"binaries/{platform}/any{fmpy.sharedLibraryExtension}", b"")
+    command("check", "-v", "uses-fmu.yaml")(description)
+    fmu = Path("any.fmu")
+    with contextlib.suppress(ControllerError):
+        folder, read = fmu_file.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
+        kind = fmu_slave.Fmi2Slave if read.fmiVersion == "2.0" else fmu_slave.Fmi3Slave
+        slave = kind(MagicMock(), read, folder)
+        try:
+            fmu_instance.FmuInstance(slave, [], Config(4, 0.01, 20.0, (0.46,) * 4, {"late": 1}), {})
+        finally:
+            slave.release()
+
+
+def compared_baseline(path: Path) -> None:
+    """Compare the run that was made with a baseline."""
+    run = report.read_run(Path("good"))
+    scope = comparison.Scope(frozenset({"stop"}), ("stop.yaml",))
+    comparison.read_baseline(path.parent, scope, comparison.Tolerances()).compare(run)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of file."""
+
+    name: str
+    file: str
+    """Path of a damaged file; its ending may say what it is."""
+    form: str
+    valid: tuple[str, ...]
+    """Valid files: patterns below the repository, or names of files in the folder of the test."""
+    read: Callable[[Path], object]
+    cost: int = 1
+    """How many times as long as most it takes to read one; so much fewer are read."""
+
+
+PARTS = {
+    "vehicle": ("vehicles", "vehicle: part.yaml"),
+    "brake": ("brakes", "brake: {system: part.yaml}"),
+    "caliper": ("calipers", "rig: {caliper: part.yaml}"),
+    "compensation": ("compensations", "rig: {compensation_model: part.yaml}"),
+    "controller": ("controllers", "controller: part.yaml"),
+    "criteria": ("criteria", "criteria: [part.yaml]"),
+    "measures": ("measures", "measures: part.yaml"),
+    "pad": ("pads", "brake: {pad: part.yaml}"),
+    "rail": ("rails", "rail: {condition: part.yaml}"),
+    "sensors": ("sensors", "rig: {sensors: part.yaml}"),
+}
+_ADAPTER_ERRORS = (ValueError, OSError)
+KINDS = (
+    Kind(
+        "scenario",
+        "x.yaml",
+        "yaml",
+        ("scenarios/*-*[0-9].yaml", "full.yaml", "outside.yaml"),
+        command("check", "-v", "{}"),
+        1,
+    ),
+    Kind("sweep", "x.sweep.yaml", "yaml", ("scenarios/*.sweep.yaml",), command("check", "-v", "{}")),
+    Kind("series", "x.series.yaml", "yaml", ("scenarios/*.series.yaml",), command("check", "-v", "{}")),
+    *(
+        Kind(
+            f"{name} part",
+            "part.yaml",
+            "yaml",
+            (f"src/uictest/library/{folder}/*.yaml",),
+            command("check", "-v", f"uses-{name}.yaml"),
+        )
+        for name, (folder, _) in PARTS.items()
+    ),
+    Kind(
+        "controller from outside",
+        "part.yaml",
+        "yaml",
+        ("wsp.yaml", "fmu.yaml", "socket.yaml"),
+        command("check", "-v", "uses-controller.yaml"),
+    ),
+    Kind(
+        "bench recipe",
+        "x.yaml",
+        "yaml",
+        ("src/uictest/library/benches/*.yaml",),
+        function(rig.bench.load_bench),
+    ),
+    Kind(
+        "channel map",
+        "x.yaml",
+        "yaml",
+        ("src/uictest/library/channel_maps/*.yaml", "map.yaml"),
+        command("evaluate", "-v", "--list", "stop.csv", "--map", "{}"),
+    ),
+    Kind(
+        "validation",
+        "x.validation.yaml",
+        "yaml",
+        ("plan.validation.yaml",),
+        function(validation.load_validation),
+    ),
+    Kind(
+        "requirements in YAML",
+        "x.yaml",
+        "yaml",
+        ("list.yaml",),
+        command("list", "-v", "--requirements", "--requirement-list", "{}", "stop.yaml"),
+    ),
+    Kind(
+        "requirements in CSV",
+        "x.csv",
+        "csv",
+        ("list.csv",),
+        command("list", "-v", "--requirements", "--requirement-list", "{}", "stop.yaml"),
+    ),
+    Kind(
+        "requirements in text",
+        "x.txt",
+        "",
+        ("list.txt",),
+        command("list", "-v", "--requirements", "--requirement-list", "{}", "stop.yaml"),
+    ),
+    Kind("description of an FMU", "x.xml", "xml", ("fmi2.xml", "fmi3.xml"), described_fmu),
+    Kind(
+        "results of a run",
+        "bad/results.json",
+        "json",
+        ("good/results.json",),
+        command("report", "-v", "bad", "--format", "md,junit,csv", "-o", "out"),
+        3,
+    ),
+    Kind(
+        "results that are compared",
+        "bad/results.json",
+        "json",
+        ("good/results.json",),
+        command("compare", "-v", "good", "bad"),
+        3,
+    ),
+    Kind(
+        "results of the last run",
+        "last/latest/results.json",
+        "json",
+        ("good/results.json",),
+        command("run", "-v", "--lf", "--dry-run", "-o", "last", "stop.yaml"),
+        3,
+    ),
+    Kind(
+        "accepted baseline",
+        "bad/results.json",
+        "json",
+        ("good/results.json",),
+        function(compared_baseline, ValueError, OSError),
+        3,
+    ),
+    Kind(
+        "manifest",
+        "runs/one/manifest.json",
+        "json",
+        ("good/manifest.json",),
+        command("open", "-v", "runs"),
+        4,
+    ),
+    Kind(
+        "entry of the index",
+        "runs/one/index-entry.json",
+        "json",
+        ("good/index-entry.json",),
+        command("open", "-v", "runs"),
+        4,
+    ),
+    Kind(
+        "result of a sweep",
+        "sweep/sweep.json",
+        "json",
+        ("swept/sweep.json",),
+        command("report", "-v", "sweep", "--format", "md,csv", "-o", "out"),
+        3,
+    ),
+    Kind(
+        "manifest of a sweep",
+        "sweep/manifest.json",
+        "json",
+        ("swept/manifest.json",),
+        command("open", "-v", "."),
+        4,
+    ),
+    Kind(
+        "result of a validation",
+        "validation.json",
+        "json",
+        ("valid/validation.json",),
+        command("check", "-v", "uses-validation.yaml"),
+    ),
+    Kind(
+        "result of a validation that is used",
+        "x.json",
+        "json",
+        ("valid/validation.json",),
+        function(validation.read_validation, ValueError, OSError),
+    ),
+    Kind(
+        "recording in CSV",
+        "x.csv",
+        "csv",
+        ("short.csv",),
+        command(
+            "evaluate",
+            "-v",
+            "x.csv",
+            "--scenario",
+            "stop.yaml",
+            "--format",
+            "json",
+            "-o",
+            "out",
+            "--record",
+            "none",
+        ),
+        3,
+    ),
+    Kind(
+        "recording in Parquet",
+        "x.parquet",
+        "parquet",
+        ("good/recordings/stop.parquet",),
+        command("compare", "-v", "x.parquet", "good/recordings/stop.parquet"),
+    ),
+    Kind(
+        "recording of a run",
+        "bad/recordings/stop.parquet",
+        "parquet",
+        ("good/recordings/stop.parquet",),
+        command("report", "-v", "bad", "--format", "html", "-o", "out"),
+        8,
+    ),
+    *(
+        Kind(
+            f"recording in {name}",
+            f"x{FORMATS[name].suffix}",
+            "",
+            (f"short{FORMATS[name].suffix}",),
+            function(read_contents, UnreadableError, OSError),
+            12,
+        )
+        for name in ("mdf", "tdms", "mat", "parquet")
+    ),
+)
+
+FOUND = (
+    ("scenario", "faults:", "faults: [lost]\nno:"),
+    ("criteria part", "criteria:", "criteria: [lost]\nno:"),
+    ("description of an FMU", "<fmi", '<?xml version="1.0" encoding="unknown"?><fmi'),
+    ("description of an FMU", 'stepSize="0.01"', 'stepSize="0"'),
+    ("description of an FMU", 'fixedInternalStepSize="0.01"', 'fixedInternalStepSize="x"'),
+    ("description of an FMU", 'valueReference="1"', 'valueReference="-1"'),
+    ("description of an FMU", 'modelIdentifier="any"', ""),
+)
+"""What was an internal error once: kind, text of a valid file, what stands in its place."""
+HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
+FULL = """
+title: everything
+tags: [a]
+test_case: T-1
+requirements: [R-1]
+vehicle: {extends: intercity-180, wheelsets: {"2": {wheel_radius: 450 mm, wsp_valve: {travel_time: 20 ms}}}}
+brake: {command: 90 %, position: R, pad: {extends: disc-pad}}
+rail: {condition: wet, friction: {points: [{position: 0 m, friction: 0.1}, {position: 50 m, friction: 0.08}]}}
+rig: {topology: four-caliper, compensation: none, wsp: active, sensors: {extends: pole-wheel}}
+controller: {extends: threshold}
+criteria: [uictest-stop, {name: own, criteria: [{id: short, layer: requirement, measure: braking_distance, upper: 90 m}]}]
+faults:
+  - {at: 1 s, until: 20 km/h, wheelset: 2, part: speed-sensor, kind: stuck, value: 10 km/h}
+  - {at: 0 s, wheelset: 1, part: hold-magnet, kind: shorted}
+repeat: 3
+outcome_of_repeats: {at_least: 90 %}
+seed: 1
+matrix: {brake.command: [80 %, 90 %]}
+zip: {initial_speed: [30 km/h, 40 km/h], expect: [pass, fail]}
+include: [{rig.wsp: bypassed}]
+exclude: [{brake.command: 80 %, initial_speed: 40 km/h}]
+"""
+FILES = {
+    "stop.yaml": HEAD + "requirements: [R-1]\nrig: {compensation: none}\n",
+    "full.yaml": HEAD + FULL,
+    "outside.yaml": HEAD + "controller: {python: wsp.py, class: Wsp, parameters: {a: 1, b: [1, {c: x}]}}\n",
+    "wsp.py": "__version__ = '1'\nclass Wsp:\n    def step(self, inputs): ...\n",
+    "wsp.yaml": "schema: uictest/controller/1\nname: wsp\npython: wsp.py\nclass: Wsp\ncycle_time: 20 ms\nparameters: {a: 1}\n",
+    "fmu.yaml": "schema: uictest/controller/1\nname: fmu\nfmu: any.fmu\nvariables: {hold: y%d}\n",
+    "socket.yaml": "schema: uictest/controller/1\nname: socket\nconnect: tcp://127.0.0.1:5025\ntime_limit: 1 s\n",
+    "uses-fmu.yaml": HEAD + "controller: fmu.yaml\n",
+    "uses-validation.yaml": HEAD + "validated: validation.json\n",
+    "two.sweep.yaml": "schema: uictest/sweep/1\nname: two\nscenario: stop.yaml\ngrid: {brake.command: [80 %, 90 %]}\n",
+    "map.yaml": "schema: uictest/channel-map/1\nname: own\nextends: common-names\nchannels: {speed: {source: [v, speed], unit: km/h, scale: 1, sign: -1}}\n",
+    "plan.validation.yaml": "schema: uictest/validation/1\nname: plan\nstops:\n  - {scenario: stop.yaml, recordings: [a.parquet, b.parquet], set: {seed: 2}, repeat: 2, tuned: true}\n",
+    "one.validation.yaml": "schema: uictest/validation/1\nname: one\nstops:\n  - {scenario: stop.yaml, recordings: [good/recordings/stop.parquet]}\n",
+    "list.yaml": "- R-1\n- {id: R-2, title: x}\n",
+    "list.csv": "id,title\nR-1,x\nR-2,y\n",
+    "list.txt": "R-1  # first\nR-2\n",
+    "fmi2.xml": (
+        '<fmiModelDescription fmiVersion="2.0" modelName="any" guid="right" version="1"><CoSimulation modelIdentifier="any"/>'
+        '<DefaultExperiment stepSize="0.01"/><ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>'
+    ),
+    "fmi3.xml": (
+        '<fmiModelDescription fmiVersion="3.0" modelName="any" instantiationToken="right"><CoSimulation modelIdentifier="any"'
+        ' fixedInternalStepSize="0.01"/><ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>'
+    ),
+}
+
+
+def _variables(fmi: int) -> str:
+    listed = [
+        (f"{name}_{n}", "output" if name != "wheel_speed" else "input")
+        for name in ("wheel_speed", "hold", "vent")
+        for n in range(1, 5)
+    ]
+    listed += [("late", "parameter"), ("reference_speed", "output")]
+    kind = "Real" if fmi == 2 else "Float64"
+    texts = (
+        f'name="{name}" valueReference="{place}" causality="{causality}" variability="{"fixed" if causality == "parameter" else "discrete"}"'
+        for place, (name, causality) in enumerate(listed)
+    )
+    return "".join(
+        f"<ScalarVariable {text}><Real/></ScalarVariable>" if fmi == 2 else f"<{kind} {text}/>"
+        for text in texts
+    )
+
+
+def _small_recording() -> Recording:
+    time = np.arange(200) * 0.01
+    channels = {
+        "time": time,
+        "speed": 5.0 - 2.0 * time,
+        "wheel_speed_1": 5.0 - 2.0 * time,
+        "tank_pressure_1": 3.8e5 * time,
+    }
+    return Recording(
+        channels,
+        {"time": "s", "speed": "m/s", "wheel_speed_1": "m/s", "tank_pressure_1": "Pa"},
+        {"case": "small"},
+    )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A working folder with a valid file of every kind, and what reads them."""
+    folder = tmp_path_factory.mktemp("damaged")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.setattr(typer.main, "get_command", functools.cache(typer.main.get_command))
+        patch.setattr("uictest.scenario.files.read_library", functools.cache(scenario_yaml.read_library))
+        for variable in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER", "GITHUB_STEP_SUMMARY"):
+            patch.delenv(variable, raising=False)
+        in_child = isolation._run
+        patch.setattr(
+            isolation,
+            "_run",
+            lambda name, *rest: (_read_here if name in ("csv", "parquet") else in_child)(name, *rest),
+        )
+        for name, text in FILES.items():
+            Path(name).write_text(
+                text.replace("{}", _variables(int(name[3]))) if name.startswith("fmi") else text
+            )
+        for name, (_, used) in PARTS.items():
+            Path(f"uses-{name}.yaml").write_text(f"{HEAD}{used}\n")
+        with zipfile.ZipFile("any.fmu", "w") as archive:
+            archive.write("fmi2.xml", "modelDescription.xml")
+        command("run", "-v", "stop.yaml", "--record", "all", "-q")(folder)
+        shutil.copytree("reports/latest/", "good")
+        for copy in ("bad", "runs/one", "last/latest"):
+            shutil.copytree("good", copy)
+        command("sweep", "-v", "two.sweep.yaml", "-o", "sweeps")(folder)
+        shutil.copytree("sweeps/two", "swept")
+        shutil.copytree("sweeps/two", "sweep")
+        command("validate", "-v", "one.validation.yaml", "-o", "validations")(folder)
+        shutil.copytree(next(Path("validations").iterdir()), "valid")
+        for kind in ("csv", "mdf", "tdms", "mat", "parquet"):
+            writer_of(kind)(_small_recording(), Path(f"short{FORMATS[kind].suffix}"))
+        shutil.copy("short.csv", "stop.csv")
+        yield folder
+
+
+def _read_here(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
+    """Read a recording as the process does that is started for it."""
+    try:
+        contents = reader.read_here(name, path, dialect)
+    except Exception as error:
+        raise UnreadableError(type(error).__name__) from error
+    reader.write_contents(contents, folder)
+
+
+def _valid_files(kind: Kind) -> list[bytes]:
+    paths = [path for pattern in kind.valid for path in (sorted(SOURCE.glob(pattern)) or [Path(pattern)])]
+    return [path.read_bytes() for path in paths]
+
+
+def _read(kind: Kind, content: bytes) -> None:
+    path = Path(kind.file)
+    kept = path.read_bytes() if path.parent.name else None
+    path.write_bytes(content)
+    try:
+        kind.read(path)
+    finally:
+        if kept is not None:
+            path.write_bytes(kept)
+
+
+_checked = settings(
+    suppress_health_check=list(HealthCheck),
+    phases=(Phase.reuse, Phase.generate),  # the damage is short as it is, and reading it again takes long
+    report_multiple_bugs=False,
+)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_valid_files_are_read(kind: Kind) -> None:
+    for content in _valid_files(kind):
+        _read(kind, content)
+
+
+@pytest.mark.parametrize(("name", "valid", "damaged"), FOUND)
+def test_what_was_found_is_no_internal_error(name: str, valid: str, damaged: str) -> None:
+    kind = next(each for each in KINDS if each.name == name)
+    content = next(each for each in _valid_files(kind) if valid.encode() in each)
+    _read(kind, content.replace(valid.encode(), damaged.encode()))
+
+
+@pytest.mark.parametrize("kind", [each for each in KINDS if each.form], ids=lambda kind: kind.name)
+def test_other_values_are_no_internal_error(kind: Kind) -> None:
+    trees = [READ_FORM[kind.form](content) for content in _valid_files(kind)]
+
+    @settings(_checked, max_examples=max(EXAMPLES // kind.cost, 1))
+    @given(st.integers(0, len(trees) - 1), damages)
+    def check(number: int, wanted: list[Damage]) -> None:
+        try:
+            content = WRITTEN_FORM[kind.form](damaged(trees[number], wanted))
+        except (pa.ArrowException, TypeError, ValueError, LookupError, OverflowError):
+            return  # the damage cannot be written in this form
+        _read(kind, content)
+
+    check()
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_damaged_bytes_are_no_internal_error(kind: Kind) -> None:
+    contents = _valid_files(kind)
+
+    @settings(_checked, max_examples=max(EXAMPLES // kind.cost // 2, 1))
+    @given(st.integers(0, len(contents) - 1), byte_damages)
+    def check(number: int, wanted: list[tuple[str, int, int, bytes]]) -> None:
+        _read(kind, damaged_bytes(contents[number], wanted))
+
+    check()
