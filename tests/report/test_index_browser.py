@@ -11,6 +11,8 @@ import pytest
 from uictest import report, runs
 from uictest.evaluation import CaseResult
 from uictest.studies import (
+    OwnBand,
+    SourceBand,
     Study,
     StudyFindings,
     StudyQuantity,
@@ -40,9 +42,23 @@ def index(tmp_path: Path, make_result: Callable[..., CaseResult]) -> Path:
 def study_page(tmp_path: Path) -> Path:
     """A study with a value that holds, one that misses, one that is only shown, and a figure."""
     quantities = (
-        StudyQuantity("time", "braking time", "s", "17.6 s", 16.5, 19.0, reason="ours"),
-        StudyQuantity("share", "share", "%", "below 2 %", upper=2.0, below=True, reason="paper"),
-        StudyQuantity("count", "actuations", digits=0),
+        StudyQuantity(
+            "time",
+            "braking time",
+            "s",
+            "17.6 s",
+            status="calibrated",
+            band=OwnBand(lower=16.5, upper=19.0, reason="ours"),
+        ),
+        StudyQuantity(
+            "share",
+            "share",
+            "%",
+            "below 2 %",
+            status="predicted",
+            band=SourceBand(upper=2.0, below=True, declared_miss="Heat."),
+        ),
+        StudyQuantity("count", "actuations", status="predicted", digits=0),
     )
     values = {"time": StudyValue(18.1, 17.9, 18.3), "share": StudyValue(2.5), "count": StudyValue(11.0)}
 

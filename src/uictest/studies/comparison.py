@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from uictest.report import TableColumn, aligned, counted
+from uictest.report import aligned_rows, counted
 from uictest.studies.quantity import RESULTS, STATUSES, PaperComparison, SourceBand, StudyQuantity
 from uictest.studies.study import Study, StudyResult, Table
 
@@ -69,26 +69,34 @@ def misses(results: Sequence[StudyResult]) -> list[str]:
         for comparison in each.comparisons
         if comparison.result == "misses" or comparison.fails
     ]
-    columns: dict[str, Sequence[str]] = {
-        "study": [name for name, _ in rows],
-        "quantity": [comparison.quantity.title for _, comparison in rows],
-        "band": [band_text(comparison.quantity) for _, comparison in rows],
-        "ours": [ours_text(comparison) for _, comparison in rows],
-        "status": [comparison.quantity.status for _, comparison in rows],
-        "result": [result_text(comparison) for _, comparison in rows],
-    }
-    return list(aligned([TableColumn(title, cells) for title, cells in columns.items()])) if rows else []
+    table = [
+        (
+            name,
+            comparison.quantity.title,
+            band_text(comparison.quantity),
+            ours_text(comparison),
+            comparison.quantity.status,
+            result_text(comparison),
+        )
+        for name, comparison in rows
+    ]
+    titles = ("study", "quantity", "band", "ours", "status", "result")
+    return list(aligned_rows([titles, *table])) if rows else []
+
+
+def claim_counts(results: Sequence[StudyResult]) -> list[list[str]]:
+    """Return how many values hold, miss and are shown, by their status: rows of a table, titles first."""
+    rows = [comparison for each in results for comparison in each.comparisons]
+    counts = Counter((comparison.quantity.status, comparison.result) for comparison in rows)
+    table = [[counts[status, result] for result in RESULTS] for status in STATUSES]
+    together = [sum(column) for column in zip(*table, strict=True)]
+    named = zip((*STATUSES, "all"), (*table, together), strict=True)
+    return [["status", *RESULTS], *([name, *map(str, row)] for name, row in named)]
 
 
 def claims(results: Sequence[StudyResult]) -> list[str]:
-    """Return a table of how many values hold, miss and are shown, by what they are worth as evidence."""
-    rows = [comparison for each in results for comparison in each.comparisons]
-    counts = Counter((comparison.quantity.status, comparison.result) for comparison in rows)
-    columns = [TableColumn("status", [*STATUSES, "all"])]
-    for result in RESULTS:
-        column = [counts[status, result] for status in STATUSES]
-        columns.append(TableColumn(result, [str(each) for each in (*column, sum(column))], right=True))
-    return list(aligned(columns))
+    """Return the table of :func:`claim_counts` as lines."""
+    return list(aligned_rows(claim_counts(results)))
 
 
 def paper_text(study: Study) -> str:

@@ -15,7 +15,7 @@ from uictest.report.page import render
 from uictest.studies import band_plot
 from uictest.studies.comparison import (
     band_text,
-    claims,
+    claim_counts,
     declared_misses,
     ours_text,
     paper_text,
@@ -88,7 +88,7 @@ def studies_html(
         results=results,
         earlier=earlier,
         failed=sum(each.fails for each in results),
-        claims=claims(results),
+        counts=claim_counts(results),
         tally=tally,
         content={"manifest": manifest},
         **_words(),

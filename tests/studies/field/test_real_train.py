@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pytest
 
+from uictest.studies import OwnBand
 from uictest.studies.experiments.field_against_rig import QUANTITIES
 from uictest.studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop, even_braking_delay
 
@@ -21,10 +22,12 @@ def test_the_data_are_those_of_the_source() -> None:
 
 
 def test_bands_of_the_figures_are_their_tolerances() -> None:
-    bounds = {each.key: (each.lower, each.upper) for each in QUANTITIES if each.key in REAL_TRAIN}
-    for name, (lower, upper) in bounds.items():
-        assert lower == pytest.approx(REAL_TRAIN[name] - TOLERANCES[name])
-        assert upper == pytest.approx(REAL_TRAIN[name] + TOLERANCES[name])
+    bands = {each.key: each.band for each in QUANTITIES if each.key in REAL_TRAIN}
+    assert bands.keys() == REAL_TRAIN.keys()
+    for name, band in bands.items():
+        assert isinstance(band, OwnBand)
+        assert band.lower == pytest.approx(REAL_TRAIN[name] - TOLERANCES[name])
+        assert band.upper == pytest.approx(REAL_TRAIN[name] + TOLERANCES[name])
 
 
 def test_the_real_train_fits_itself_and_a_stop_without_end_fits_nothing() -> None:
