@@ -36,7 +36,7 @@ def stop(folder: Path, controller: str) -> StopInputs:
             "controller.parameters.at: 10000 is out of range; accepted: 0 to 9999",
         ),
         ((), "parameters: {fault: 1}", "controller.parameters.fault: expected a text, found a number (1)"),
-        ((), "declared_parameters: {ta: {default: 1, unit: s}}", "no parameter ta; did you mean at?"),
+        ((), "declared_parameters: {ta: {default: 1, unit: s}}", "no parameter ta; accepted: fault, at"),
         (
             ("-DSILENT",),
             "parameters: {at: 1}",
