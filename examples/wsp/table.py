@@ -10,12 +10,20 @@ from pathlib import Path
 Row = dict[str, str]
 
 
-def read(folder: Path) -> dict[str, dict[str, Row]]:
-    """Return the rows of a run by criterion and series."""
+SHOWN = (
+    *("k_wet", "stopping_distance_extension", "worst_stopping_distance_extension"),
+    "median_adhesion_utilisation",
+)
+"""Measures that are shown where a series does not judge them."""
+
+
+def read(path: Path, key: str) -> dict[str, dict[str, Row]]:
+    """Return the rows of a file of a run, over all speeds, by criterion or measure and by series."""
     table: dict[str, dict[str, Row]] = {}
-    with (folder / "series-criteria.csv").open(encoding="utf-8", newline="") as file:
+    with path.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
-            table.setdefault(row["criterion"], {})[row["series"]] = row
+            if key == "criterion" or row["speed_kmh"] == "all":
+                table.setdefault(row[key], {})[row["series"]] = row
     return table
 
 
@@ -24,7 +32,7 @@ def cell(row: Row) -> str:
     text = short(row["value"])
     if row["low"]:
         text += f" ({short(row['low'])} .. {short(row['high'])})"
-    return text if row["verdict"] == "pass" else f"**{text}**"
+    return f"**{text}**" if row.get("verdict") in ("fail", "inconclusive") else text
 
 
 def short(number: str) -> str:
@@ -40,13 +48,23 @@ def title(criterion: str, row: Row) -> str:
 
 
 def main(folder: Path) -> None:
-    table = read(folder)
+    criteria = read(folder / "series-criteria.csv", "criterion")
+    table = {
+        name: rows
+        for name, rows in criteria.items()
+        if any(row["verdict"] != "not_applicable" for row in rows.values())
+    }
     series = list(dict.fromkeys(name for rows in table.values() for name in rows))
     print(f"| criterion | {' | '.join(name.partition('[')[2].rstrip(']') for name in series)} |")
     print(f"|---|{'--:|' * len(series)}")
     for criterion, rows in table.items():
         cells = [cell(rows[name]) for name in series]
         print(f"| {title(criterion, rows[series[0]])} | {' | '.join(cells)} |")
+    measures = read(folder / "series.csv", "measure")
+    for name in SHOWN if len(table) < len(criteria) else ():
+        unit = measures[name][series[0]]["unit"].replace("1", "")
+        cells = [cell(measures[name][each]) for each in series]
+        print(f"| `{name}` ○ {unit} | {' | '.join(cells)} |")
     missed = [sum(rows[name]["verdict"] != "pass" for rows in table.values()) for name in series]
     print(f"| criteria missed, of {len(table)} | {' | '.join(map(str, missed))} |")
 

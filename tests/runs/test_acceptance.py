@@ -56,3 +56,50 @@ def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept) -> None
     assert result.met
     assert result.bypassed_k_wet.estimate.value > tested.value
     assert result.bypassed_k_wet.estimate.stops == tested.stops == 6
+
+
+UNJUDGED = """\
+schema: uictest/scenario/1
+name: too-fast
+initial_speed: 160 km/h
+rail: {condition: wet, friction: 0.05}
+rig: {wsp: bypassed, compensation: thermal}
+criteria: uic-541-05-appendix-b
+"""
+TURNING = """\
+schema: uictest/scenario/1
+name: turning
+initial_speed: 120 km/h
+rail: {condition: wet, friction: 0.09}
+rig: {compensation: thermal}
+criteria:
+  schema: uictest/criteria/1
+  name: own
+  criteria:
+    - id: slides-deeply
+      layer: validity
+      measure: maximum_slide_above_cutoff
+      wheelsets: any
+      lower: 50 %
+      definition: {low_speed_cutoff: {value: 60 km/h, range: [10 km/h, 60 km/h]}}
+expect: invalid
+"""
+
+
+def test_a_stop_that_no_criterion_judges_is_not_met(tmp_path: Path) -> None:
+    """All wheels locked over four kilometres, and the one profile says nothing about such a stop."""
+    path = tmp_path / "too-fast.yaml"
+    path.write_text(UNJUDGED, "utf-8")
+    results = uictest.run(path)
+    assert (results[0].outcome, results.met) == ("skipped", False)
+    path.write_text(f"{UNJUDGED}expect: skipped\n", "utf-8")
+    assert uictest.run(path).met
+
+
+def test_a_verdict_that_turns_meets_nothing_where_strictness_is_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "turning.yaml"
+    path.write_text(TURNING, "utf-8")
+    assert uictest.run(path).met
+    strict = uictest.run(path, strict=True)
+    assert not strict.met
+    assert [verdict.id for verdict in strict[0].unsettled] == ["slides-deeply"]
