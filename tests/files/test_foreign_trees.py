@@ -65,7 +65,7 @@ def state(folder: Path) -> dict[str, str]:
 
 
 @given(TREES, TREES)
-@settings(deadline=None)
+@settings(deadline=None, max_examples=40)
 def test_nothing_of_somebody_else_changes(reports_tree: dict[str, Any], partial_tree: dict[str, Any]) -> None:
     logging.disable(logging.WARNING)
     with tempfile.TemporaryDirectory() as place:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import uictest
@@ -81,6 +82,7 @@ def test_the_room_itself_is_seen() -> None:
     assert {"mkdir", "rename", "replace", "unlink", "rmdir", "rmtree", "symlink", "open"} <= found
 
 
+@cache
 def _all_calls() -> list[tuple[str, int, str]]:
     return [
         (path.relative_to(PACKAGE).as_posix(), *call)

@@ -30,6 +30,7 @@ def test_a_fit_leaves_a_scenario_that_runs(call: Call, recorded: Path) -> None:
     assert answer.out.startswith("friction everywhere: 0.07")
     [folder] = Path("reports").iterdir()
     assert sorted(path.name for path in folder.iterdir()) == [
+        "SHA256SUMS",
         "fit.json",
         "guess-fitted.yaml",
         "overlay.csv",
@@ -99,7 +100,7 @@ def test_several_stops_share_the_cleaning_that_is_found(call: Call, cleaned: Pat
     stops = ("first", "second")
     files = [f"overlay-{stop}.{kind}" for stop in stops for kind in ("csv", "svg")]
     scenarios = [f"guess-fitted-{stop}.yaml" for stop in stops]
-    assert {path.name for path in folder.iterdir()} == {"fit.json", *files, *scenarios}
+    assert {path.name for path in folder.iterdir()} == {"SHA256SUMS", "fit.json", *files, *scenarios}
     document = json.loads((folder / "fit.json").read_text())
     assert document["cleaning"]["standing"] == "found"
     assert document["cleaning"]["energy"] == pytest.approx(8000.0, rel=0.1)

@@ -28,6 +28,7 @@ def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, sce
     assert "2 cases: 2 pass" in answer.err
     files = sorted(path.name for path in Path("reports/latest/").iterdir())
     assert files == [
+        "SHA256SUMS",
         "criteria.csv",
         "index-entry.json",
         "index.html",

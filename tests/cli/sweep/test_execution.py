@@ -39,7 +39,7 @@ def test_a_second_one_is_rejected_and_touches_nothing(call: Call, folder: Path, 
         assert answer.code == 4
         assert f"{folder} is in use by process" in answer.err
         assert "-o" in answer.err
-        assert [path.name for path in folder.iterdir()] == [".lock"]
+        assert [path.name for path in folder.iterdir()] == [".uictest.lock"]
 
 
 def test_shards_share_a_folder_and_nobody_discards_their_chunks(call: Call, folder: Path) -> None:
@@ -49,4 +49,4 @@ def test_shards_share_a_folder_and_nobody_discards_their_chunks(call: Call, fold
             assert call(*COMMAND, *options).code == 4
         assert call(*COMMAND, "--shard", "2/2").code == 0
     assert call(*COMMAND).code == 0
-    assert not (folder / ".lock").exists()
+    assert not (folder / ".uictest.lock").exists()

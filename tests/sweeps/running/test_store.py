@@ -104,6 +104,6 @@ def test_the_name_of_the_sweep_file_is_no_difference(store: ChunkStore, tmp_path
 
 
 def test_what_interrupted_writers_left_is_removed(store: ChunkStore) -> None:
-    (store.folder / "chunks" / ".partial-1.parquet").touch()
+    (store.folder / "chunks" / ".uictest-0123456789abcdef.partial").touch()
     store.remove_partial_files()
     assert len(list((store.folder / "chunks").iterdir())) == 2
