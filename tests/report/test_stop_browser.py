@@ -16,7 +16,7 @@ from uictest.recording import Recording
 from uictest.report import RunContent, RunManifest
 from uictest.report.traces.trace import trace_of
 
-from .chromium import emulate, resize, run, wait, written
+from .chromium import PLOTTED, emulate, resize, run, wait, written
 
 CASE = "slip 120[friction=0.09]"
 READY = "return document.querySelector('.plots[data-ready]') !== null"
@@ -97,7 +97,7 @@ def test_the_values_of_the_cursor_lie_beside_the_plots_and_never_over_the_loops(
 ) -> None:
     resize(browser, width)
     browser.get(stop_page.as_uri())
-    wait(browser, READY)
+    wait(browser, PLOTTED)
     overlap = run(
         browser,
         """

@@ -99,3 +99,14 @@ def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last(
     table, not_shown = verdict_table([kept], RunContent("run", [kept], {}).word, 50)
     assert "locked" not in _rendered(table, 50).splitlines()[0]
     assert "locked" in not_shown
+
+
+def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own(
+    make_result: MakeResult, make_verdict: MakeVerdict
+) -> None:
+    locked = make_verdict(id="locked-wheels", measure="longest_lock", status="fail", unit="s", value=109.66)
+    missed, kept = make_result(id="a", outcome="fail", criteria=(locked,)), make_result(id="b", criteria=())
+    table, _ = verdict_table([missed, kept], RunContent("run", [missed, kept], {}).word, 50)
+    lines = _rendered(table, 50).splitlines()
+    assert lines[0].split()[-1] == "locked-wheels"
+    assert [line.split()[-1] for line in lines[1:]] == ["s", "109.7", "-"]

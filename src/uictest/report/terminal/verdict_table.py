@@ -79,25 +79,39 @@ def _columns(
     ]
     if any_repeated(results):
         columns.insert(2, TableColumn("stops", [stops_text(result) or "-" for result in results]))
-    missed, speed = _missed_measures(results), slide_speed(results)
+    missed, speed = _missed_criteria(results), slide_speed(results)
     for title, name, form, rank, scale in (*_STOP_MEASURES, *_WHEELSET_MEASURES):
         cells = [_cell(_value(result, name), form, scale) for result in results]
-        own_rank = _FAILING if name in missed else rank
+        own_rank = _FAILING if name in missed.values() else rank
         columns.append(TableColumn(title.format(speed), cells, own_rank, right=True))
+    shown = {name for _, name, *_ in (*_STOP_MEASURES, *_WHEELSET_MEASURES)}
+    others = [criterion for criterion, column in missed.items() if column not in shown]
+    columns.extend(_criterion_column(results, criterion) for criterion in others)
     return columns
 
 
-def _missed_measures(results: Iterable[evaluation.CaseResult]) -> set[str]:
-    """Return the columns that the criteria rest on for which cases are not as expected."""
-    return {
-        column.name
+def _missed_criteria(results: Iterable[evaluation.CaseResult]) -> dict[str, str]:
+    """Return the criteria by which cases are not as expected, and the column that each rests on, or ""."""
+    verdicts = (
+        verdict
         for result in results
         if not result.met
         for verdict in result.criteria
         if verdict.status in ("fail", "inconclusive")
-        and (measure := MEASURES.get(verdict.measure)) is not None
-        and (column := measure.column) is not None
+    )
+    measures = {verdict.id: MEASURES.get(verdict.measure) for verdict in verdicts}
+    return {
+        criterion: measure.column.name if measure is not None and measure.column is not None else ""
+        for criterion, measure in measures.items()
     }
+
+
+def _criterion_column(results: Iterable[evaluation.CaseResult], criterion: str) -> TableColumn:
+    """Return the values of a criterion whose measure the table does not have."""
+    verdicts = [next((v for v in result.criteria if v.id == criterion), None) for result in results]
+    unit = next((verdict.unit for verdict in verdicts if verdict is not None), "").removeprefix("1")
+    cells = [_cell(None if verdict is None else verdict.value, ".4g", 1.0) for verdict in verdicts]
+    return TableColumn(f"{printable(criterion)}\n{unit}", cells, _FAILING, right=True)
 
 
 def _value(result: evaluation.CaseResult, measure: str) -> float | None:
