@@ -28,7 +28,12 @@ from .catalogue.conftest import sliding_stop, stop, wheelsets
 
 __all__ = ["sliding_stop", "stop", "wheelsets"]
 
-DEFINED = {"first_phase_duration": 3.0, "low_speed_cutoff": 30 / 3.6}
+DEFINED = {
+    "first_phase_duration": 3.0,
+    "low_speed_cutoff": 30 / 3.6,
+    "sliding_below": 0.9,
+    "end_speed": 60.0 / 3.6,
+}
 NEW = """
 from uictest.measures import Measure, MeasureValue, StopColumn
 
@@ -163,7 +168,7 @@ def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() ->
         assert column.unit == "1" or column.name.endswith(f"_{endings.get(column.unit, column.unit.lower())}")
     pure = {column.name for column in columns if column.unit == "1"}
     balances = {"energy_residual", "air_residual", "air_energy_residual"}
-    assert pure == {*balances, "adhesion_utilisation", "maximum_slide", "valve_actuations"}
+    assert pure == {*balances, "adhesion_utilisation", "maximum_slide", "sliding_share", "valve_actuations"}
 
 
 def test_importing_the_catalogue_imports_no_numpy() -> None:

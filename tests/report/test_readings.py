@@ -1,0 +1,87 @@
+"""The readings of a criterion stand side by side in every report."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+
+import pytest
+from openpyxl import load_workbook
+
+from uictest.evaluation import CaseResult, ReadVerdict, Verdict, result_document
+from uictest.recording import Recording
+from uictest.report import RunContent
+from uictest.report.formats.csv import criteria_table
+from uictest.report.formats.md import markdown_summary
+from uictest.report.formats.xlsx import workbook_bytes
+from uictest.report.page import page_html
+from uictest.report.terminal.case_lines import criterion_lines, definition_lines
+from uictest.report.traces.trace import trace_of
+
+SENTENCES = (
+    "at-once (decides) pass: 42 % (down to 60 km/h) keeps > 35 %",
+    "depth fail: 0 of 4 wheelsets keep > 35 % (above 30 km/h)",
+)
+
+
+@pytest.fixture
+def read_result(make_result: Callable[..., CaseResult], make_verdict: Callable[..., Verdict]) -> CaseResult:
+    """A case with a criterion that has two readings."""
+    bounds = ("%", 35.0, None, 7.0)
+    readings = (
+        ReadVerdict("at-once", True, "pass", "sliding_share", 42.0, *bounds, SENTENCES[0].partition(": ")[2]),
+        ReadVerdict(
+            "depth",
+            False,
+            "fail",
+            "maximum_slide_above_cutoff",
+            14.9,
+            *bounds,
+            SENTENCES[1].partition(": ")[2],
+            mark="chosen",
+            source="ours alone",
+            definition={"low_speed_cutoff": "30 km/h (chosen)"},
+        ),
+    )
+    return make_result(criteria=(make_verdict(id="minimum-slide", readings=readings), make_verdict()))
+
+
+def test_the_detail_on_a_terminal_has_every_reading_and_where_it_comes_from(read_result: CaseResult) -> None:
+    lines = "\n".join([*criterion_lines(read_result), *definition_lines([read_result])])
+    for sentence in SENTENCES:
+        assert f"minimum-slide read as {sentence}" in lines
+    expected = "minimum-slide read as depth: chosen: ours alone, low_speed_cutoff = 30 km/h (chosen)"
+    assert f"definition {expected}" in lines
+
+
+def test_tables_have_every_reading(read_result: CaseResult, make_content: Callable[..., RunContent]) -> None:
+    with_readings, without = criteria_table([read_result]).rows
+    assert with_readings["readings"] == "; ".join(SENTENCES)
+    assert without["readings"] == ""
+    sheet = load_workbook(io.BytesIO(workbook_bytes(make_content(read_result))))["Criteria"]
+    header, first, *_ = sheet.iter_rows(values_only=True)
+    assert dict(zip(header, first, strict=True))["readings"] == "; ".join(SENTENCES)
+
+
+def test_the_page_and_the_summary_have_every_reading(
+    read_result: CaseResult,
+    make_content: Callable[..., RunContent],
+    make_recording: Callable[..., Recording],
+) -> None:
+    content = make_content(read_result, traces={read_result.id: trace_of(make_recording())})
+    for sentence in SENTENCES:
+        escaped = sentence.replace(">", "&gt;")
+        assert escaped in page_html(content)
+        assert sentence.partition(": ")[0] in markdown_summary(content)
+    assert "ours alone" in page_html(content)
+
+
+def test_the_result_has_every_reading(read_result: CaseResult) -> None:
+    document = json.loads(json.dumps(result_document([read_result])))
+    with_readings, without = document["cases"][0]["criteria"]
+    assert [(each["id"], each["verdict"]) for each in with_readings["readings"]] == [
+        ("at-once", "pass"),
+        ("depth", "fail"),
+    ]
+    assert "readings" not in without
