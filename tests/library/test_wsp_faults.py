@@ -89,7 +89,8 @@ def test_a_stop_in_which_no_fault_begins_shows_no_reaction(
     )
     [case] = load([path])
     result = campaign.run_case(case, campaign.RecordingRequest("none")).result
-    assert [each.status for each in result.criteria] == ["pass", status, status, status]
+    judged = [each.status for each in result.criteria if each.layer != "rig"]
+    assert judged == ["pass", status, status, status]
     assert result.outcome == outcome
 
 

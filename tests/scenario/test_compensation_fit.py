@@ -43,9 +43,8 @@ def test_the_shipped_compensation_is_for_the_shipped_rig(case: Load) -> None:
             "brake.system.tank.volume is 4 L, the compensation is for 2 L within 50 %",
         ),
         (
-            "vehicle.wheelsets.3.wsp_valve.vent_conductance=9e-8 m3/(s Pa)",
-            "vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), the compensation is for"
-            " 2.73e-08 m3/(s Pa) within 50 %",
+            "brake.system.wsp_valve.travel_time=50 ms",
+            "brake.system.wsp_valve.travel_time is 50 ms, the compensation is for 20 ms within 50 %",
         ),
     ],
 )
@@ -55,6 +54,11 @@ def test_a_number_beyond_its_tolerance_is_named_with_both_values(
     assert told(case(override)) == [reason]
     assert told(case(override, "rig.topology=four-caliper")) == []
     assert told(case(override, "rig.compensation_model=identify")) == []
+
+
+def test_the_valve_of_a_module_without_a_caliper_counts(case: Load) -> None:
+    [reason] = told(case("vehicle.wheelsets.3.wsp_valve.vent_conductance=9e-8 m3/(s Pa)"))
+    assert reason.startswith("vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), ")
 
 
 def test_a_number_within_its_tolerance_fits(case: Load) -> None:
@@ -73,7 +77,10 @@ def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> Non
     assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
 
 
-def test_no_profile_takes_the_id_of_a_check_of_the_rig(case: Load, tmp_path: Path) -> None:
+def test_no_profile_takes_the_id_of_a_check_of_the_rig(
+    case: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "own.yaml").write_text(
         "schema: uictest/criteria/1\nname: own\ncriteria:\n"
         "  - {id: compensation-fits, layer: validity, measure: braking_distance, upper: 1 km}\n"

@@ -82,7 +82,5 @@ def test_lines_identified_for_another_lever_follow_it(tmp_path: Path) -> None:
 
 def test_a_bench_that_saturates_the_loadcells_identifies_nothing(tmp_path: Path) -> None:
     case = stop(tmp_path, "rig.caliper.lever_ratio=4", "rig.compensation=hysteresis")
-    with pytest.raises(
-        ValueError, match=r"end of their range, 25 kN: give rig\.sensors\.loadcell\.range more"
-    ):
+    with pytest.raises(ValueError, match=r"their range, 25 kN: give rig\.sensors\.loadcell\.range"):
         bench.identified(case)
