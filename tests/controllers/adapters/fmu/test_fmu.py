@@ -381,7 +381,9 @@ def test_a_missing_extra_is_named(
 
 
 @pytest.mark.parametrize("size", ["0", "-0.01", "nan", "inf", "soon"])
-def test_a_step_size_that_is_none_is_refused(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, size: str) -> None:
+def test_a_step_size_that_is_none_is_refused(
+    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, size: str
+) -> None:
     stated = {"experiment": f'<DefaultExperiment stepSize="{size}"/>'}
     if fmi == 3:
         stated = {"interface": f'fixedInternalStepSize="{size}"'}
