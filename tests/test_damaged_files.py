@@ -56,9 +56,6 @@ EXAMPLES = settings().max_examples * 3 // 10
 Tree = Any
 
 
-# --- forms: from the bytes of a file to a tree of values, and back
-
-
 def _read_yaml(content: bytes) -> Tree:
     return yaml.safe_load(content)
 
@@ -133,9 +130,6 @@ WRITTEN_FORM: Mapping[str, Callable[[Tree], bytes]] = {
     "xml": _written_xml,
     "parquet": _written_parquet,
 }
-
-
-# --- damage
 
 VALUES: tuple[Tree, ...] = (
     *(None, True, False, 0, 1, -1, 2, 4, 5, 10**30, 0.1, -0.0, 1e-320, 1e308, float("nan"), float("inf")),
@@ -251,9 +245,6 @@ def damaged_bytes(content: bytes, wanted: list[tuple[str, int, int, bytes]]) -> 
     return content
 
 
-# --- kinds
-
-
 def command(*arguments: str) -> Callable[[Path], None]:
     """Read a file by a command, of which `{}` is its path."""
 
@@ -328,7 +319,6 @@ PARTS = {
     "rail": ("rails", "rail: {condition: part.yaml}"),
     "sensors": ("sensors", "rig: {sensors: part.yaml}"),
 }
-_ADAPTER_ERRORS = (ValueError, OSError)
 KINDS = (
     Kind(
         "scenario",
@@ -537,6 +527,8 @@ FOUND = (
 )
 """What was an internal error once: kind, text of a valid file, what stands in its place."""
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
+CONTROLLER = "schema: uictest/controller/1\nname: wsp\n"
+VALIDATION = "schema: uictest/validation/1\nname: plan\nstops:\n"
 FULL = """
 title: everything
 tags: [a]
@@ -547,7 +539,9 @@ brake: {command: 90 %, position: R, pad: {extends: disc-pad}}
 rail: {condition: wet, friction: {points: [{position: 0 m, friction: 0.1}, {position: 50 m, friction: 0.08}]}}
 rig: {topology: four-caliper, compensation: none, wsp: active, sensors: {extends: pole-wheel}}
 controller: {extends: threshold}
-criteria: [uictest-stop, {name: own, criteria: [{id: short, layer: requirement, measure: braking_distance, upper: 90 m}]}]
+criteria:
+  - uictest-stop
+  - {name: own, criteria: [{id: short, layer: requirement, measure: braking_distance, upper: 90 m}]}
 faults:
   - {at: 1 s, until: 20 km/h, wheelset: 2, part: speed-sensor, kind: stuck, value: 10 km/h}
   - {at: 0 s, wheelset: 1, part: hold-magnet, kind: shorted}
@@ -564,45 +558,52 @@ FILES = {
     "full.yaml": HEAD + FULL,
     "outside.yaml": HEAD + "controller: {python: wsp.py, class: Wsp, parameters: {a: 1, b: [1, {c: x}]}}\n",
     "wsp.py": "__version__ = '1'\nclass Wsp:\n    def step(self, inputs): ...\n",
-    "wsp.yaml": "schema: uictest/controller/1\nname: wsp\npython: wsp.py\nclass: Wsp\ncycle_time: 20 ms\nparameters: {a: 1}\n",
-    "fmu.yaml": "schema: uictest/controller/1\nname: fmu\nfmu: any.fmu\nvariables: {hold: y%d}\n",
-    "socket.yaml": "schema: uictest/controller/1\nname: socket\nconnect: tcp://127.0.0.1:5025\ntime_limit: 1 s\n",
+    "wsp.yaml": f"{CONTROLLER}python: wsp.py\nclass: Wsp\ncycle_time: 20 ms\nparameters: {{a: 1}}\n",
+    "fmu.yaml": f"{CONTROLLER}fmu: any.fmu\nvariables: {{hold: y%d}}\n",
+    "socket.yaml": f"{CONTROLLER}connect: tcp://127.0.0.1:5025\ntime_limit: 1 s\n",
     "uses-fmu.yaml": HEAD + "controller: fmu.yaml\n",
     "uses-validation.yaml": HEAD + "validated: validation.json\n",
-    "two.sweep.yaml": "schema: uictest/sweep/1\nname: two\nscenario: stop.yaml\ngrid: {brake.command: [80 %, 90 %]}\n",
-    "map.yaml": "schema: uictest/channel-map/1\nname: own\nextends: common-names\nchannels: {speed: {source: [v, speed], unit: km/h, scale: 1, sign: -1}}\n",
-    "plan.validation.yaml": "schema: uictest/validation/1\nname: plan\nstops:\n  - {scenario: stop.yaml, recordings: [a.parquet, b.parquet], set: {seed: 2}, repeat: 2, tuned: true}\n",
-    "one.validation.yaml": "schema: uictest/validation/1\nname: one\nstops:\n  - {scenario: stop.yaml, recordings: [good/recordings/stop.parquet]}\n",
+    "two.sweep.yaml": (
+        "schema: uictest/sweep/1\nname: two\nscenario: stop.yaml\ngrid: {brake.command: [80 %, 90 %]}\n"
+    ),
+    "map.yaml": (
+        "schema: uictest/channel-map/1\nname: own\nextends: common-names\n"
+        "channels: {speed: {source: [v, speed], unit: km/h, scale: 1, sign: -1}}\n"
+    ),
+    "plan.validation.yaml": (
+        f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [a.parquet, b.parquet], set: {{seed: 2}},"
+        " repeat: 2, tuned: true}\n"
+    ),
+    "one.validation.yaml": (
+        f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [good/recordings/stop.parquet]}}\n"
+    ),
     "list.yaml": "- R-1\n- {id: R-2, title: x}\n",
     "list.csv": "id,title\nR-1,x\nR-2,y\n",
     "list.txt": "R-1  # first\nR-2\n",
     "fmi2.xml": (
-        '<fmiModelDescription fmiVersion="2.0" modelName="any" guid="right" version="1"><CoSimulation modelIdentifier="any"/>'
-        '<DefaultExperiment stepSize="0.01"/><ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>'
+        '<fmiModelDescription fmiVersion="2.0" modelName="any" guid="right" version="1">'
+        '<CoSimulation modelIdentifier="any"/><DefaultExperiment stepSize="0.01"/>'
+        "<ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>"
     ),
     "fmi3.xml": (
-        '<fmiModelDescription fmiVersion="3.0" modelName="any" instantiationToken="right"><CoSimulation modelIdentifier="any"'
-        ' fixedInternalStepSize="0.01"/><ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>'
+        '<fmiModelDescription fmiVersion="3.0" modelName="any" instantiationToken="right">'
+        '<CoSimulation modelIdentifier="any" fixedInternalStepSize="0.01"/>'
+        "<ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>"
     ),
 }
 
 
 def _variables(fmi: int) -> str:
-    listed = [
-        (f"{name}_{n}", "output" if name != "wheel_speed" else "input")
-        for name in ("wheel_speed", "hold", "vent")
-        for n in range(1, 5)
-    ]
+    quantities = {"wheel_speed": "input", "hold": "output", "vent": "output"}
+    listed = [(f"{name}_{number}", of) for name, of in quantities.items() for number in range(1, 5)]
     listed += [("late", "parameter"), ("reference_speed", "output")]
-    kind = "Real" if fmi == 2 else "Float64"
-    texts = (
-        f'name="{name}" valueReference="{place}" causality="{causality}" variability="{"fixed" if causality == "parameter" else "discrete"}"'
-        for place, (name, causality) in enumerate(listed)
-    )
-    return "".join(
-        f"<ScalarVariable {text}><Real/></ScalarVariable>" if fmi == 2 else f"<{kind} {text}/>"
-        for text in texts
-    )
+    texts = []
+    for place, (name, causality) in enumerate(listed):
+        kind = "fixed" if causality == "parameter" else "discrete"
+        text = f'name="{name}" valueReference="{place}" causality="{causality}" variability="{kind}"'
+        of_fmi = {2: f"<ScalarVariable {text}><Real/></ScalarVariable>", 3: f"<Float64 {text}/>"}
+        texts.append(of_fmi[fmi])
+    return "".join(texts)
 
 
 def _small_recording() -> Recording:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,10 +27,10 @@ NEVER_SOUNDS = {"extends": "threshold", "sounding_interval": "20 s"}
 
 
 @pytest.fixture
-def accept(tmp_path: Path) -> object:
+def accept(tmp_path: Path) -> Callable[..., Any]:
     """Judge a controller by a series of these wet stops."""
 
-    def judged(wet: str, controller: object) -> uictest.SeriesResult:  # type: ignore[name-defined]
+    def judged(wet: str, controller: object) -> Any:
         for name in ("dry-120", "cleaned-rail-120", "slip-120"):
             (tmp_path / f"{name}.yaml").write_text((SCENARIOS / f"{name}.yaml").read_text("utf-8"), "utf-8")
         path = tmp_path / "acceptance.series.yaml"
@@ -39,7 +41,7 @@ def accept(tmp_path: Path) -> object:
     return judged
 
 
-def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept) -> None:  # type: ignore[no-untyped-def]
+def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept: Callable[..., Any]) -> None:
     """It keeps every limit where sliding grinds the rail clean, and locks wheels wherever it does not."""
     assert accept(CLEANED, NEVER_SOUNDS).met
     both = accept(CLEANED + UNCLEANED, NEVER_SOUNDS)
@@ -50,7 +52,7 @@ def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept) ->
     assert uncleaned.measures["passing_share"].estimate.value <= 10.0
 
 
-def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept) -> None:  # type: ignore[no-untyped-def]
+def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept: Callable[..., Any]) -> None:
     result = accept(CLEANED + UNCLEANED, "threshold")
     tested = next(each for each in result.criteria if each.verdict.id == "k-wet").estimate
     assert result.met
