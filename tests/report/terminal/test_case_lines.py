@@ -12,8 +12,8 @@ MakeVerdict = Callable[..., Verdict]
 def test_the_line_of_a_case_that_is_met(make_result: MakeResult) -> None:
     assert case_line(make_result()) == (
         "pass dry-120[command=90] outcome=pass expect=pass braking_distance_m=465.25 braking_time_s=27.5 "
-        "mean_deceleration_mps2=1.195 initial_adhesion_g=- maximum_slide=0.02/0.04/0.06/0.08 "
-        "valve_actuations=1/2/3/4"
+        "mean_deceleration_mps2=1.195 initial_adhesion_g=- slide_above=moving_speed "
+        "maximum_slide=0.02/0.04/0.06/0.08 valve_actuations=1/2/3/4"
     )
 
 
