@@ -7,7 +7,6 @@ from .channels import (
 from .compensation_file import (
     Provenance as Provenance,
     check_compensation as check_compensation,
-    is_of_one_rig as is_of_one_rig,
     load_compensation as load_compensation,
     with_air as with_air,
     with_cylinder as with_cylinder,
@@ -24,6 +23,7 @@ from .hysteresis import (
     identify_hysteresis as identify_hysteresis,
     require_force_fit as require_force_fit,
 )
+from .listed_rig import is_of_one_rig as is_of_one_rig
 from .phases import (
     on_lines as on_lines,
     wsp_acting_from_commands as wsp_acting_from_commands,

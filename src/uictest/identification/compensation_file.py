@@ -14,22 +14,25 @@ from uictest.identification.air import AirResult
 from uictest.identification.cylinder import CylinderResult
 from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
-from uictest.scenario import Compensation, Files, Parts, RigTolerances, Roots
+from uictest.identification.listed_rig import (
+    RIG_DESCRIBED,
+    RIG_SOURCE,
+    TOLERANCES_OF,
+    Numbers,
+    is_of_one_rig,
+    listed_rig,
+    with_source,
+    with_sources,
+)
+from uictest.scenario import Compensation, Files, Parts, Roots
 from uictest.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 
-Numbers = dict[str, Any]
-"""Nested mapping like the file; a number is a pair of its text and the key of its source."""
-
-_SUBJECTS = ("hysteresis", "cylinder", "air")
 _FACTS = (
     *("record", "record sha256", "samples sha256", "record origin", "rig sha256"),
     *("command", "version", "fit", "date"),
 )
 """Facts of one identification, in the order of `_provenance`."""
-_RIG_SOURCE = "identified-for"
-_TOLERANCES_OF = "six-inch"
-"""The compensation of the library whose tolerances others take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,23 +171,15 @@ def _line(line: FittedLine, source: str) -> Numbers:
 
 def _numbers(base: Compensation) -> Numbers:
     return {
-        "sampling_time": _pair(base.sampling_time),
-        "linear": _pairs(base.linear),
+        "sampling_time": with_source(base.sampling_time),
+        "linear": with_sources(base.linear),
         "hysteresis": {
-            name: _pair(value) if isinstance(value, Quantity) else _pairs(value)
+            name: with_source(value) if isinstance(value, Quantity) else with_sources(value)
             for name, value in base.hysteresis
         },
-        "cylinder": {name: [_pair(value) for value in values] for name, values in base.cylinder},
-        "air": _pairs(base.air),
+        "cylinder": {name: [with_source(value) for value in values] for name, values in base.cylinder},
+        "air": with_sources(base.air),
     }
-
-
-def _pairs(section: Any) -> Numbers:
-    return {name: _pair(value) for name, value in section}
-
-
-def _pair(quantity: Quantity) -> tuple[str, str]:
-    return quantity.text, quantity.source
 
 
 def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
@@ -225,12 +220,10 @@ def _text(
     """The file as YAML."""
     described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
     if is_of_one_rig(facts) and provenance.rig:
-        tolerances = load_compensation(_TOLERANCES_OF)
+        tolerances = load_compensation(TOLERANCES_OF)
         others = {key: source.model_dump() for key, source in tolerances.sources.items()}
-        rig = {"mark": "identified", "text": "The rig of the records, as built"}
-        described = {**others, **described, _RIG_SOURCE: rig}
-        assert tolerances.identified_for is not None
-        numbers["identified_for"] = _rig(provenance.rig, tolerances.identified_for.tolerances)
+        described = {**others, **described, RIG_SOURCE: RIG_DESCRIBED}
+        numbers["identified_for"] = listed_rig(provenance.rig, tolerances)
     used = set(_sources_of(numbers))
     document = {
         "schema": "uictest/compensation/1",
@@ -246,28 +239,6 @@ def _text(
     return heading + yaml.dump(
         document, Dumper=_Dumper, sort_keys=False, width=118, allow_unicode=True, default_flow_style=False
     )
-
-
-def is_of_one_rig(facts: Mapping[str, str]) -> bool:
-    """Return whether all numbers of a compensation with this provenance were identified on one known rig."""
-    digests = {facts.get(f"{subject} rig sha256", "") for subject in _SUBJECTS}
-    return len(digests) == 1 and "" not in digests
-
-
-def _rig(rig: Mapping[str, str], tolerances: RigTolerances) -> Numbers:
-    """Return the section that lists a rig; a value is found by the last two elements of its key."""
-    numbers: Numbers = {"caliper": {}, "wsp_valve": {}}
-    for key, text in rig.items():
-        section, name = key.split(".")[-2:]
-        if section == "tank":
-            numbers["tank_volume"] = (text, _RIG_SOURCE)
-        else:
-            numbers[section][name] = (text, _RIG_SOURCE)
-    return numbers | {
-        "tolerances": {
-            name: _pair(value) if isinstance(value, Quantity) else _pairs(value) for name, value in tolerances
-        }
-    }
 
 
 def _marked(numbers: Any) -> Any:

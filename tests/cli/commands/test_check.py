@@ -148,3 +148,16 @@ def test_a_large_program_costs_hardly_more_than_its_text(call: Call, scenario: W
         assert tracemalloc.get_traced_memory()[1] < 30e6
     finally:
         tracemalloc.stop()
+
+
+def test_a_compensation_that_is_not_for_its_rig_is_reported_with_file_key_and_values(call, workplace):
+    (workplace / "unfit.yaml").write_text(
+        "schema: uictest/scenario/1\nname: unfit\ninitial_speed: 120 km/h\n"
+        "rig:\n  caliper: {extends: six-inch, lever_ratio: 3}\n"
+    )
+    answer = call("check", "unfit.yaml")
+    assert answer.code == 4
+    told = "unfit.yaml:5:46: rig.caliper.lever_ratio: is 3, the compensation is for 2.45 within 0.5 %"
+    assert told in answer.err
+    (workplace / "unfit.yaml").write_text((workplace / "unfit.yaml").read_text() + "expect: invalid\n")
+    assert call("check", "unfit.yaml").code == 0

@@ -245,3 +245,13 @@ def test_a_file_that_is_no_recording_is_refused(call, workplace):
     answer = call("identify", "cylinder", "x.parquet")
     assert answer.code == 4
     assert "x.parquet" in answer.err
+
+
+def test_a_record_of_another_tank_than_assumed_is_refused_with_what_to_write(call, workplace):
+    """Its heat conductances would be wrong by a factor, with small errors."""
+    assert (
+        call("bench", "wsp-cycling", "--set", "brake.system.tank.volume=4 L", "-o", "four.parquet").code == 0
+    )
+    answer = call("identify", "air", "four.parquet")
+    assert answer.code == 4
+    assert "brake.system.tank.volume 4 L, not 2 L; write --set 'brake.system.tank.volume=4 L'" in answer.err

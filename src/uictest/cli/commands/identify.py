@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ import typer
 
 from uictest import field_data, files, identification, library, runs, scenario
 from uictest.cli.exit_codes import ExitCode
+from uictest.cli.identified_rig import rig_of_record
 from uictest.cli.identify_options import (
     ActingTime,
     Base,
@@ -142,34 +143,13 @@ def air(
     part_name = "" if output is None else _name(name, record)
     roles = {"input": tank, "output": cylinder, "line": line, "command": command}
     recorded = _record(record, roles)
-    case = _rig_of(record, overrides or (), trusted or ())
-    _require_same_rig(record, recorded.rig, case)
+    case = rig_of_record(record, recorded.rig, overrides or (), trusted or ())
     result = _air(record, recorded, case, held_out)
     data(identification.air_text(result))
     if output is not None:
         provenance = _provenance(context, record, recorded, date)
         _write(output, record, identification.with_air(base_part, part_name, result, provenance))
     return ExitCode.MET
-
-
-def _rig_of(record: Path, overrides: Sequence[str], trusted: Sequence[Path]) -> scenario.Case:
-    """Return the rig of a record: that of the library with overrides."""
-    return bench.trace_recipe(record, "", None, overrides, None, trusted).case
-
-
-def _require_same_rig(record: Path, recorded: Mapping[str, str], case: scenario.Case) -> None:
-    """Raise InvalidInputError where a record states another tank or valve than the rig that is assumed."""
-    assumed = scenario.rig_as_built(case.scenario)
-    of_air = [key for key in recorded if key in assumed and key.startswith("brake.system.")]
-    stated = _rig_of(record, [f"{key}={recorded[key]}" for key in of_air], ())
-    values = scenario.rig_as_built(stated.scenario)
-    other = [key for key in of_air if values[key] != assumed[key]]
-    if other:
-        listed = "; ".join(f"{key} {values[key].text}, not {assumed[key].text}" for key in other)
-        options = " ".join(f"--set {shlex.quote(f'{key}={values[key].text}')}" for key in other)
-        raise runs.InvalidInputError(
-            f"{record}: recorded on another rig than assumed: {listed}; write {options}"
-        )
 
 
 def _air(
