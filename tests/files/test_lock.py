@@ -186,3 +186,10 @@ def test_no_lock_is_made_behind_a_link(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="is a link, which is not followed"):
         FolderLock(tmp_path, "link")
     assert list((tmp_path / "there").iterdir()) == []
+
+
+def test_a_file_that_took_the_place_of_the_lock_is_not_removed(tmp_path: Path) -> None:
+    with FolderLock(tmp_path):
+        (tmp_path / ".uictest.lock").unlink()
+        (tmp_path / ".uictest.lock").write_text("mine")
+    assert (tmp_path / ".uictest.lock").read_text() == "mine"

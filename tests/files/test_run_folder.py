@@ -320,3 +320,20 @@ def test_a_run_in_a_folder_behind_a_link_is_published_there(tmp_path: Path) -> N
     assert sorted(path.name for path in (tmp_path / "disk").iterdir()) == [LATEST, "run"]
     with FolderLock(tmp_path / "reports"):
         assert (tmp_path / "disk" / ".uictest.lock").exists()
+
+
+def test_a_run_that_is_published_while_its_name_is_being_reserved_has_the_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The name that reports state is that of their folder."""
+    mkdir = os.mkdir
+
+    def published_first(path: str, *arguments: int, dir_fd: int) -> None:
+        monkeypatch.setattr(os, "mkdir", mkdir)
+        (tmp_path / "run").mkdir()
+        mkdir(path, *arguments, dir_fd=dir_fd)
+
+    monkeypatch.setattr(os, "mkdir", published_first)
+    with RunFolder(tmp_path, "run") as folder:
+        assert folder.name == "run-2"
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
