@@ -195,7 +195,8 @@ class Criterion(Model):
             message = f"{quoted(other[0])} is no share of the dry stop, {quoted(shares[0])} is one"
             yield Inconsistency((other[0],), message, "write two criteria, or both bounds in the same way")
         if self.scope == "stop" and self.layer != "requirement":
-            message = "only a requirement can refer to the dry stop: which stops count decides that one"
+            which = f"a criterion of {self.layer} cannot refer to the dry stop"
+            message = f"{which}: which stops count decides that one"
             yield Inconsistency(("layer",), message, "write `layer: requirement`")
         if not self._of_single_stops():
             yield Inconsistency(
