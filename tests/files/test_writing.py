@@ -91,3 +91,13 @@ def test_nobody_else_can_read_or_write_a_private_file(tmp_path: Path) -> None:
         [temporary] = tmp_path.iterdir()
         assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
+
+
+def test_what_is_no_file_is_not_replaced_by_one(tmp_path: Path) -> None:
+    """A rename would make a file of `/dev/null`."""
+    pipe = tmp_path / "junit.xml"
+    os.mkfifo(pipe)
+    with pytest.raises(FileExistsError, match="no file, and not replaced by one"):
+        write_to(pipe, "text")
+    assert stat.S_ISFIFO(pipe.lstat().st_mode)
+    assert list(tmp_path.iterdir()) == [pipe]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import stat
 from collections.abc import Iterator
 from pathlib import Path, PurePath
 from typing import BinaryIO
@@ -33,6 +34,7 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
     with _errors_about(folder, name, temporary), opened(folder, below, make=True) as place:
         if last in ("", ".."):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
+        _require_replaceable(place, last)
         flags, mode = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600 if private else 0o666
         descriptor = os.open(temporary, flags, mode, dir_fd=place)
         try:
@@ -49,6 +51,14 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
             raise
         finally:
             os.close(descriptor)
+
+
+def _require_replaceable(place: int, name: str) -> None:
+    """Raise FileExistsError for a device or a pipe: a rename would put a file in the place of `/dev/null`."""
+    with contextlib.suppress(FileNotFoundError):
+        mode = os.lstat(name, dir_fd=place).st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode) or stat.S_ISDIR(mode)):
+            raise FileExistsError(errno.EEXIST, "no file, and not replaced by one", name)
 
 
 def write(
