@@ -49,7 +49,7 @@ QUANTITIES = (
         "minimum slide: time down to 60 km/h in which half of the wheelsets slide",
         "%",
         "above 35 %",
-        status="calibrated",
+        status="predicted",
         band=SourceBand(lower=SLIDE),
     ),
 )
@@ -76,6 +76,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
                 "is a share of time (inferred from TB/T 3009-2019), are readings of the profile "
                 "uic-541-05-appendix-b."
             ),
+            "The calibration asked for the depth of the slides of this stop, not for their share of time.",
             f"Slip-brake test: {len(SEEDS)} stops that differ in the noise of the sensors, median and range.",
         ),
     )
