@@ -122,7 +122,8 @@ def test_a_gpu_runs_no_controller_from_outside(call: Call, study: Any, swept: st
 
 def test_a_dry_run_loads_no_controller(call: Call, study: Any) -> None:
     file = study("grid: {controller.parameters.share: [0, 1]}\n")
-    Path("share.py").write_text("open('loaded', 'w')\n")
+    declared = 'PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}\n'
+    Path("share.py").write_text(f"open('loaded', 'w')\n{declared}")
     assert call("sweep", file, "--dry-run").code == 0
     assert call("check", file).code == 0
     assert call("list", file).code == 0
