@@ -275,13 +275,13 @@ def test_results_do_not_depend_on_threads_or_on_when(call: Call, scenario: Write
     assert texts[0] == texts[1] == texts[2]
 
 
-def test_an_unwritable_output_folder_exits_3_before_anything_runs(
+def test_an_unusable_output_folder_exits_4_before_anything_runs(
     call: Call, scenario: Write, made_up: list[str]
 ) -> None:
     scenario("a")
     Path("file").write_text("")
     answer = call("run", "-o", "file/reports")
-    assert (answer.code, answer.out) == (3, "")
+    assert (answer.code, answer.out) == (4, "")
     assert "file" in answer.err
     assert "Not a directory" in answer.err
     assert made_up == []

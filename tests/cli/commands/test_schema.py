@@ -19,7 +19,7 @@ def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call: Call)
     jsonschema.Draft7Validator.check_schema(schema)
 
 
-def test_a_file_that_cannot_be_written_exits_3(call: Call) -> None:
+def test_a_file_in_a_folder_that_is_not_there_exits_4(call: Call) -> None:
     answer = call("schema", "-o", "missing/schema.json")
-    assert answer.code == 3
+    assert answer.code == 4
     assert "No such file or directory" in answer.err

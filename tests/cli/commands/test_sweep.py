@@ -331,8 +331,8 @@ def test_junit_with_no_place_is_rejected_before_the_first_case(
 def test_no_chunks_are_reported_where_there_are_none(call: Call, study: Path) -> None:
     Path("reports").write_text("")
     answer = call("sweep", study)
-    assert answer.code == 3
-    assert answer.err == "uictest: reports/study: Not a directory (-v shows where)\n"
+    assert answer.code == 4
+    assert answer.err == "uictest: reports/study: Not a directory\n"
 
 
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
