@@ -49,6 +49,13 @@ def test_the_same_stops_under_the_median(repeated) -> None:
     assert not result.criteria[0].firm
 
 
+def test_a_check_of_the_rig_fails_under_the_median_where_it_fails_in_one_stop(repeated) -> None:
+    """The figures of a stop whose rig is wrong are in every median."""
+    result = repeated([450.0, 500.0, 470.0], MEDIAN, layer="rig")
+    assert (result.outcome, result.criteria[0].status) == ("invalid", "fail")
+    assert "seed 6: " in result.criteria[0].reason
+
+
 def test_measures_are_medians_over_the_stops(repeated) -> None:
     result = repeated([450.0, 480.0, 470.0, 460.0])
     assert result.measures["braking_distance_m"] == 465.0

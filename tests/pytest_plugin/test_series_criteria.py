@@ -76,6 +76,15 @@ def test_a_series_that_should_fail_is_one_item(run: Run, series: Write, k_wet: s
     assert any("wsp.series.yaml::acceptance::outcome" in line for line in done.lines)
 
 
+def test_a_series_that_no_criterion_judges_is_a_failed_item(run: Run, series: Write) -> None:
+    """It had no item at all, so that nothing was red."""
+    path = series("pass", "0.99")
+    path.write_text(path.read_text().replace("../two.yaml", "uic-541-05-appendix-b"))
+    done = run()
+    assert done.summary == "1 failed"
+    assert "skipped. Expected: pass" in done.lines
+
+
 def test_an_invalid_series_is_an_error_of_collection(run: Run, write: Write) -> None:
     write("scenarios/wsp.series.yaml", "schema: uictest/series/1\nname: x\ndry: none.yaml\nwet: none.yaml\n")
     done = run()

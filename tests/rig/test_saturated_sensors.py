@@ -54,6 +54,14 @@ def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(tm
         assert f"pressure sensor of {place} limited to 3 bar for" in reason
 
 
+def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(tmp_path: Path) -> None:
+    """One time is kept for all sensors; here it is not that of the loadcells, which follow."""
+    sensors = "{extends: standard, loadcell: {range: 14 kN}, pressure: {range: 1 bar}}"
+    run = judged(tmp_path, sensors=sensors)
+    for name in ("loadcells-in-range", "pressure-sensors-in-range"):
+        assert "; the first of any kind by " in check(run, name).reason
+
+
 def test_a_stop_within_the_ranges_has_its_checks_hold(tmp_path: Path) -> None:
     run = judged(tmp_path)
     assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}

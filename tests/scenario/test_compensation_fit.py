@@ -77,6 +77,18 @@ def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> Non
     assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
 
 
+def test_a_compensation_to_identify_has_tolerances_to_be_held_to(
+    case: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was an internal error, after minutes of identification."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.yaml").write_text(
+        "schema: uictest/compensation/1\nname: own\nextends: identify\nidentified_for: null\n"
+    )
+    with pytest.raises(ScenarioErrors, match="with `to_identify` has no `identified_for`"):
+        case("rig.compensation_model=own.yaml")
+
+
 def test_no_profile_takes_the_id_of_a_check_of_the_rig(
     case: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, Final
 
 from uictest import scenario
 from uictest.units import value_text
+
+_SATURATIONS: Final = ("loadcell_saturation", "pressure_saturation")
 
 
 def why_rig_fails(
@@ -15,10 +17,13 @@ def why_rig_fails(
     """Return which sensors are limited, or what the compensation was not identified for; else nothing."""
     if criterion.measure == "compensation_misfit":
         return "; ".join(map(str, scenario.misfits(resolved)))
-    if criterion.measure not in ("loadcell_saturation", "pressure_saturation"):
+    if criterion.measure not in _SATURATIONS:
         return ""
     limited = list(_limited(criterion.measure, resolved, measures, wheelsets))
-    return f"{'; '.join(limited)}; the first by {value_text(float(measures.saturation_time), 's')}"
+    other = next(each for each in _SATURATIONS if each != criterion.measure)
+    both = any(_limited(other, resolved, measures, wheelsets))
+    first = "the first of any kind" if both else "the first"
+    return f"{'; '.join(limited)}; {first} by {value_text(float(measures.saturation_time), 's')}"
 
 
 def _limited(

@@ -16,8 +16,9 @@ from uictest.pytest_plugin.item import RigItem, numbers_in, simulated, with_reas
 from uictest.scenario import yaml
 
 OUTCOME = "outcome"
-"""Name of the only item of a series that should not pass: its criteria cannot be expected one by one. With
-`--uictest-strict` every series has it: it says whether all verdicts are settled."""
+"""Name of the only item of a series that should not pass: its criteria cannot be expected one by one. So is
+that of a series without a criterion to judge it, which is skipped and not met. With `--uictest-strict` every
+series has it: it says whether all verdicts are settled."""
 
 
 class SeriesFile(pytest.File):
@@ -45,12 +46,12 @@ class SeriesCollector(pytest.Collector):
         self._planned = planned
 
     def collect(self) -> Iterator[SeriesItem]:
-        """Yield for each series an item per criterion, or the one of a series that should not pass."""
+        """Yield for each series an item per criterion, or the one of its outcome."""
         for planned in self._planned:
             run = SeriesRun(self.config, planned)
             values = planned.id.removeprefix(self.name)
             names = [criterion.id for _, criterion in planned.judged_criteria]
-            if planned.file.expect != "pass":
+            if planned.file.expect != "pass" or not names:
                 names = [OUTCOME]
             elif self.config.getoption("uictest_strict"):
                 names.append(OUTCOME)

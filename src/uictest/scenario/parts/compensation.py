@@ -233,3 +233,13 @@ class Compensation(Part):
     provenance: dict[str, str] = Field(
         default_factory=dict, description="How the numbers were identified, as text by topic."
     )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a compensation to identify whose tolerances, which the identified one takes, are missing."""
+        yield from super().inconsistencies()
+        if self.to_identify and self.identified_for is None:
+            yield Inconsistency(
+                ("identified_for",),
+                "a compensation with `to_identify` has no `identified_for`, whose tolerances it is held to",
+                "extend `identify`, or list the rig of the numbers that stand in",
+            )
