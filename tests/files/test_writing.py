@@ -101,3 +101,17 @@ def test_what_is_no_file_is_not_replaced_by_one(tmp_path: Path) -> None:
         write_to(pipe, "text")
     assert stat.S_ISFIFO(pipe.lstat().st_mode)
     assert list(tmp_path.iterdir()) == [pipe]
+
+
+@pytest.mark.parametrize("target", ["pipe", "file", "nothing"])
+def test_a_link_is_neither_replaced_nor_followed(tmp_path: Path, target: str) -> None:
+    """A rename would make a file of `/dev/stdout`, which is a link."""
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "file").write_text("mine")
+    link = tmp_path / "junit.xml"
+    link.symlink_to(target)
+    with pytest.raises(FileExistsError, match="is a link, and not replaced by a file"):
+        write_to(link, "text")
+    assert link.is_symlink()
+    assert (tmp_path / "file").read_text() == "mine"
+    assert not (tmp_path / "nothing").exists()

@@ -98,7 +98,7 @@ def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baselin
     try:
         document = json.loads(content)
         run = report.run_content(document, folder.name)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"{path}: not the results of a run: {error}") from error
     results = {result.id: result for result in run.results}
     sha256 = hashlib.sha256(content).hexdigest()

@@ -70,7 +70,12 @@ def write(
 
 
 def write_to(path: Path, content: bytes | str) -> None:
-    """Write a file that the user named; no list of its folder gets it. Raises OSError."""
+    """Write a file that the user named; no list of its folder gets it.
+
+    Raises OSError, also for a link: `/dev/stdout` is one, and a rename would put a file in its place.
+    """
+    if path.is_symlink():
+        raise FileExistsError(errno.EEXIST, "is a link, and not replaced by a file", str(path))
     write(path.parent, path.name, content, listed=False)
 
 

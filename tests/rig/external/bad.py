@@ -88,8 +88,18 @@ def scribble() -> Outputs:
     return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
 
 
+def forge(head: bytes) -> Outputs:
+    for descriptor in range(3, 30):
+        with suppress(OSError):
+            os.write(descriptor, b"\x01\x00\x00\x00" + len(head).to_bytes(8, "little") + head)
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
 FAULTS = {
     "scribble": scribble,
+    "forge-object": lambda: forge(b"{}"),
+    "forge-list": lambda: forge(b"[]"),
+    "forge-depth": lambda: forge(b"[" * 100_000),
     "mute": fail_mute,
     "long": fail_at_length,
     "crash": lambda: ctypes.string_at(0),

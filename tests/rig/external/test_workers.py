@@ -321,3 +321,12 @@ def test_something_else_than_an_answer_ends_the_stop(
     monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
     with Workers() as own, pytest.raises(ControllerError, match="something else than an answer"):
         own.run(stop_of("scribble"))
+
+
+@pytest.mark.parametrize("head", ["object", "list", "depth"])
+def test_a_message_that_is_no_answer_ends_the_stop_and_its_process(stop_of: StopOf, head: str) -> None:
+    """The true answer comes after it, and the next stop would get that."""
+    with Workers() as own:
+        with pytest.raises(ControllerError, match="something else than an answer"):
+            own.run(stop_of(f"forge-{head}"))
+        own.run(stop_of())

@@ -69,3 +69,11 @@ def test_any_text_is_a_tree_or_refused_with_a_place_in_it(text: str) -> None:
             assert each.line >= 1
             assert each.column >= 1
             assert str(each).replace("\n", "").isprintable()
+
+
+@pytest.mark.parametrize("text", ['a: "x\\0.yaml"', '"a\\0": 1', 'a: ["\\x00"]'])
+def test_an_escaped_nul_is_refused_at_its_place(text: str) -> None:
+    """The system takes no path that has one."""
+    with pytest.raises(ScenarioErrors, match=r"text:1:\d+: character '\\x00' is not accepted") as caught:
+        tree(text)
+    assert caught.value.salvaged is None

@@ -107,3 +107,8 @@ def test_what_interrupted_writers_left_is_removed(store: ChunkStore) -> None:
     (store.folder / "chunks" / ".uictest-0123456789abcdef.partial").touch()
     store.remove_partial_files()
     assert len(list((store.folder / "chunks").iterdir())) == 2
+
+
+def test_a_manifest_that_is_nested_too_deeply_is_none(tmp_path: Path) -> None:
+    (tmp_path / "manifest.json").write_text("[" * 100_000)
+    assert ChunkStore(tmp_path).manifest() is None

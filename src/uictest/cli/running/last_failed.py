@@ -51,7 +51,7 @@ def _command(run: Path) -> str:
     """Return the command that made a run; empty if it cannot be read."""
     try:
         return str(json.loads((run / "manifest.json").read_bytes())["command"][1])
-    except (OSError, ValueError, LookupError, TypeError):
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
         return ""
 
 
@@ -59,7 +59,7 @@ def _not_met(run: Path) -> frozenset[str]:
     path = run / report.RESULTS
     try:
         content = report.run_content(json.loads(path.read_text(encoding="utf-8")), run.name)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
         raise runs.InvalidInputError(f"{path} cannot be read as the results of a run: {error}") from error
     missed = [result.id for result in content.results if not result.met]
     return frozenset([*missed, *(result.id for result in content.series if not result.met)])

@@ -42,7 +42,10 @@ def _read_manifest(path: Path) -> dict[str, Any]:
 
 
 def _read_mapping(path: Path) -> dict[str, Any]:
-    content = json.loads(path.read_bytes())
+    try:
+        content = json.loads(path.read_bytes())
+    except RecursionError as error:  # nested deeper than JSON is read
+        raise ValueError(str(error)) from error
     if not isinstance(content, dict):
         raise ValueError("expected an object")
     return content

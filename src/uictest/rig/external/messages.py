@@ -45,9 +45,12 @@ def read_message(stream: BinaryIO) -> Message:
         raise BrokenMessageError(f"{sum(lengths)} bytes")
     head, *blocks = [_exactly(stream, length) for length in lengths]
     try:
-        return Message(json.loads(head), tuple(blocks))
-    except ValueError as error:
+        said = json.loads(head)
+    except (ValueError, RecursionError) as error:
         raise BrokenMessageError("no JSON") from error
+    if not isinstance(said, dict):
+        raise BrokenMessageError("no JSON object")
+    return Message(said, tuple(blocks))
 
 
 def _exactly(stream: BinaryIO, size: int) -> bytes:

@@ -7,12 +7,12 @@ import subprocess
 import sys
 import tempfile
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from select import select
 from socket import socket, socketpair
 from time import monotonic
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
 
@@ -59,6 +59,7 @@ _NAMES: Final = {
     NOT_CALLED: "what runs outside of its calls (a destructor, a thread)",
 }
 
+Read = TypeVar("Read")
 ProgramKey = tuple[str, str, str]
 """What programs share that may run in one process: kind, location, SHA-256."""
 
@@ -98,33 +99,41 @@ class Worker:
 
     def run(self, inputs: StopInputs, steps_per_sample: int) -> FinishedStop:
         """Run a stop. Raises ControllerError; LostChildError where the child is gone."""
-        return finished_of(self._answer(stop_message(inputs, steps_per_sample), [inputs.program]))
+        return self._answer(stop_message(inputs, steps_per_sample), [inputs.program], finished_of)
 
     def run_block(self, inputs: BlockInputs) -> BlockRun:
         """Run at most :data:`LARGEST_BLOCK` stops. Raises LostChildError."""
-        return run_of(self._answer(block_message(inputs), inputs.programs))
+        return self._answer(block_message(inputs), inputs.programs, run_of)
 
     def drive(self, request: DriveRequest) -> Drives:
         """Drive a controller through given cycles. Raises ControllerError, as :meth:`run`."""
-        return drives_of(self._answer(drive_message(request), [request.program]))
+        return self._answer(drive_message(request), [request.program], drives_of)
 
     def close(self) -> None:
         """End the child and whatever it has started."""
         self.usable = False
         self._release()
 
-    def _answer(self, request: Message, programs: Any) -> Message:
-        """Return the answer. Raises ControllerError; a child that may be damaged is not used again."""
+    def _answer(self, request: Message, programs: Any, read: Callable[[Message], Read]) -> Read:
+        """Return what is read in the answer. Raises ControllerError; a damaged child is not used again."""
         try:
             answer = self._asked(request, [program.time_limit for program in programs])
+            error = answer.head.get("error", "")
+            result = None if error else self._read(answer, read)
         except BaseException:
             self.close()
             raise
         # A controller that wrote where it should not may have damaged anything in the child.
         self.usable = not (self._exchanges["failure"] == WROTE_BEYOND).any()
-        if error := answer.head.get("error"):
-            raise ControllerError(error)
-        return answer
+        if result is None:
+            raise ControllerError(str(error))
+        return result
+
+    def _read(self, answer: Message, read: Callable[[Message], Read]) -> Read:
+        try:
+            return read(answer)
+        except Exception:  # its true answer would be taken for that of the next stop
+            raise self._lost("its process sent something else than an answer") from None
 
     def _asked(self, request: Message, time_limits: Sequence[float]) -> Message:
         try:

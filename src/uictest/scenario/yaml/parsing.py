@@ -109,6 +109,8 @@ class _Parser:
         if isinstance(event, yaml.AliasEvent):
             self._report(event, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
             return Scalar(None, "", place)
+        if "\0" in event.value:  # as an escape; no path and no name can have it
+            raise single_error(place, f"character {quoted(chr(0))} is not accepted")
         value = event.value if event.style else scalar_value(event.value)  # a style is a quotation or a block
         return Scalar(value, event.value, place)
 

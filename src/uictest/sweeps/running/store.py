@@ -58,7 +58,7 @@ class ChunkStore:
         """Return the manifest, None where there is none that can be read."""
         try:
             manifest = json.loads((self.folder / MANIFEST).read_bytes())
-        except (FileNotFoundError, ValueError):
+        except (FileNotFoundError, ValueError, RecursionError):
             return None
         return manifest if isinstance(manifest, dict) else None
 
