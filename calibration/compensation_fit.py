@@ -8,41 +8,13 @@ position R, full command, seed 0) differs by less than 0.5 % between the two, wi
 from pathlib import Path
 
 from uictest import rig
-from uictest.scenario import Case, load
+from uictest.scenario import Case, Quantity, load, rig_as_built
+from uictest.units import in_unit
 
 SCENARIO = Path(__file__).parent.parent / "scenarios" / "dry-120.yaml"
-KEYS = (
-    *(
-        f"rig.caliper.{name}"
-        for name in (
-            *("piston_area", "preload", "spring_rate", "coulomb_friction", "load_friction"),
-            *("viscous_friction", "contact_friction", "clearance", "contact_stiffness", "lever_ratio"),
-        )
-    ),
-    "brake.system.tank.volume",
-    *(
-        f"brake.system.wsp_valve.{name}"
-        for name in ("fill_conductance", "vent_conductance", "switching_delay", "travel_time")
-    ),
-)
 LADDER = (
-    0.001,
-    0.002,
-    0.003,
-    0.004,
-    0.006,
-    0.01,
-    0.015,
-    0.02,
-    0.03,
-    0.05,
-    0.075,
-    0.1,
-    0.15,
-    0.2,
-    0.3,
-    0.4,
-    0.5,
+    *(0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.01, 0.015, 0.02),
+    *(0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5),
 )
 WITHIN = 0.005
 SETTINGS = ("thermal", "full")
@@ -53,14 +25,6 @@ def distance(case: Case) -> float:
     return float(rig.simulate(case).measures.braking_distance)
 
 
-def value_of(case: Case, key: str) -> float:
-    """Return the value of a key, in the unit of the scenario's model."""
-    value: object = case.scenario
-    for name in key.split("."):
-        value = getattr(value, name)
-    return float(value)  # type: ignore[arg-type]
-
-
 def differences(overrides: tuple[str, ...] = ()) -> list[float]:
     """Return how far the rig with one caliper stops from the one with four, for each setting."""
     (four,) = load([SCENARIO], ["rig.topology=four-caliper", *overrides])
@@ -69,38 +33,20 @@ def differences(overrides: tuple[str, ...] = ()) -> list[float]:
     return [distance(case) / reference - 1.0 for case in cases]
 
 
-UNITS = {
-    "piston_area": "m2",
-    **dict.fromkeys(("preload", "coulomb_friction"), "N"),
-    **dict.fromkeys(("spring_rate", "contact_stiffness"), "N/m"),
-    **dict.fromkeys(("viscous_friction", "contact_friction"), "N s/m"),
-    "clearance": "m",
-    "load_friction": "",
-    "lever_ratio": "",
-    "volume": "m3",
-    **dict.fromkeys(("fill_conductance", "vent_conductance"), "m3/(s Pa)"),
-    **dict.fromkeys(("switching_delay", "travel_time"), "s"),
-}
-
-
-def written(key: str, value: float) -> str:
-    """Return an override that sets a key to a value in SI units."""
-    name = key.rsplit(".", 1)[1]
-    if name == "load_friction":
-        return f"{key}={100.0 * value!r} %"
-    if name == "clearance":
-        return f"{key}={1e3 * value!r} mm"
-    return f"{key}={value!r} {UNITS[name]}".rstrip()
+def written(key: str, nominal: Quantity, share: float) -> str:
+    """Return an override that moves a key by a share, in the unit in which the library writes it."""
+    unit = nominal.text.partition(" ")[2]
+    return f"{key}={in_unit(nominal * (1.0 + share), unit or '1')!r} {unit}".rstrip()
 
 
 def main() -> None:
     """Print the tolerance of every parameter, and the differences at its two ends and one step beyond."""
     print("nominal", *(f"{name} {100.0 * d:+.2f} %" for name, d in zip(SETTINGS, differences(), strict=True)))
     (nominal,) = load([SCENARIO])
-    for key in KEYS:
-        value, tolerance, shown = value_of(nominal, key), 0.0, ""
+    for key, value in rig_as_built(nominal.scenario).items():
+        tolerance, shown = 0.0, ""
         for share in LADDER:
-            ends = [differences((written(key, value * (1.0 + sign * share)),)) for sign in (-1.0, 1.0)]
+            ends = [differences((written(key, value, sign * share),)) for sign in (-1.0, 1.0)]
             text = ", ".join(
                 f"{sign}{100.0 * share:g} %: " + "/".join(f"{100.0 * each:+.2f}" for each in end)
                 for sign, end in zip("-+", ends, strict=True)

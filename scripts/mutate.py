@@ -32,7 +32,7 @@ _OTHER_TESTS = {
     "controllers": ("rig",),
     "ensemble": ("evaluation",),
     "faults": ("rig",),
-    "folder_lock": ("user_cache", "sweeps"),
+    "files": ("history", "user_cache"),
     "gym": ("stepping",),
     "library": ("scenario",),
     "measures": ("rig", "evaluation"),

@@ -4,7 +4,7 @@
     python scripts/try_versions.py newest       # the newest of each
     python scripts/try_versions.py next-numba   # the minor version of numba after the one that is allowed
 
-It answers what `uictest selftest` knows and passes some tests; arguments after `--` go to pytest
+It answers what `uictest selftest` knows and passes some tests; arguments after `--` go to pytest.
 `next-numba` may fail: the lanes use numba's internals. Exit code 5: no such numba has been released.
 """
 

@@ -62,9 +62,9 @@ def main(folder: Path) -> None:
         print(f"| {title(criterion, rows[series[0]])} | {' | '.join(cells)} |")
     measures = read(folder / "series.csv", "measure")
     for name in SHOWN if len(table) < len(criteria) else ():
-        unit = measures[name][series[0]]["unit"].replace("1", "")
+        unit = measures[name][series[0]]["unit"]
         cells = [cell(measures[name][each]) for each in series]
-        print(f"| `{name}` ○ {unit} | {' | '.join(cells)} |")
+        print(f"| `{name}` ○{'' if unit == '1' else f', {unit}'} | {' | '.join(cells)} |")
     missed = [sum(rows[name]["verdict"] != "pass" for rows in table.values()) for name in series]
     print(f"| criteria missed, of {len(table)} | {' | '.join(map(str, missed))} |")
 

@@ -3,15 +3,26 @@
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, Protocol
 
 _SHOWN: Final = 8
 """Names that a message lists at most; chosen."""
 
 
-Declaration = Any
-"""One declared parameter: ``default`` (None where the program keeps its own), ``unit``, and the ends of its
-``range`` or None."""
+class Declaration(Protocol):
+    """One declared parameter."""
+
+    @property
+    def default(self) -> Any:
+        """Its value where nobody gives it; None where the program keeps its own."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of a number; empty or 1 for none."""
+
+    @property
+    def range(self) -> Sequence[float] | None:
+        """Its smallest and its largest value; None where any is accepted."""
 
 
 class Problem(NamedTuple):

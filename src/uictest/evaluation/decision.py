@@ -48,12 +48,11 @@ def decide(
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
         return too_few_wheelsets(len(values))
+    where = criterion.speed_range(definition)
     if missing:
-        where = criterion.speed_range(definition)
         return _PartlyKnown(values, missing, course, bounds, needed, unit, where).decision()
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
-    where = criterion.speed_range(definition)
     return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit, where))
 
 

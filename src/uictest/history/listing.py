@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from uictest import files
 from uictest.history.run_in_folder import ListedRun, Unlisted, read_folder
 
 FOLDERS_READ: Final = 500
 """Folders that are read, the newest ones by their time of change."""
 CASES_READ: Final = 40
 """Folders of which the cases are read: the newest ones. Of the others the counts are read."""
-_LATEST: Final = "latest"
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ def list_runs(parent: Path) -> Listing:
 
 
 def _folders(parent: Path) -> list[Path]:
-    return [each for each in parent.iterdir() if each.name != _LATEST and each.is_dir()]
+    return [each for each in parent.iterdir() if each.name != files.LATEST and each.is_dir()]
 
 
 def _changed(folder: Path) -> tuple[float, str]:

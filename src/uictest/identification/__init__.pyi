@@ -1,5 +1,6 @@
 from .air import AirResult as AirResult
 from .channels import (
+    AS_BUILT as AS_BUILT,
     RecordedChannels as RecordedChannels,
     read_record as read_record,
     samples_digest as samples_digest,

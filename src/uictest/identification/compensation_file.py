@@ -16,7 +16,6 @@ from uictest.identification.hysteresis import HysteresisResult, all_four
 from uictest.identification.lines import FittedLine
 from uictest.identification.listed_rig import (
     RIG_DESCRIBED,
-    RIG_SOURCE,
     TOLERANCES_OF,
     Numbers,
     is_of_one_rig,
@@ -24,7 +23,7 @@ from uictest.identification.listed_rig import (
     with_source,
     with_sources,
 )
-from uictest.scenario import Compensation, Files, Parts, Roots
+from uictest.scenario import RIG_SOURCE, Compensation, Files, Parts, Roots
 from uictest.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
 from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Final
 
-from uictest.scenario import Compensation, Quantity
+from uictest.scenario import RIG_SOURCE, Compensation, Quantity
 
 Numbers = dict[str, Any]
 """Nested mapping like the file; a number is a pair of its text and the key of its source."""
 
 TOLERANCES_OF: Final = "six-inch"
 """The compensation of the library whose tolerances others take."""
-RIG_SOURCE: Final = "identified-for"
 RIG_DESCRIBED: Final = {"mark": "identified", "text": "The rig of the records, as built"}
 _SUBJECTS: Final = ("hysteresis", "cylinder", "air")
 

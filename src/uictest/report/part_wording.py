@@ -60,17 +60,18 @@ def changes_line(result: evaluation.CaseResult) -> list[str]:
     return [f"changed parameters: {'; '.join(changed)}"] if changed else []
 
 
-def controller_of(parts: Mapping[str, evaluation.EffectivePart], told: str = "") -> tuple[str, str]:
-    """Return the name of the controller under test and the version that it states.
+def controller_of(result: evaluation.CaseResult, uictest_version: str = "") -> tuple[str, str]:
+    """Return the name of the controller under test and its version; empty what is not known.
 
-    Both are empty for a stop without a known controller, as a recorded one is. A built-in controller states
-    no version: it is that of uictest. `told` as for :func:`part_sentence`.
+    The version of a built-in controller is that of uictest: `uictest 0.2.0`.
     """
-    part = parts.get("controller")
+    part = result.parts.get("controller")
     if part is None:
         return "", ""
-    program = evaluation.program_of(part, told)
-    return printable(part.name), "" if program is None else printable(program.version)
+    program = evaluation.program_of(part, result.controller_version)
+    if program is None:
+        return printable(part.name), f"uictest {uictest_version}" if uictest_version else ""
+    return printable(part.name), printable(program.version)
 
 
 def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: str = "") -> str:
@@ -80,12 +81,10 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
     """
     acts: dict[str, bool] = {}
     for result in results:
-        name, version = controller_of(result.parts, result.controller_version)
+        name, version = controller_of(result, uictest_version)
         if not name:
             continue
-        if evaluation.program_in(result.parts) is None:
-            version = f"uictest {uictest_version}" if uictest_version else ""
-        elif version:
+        if version and evaluation.program_in(result.parts) is not None:
             version = f"version {version}"
         text = f"{name} ({version})" if version else name
         acts[text] = acts.get(text, False) or not _bypassed(result.parts)

@@ -29,6 +29,6 @@ def why_no_run(folder: Path) -> str:
 
 def run_folder(place: Path) -> Path:
     """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
-    if place.name == "latest" and not place.is_dir():
+    if place.name == files.LATEST and not place.is_dir():
         return files.latest_run(place.parent) or place
     return place

@@ -1,11 +1,11 @@
 from .choice import chosen_case as chosen_case
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
-    RigDifference as RigDifference,
-    listed_rig as listed_rig,
+    RIG_SOURCE as RIG_SOURCE,
     misfits as misfits,
     rig_as_built as rig_as_built,
     rig_differences as rig_differences,
+    with_listed_rig as with_listed_rig,
 )
 from .controller_loading import load_controller as load_controller
 from .declared_parameters import with_parameters as with_parameters
@@ -59,7 +59,6 @@ from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
     Compensation as Compensation,
     ModuleAir as ModuleAir,
-    RigTolerances as RigTolerances,
 )
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition

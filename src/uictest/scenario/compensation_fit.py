@@ -16,7 +16,7 @@ FIT_KEYS: Final = (
 )
 """Keys of a scenario at or below which :func:`rig_differences` reads."""
 
-_LISTED: Final = "identified-for"
+RIG_SOURCE: Final = "identified-for"
 """Source of the numbers of a listed rig."""
 _LEAST: Final = 1e-300
 """What a tolerance of a number that is zero is at least: any other number is beyond it."""
@@ -44,22 +44,27 @@ class RigDifference:
         """The difference as a share of its tolerance: beyond 1 the compensation does not fit."""
         return abs(self.found - self.identified) / max(self.tolerance * self.identified, _LEAST)
 
-    def __str__(self) -> str:
-        """Return key, both values and the tolerance for a reader."""
+    @property
+    def sentence(self) -> str:
+        """Both values and the tolerance for a reader, to be read after the key."""
         found, identified = (
             each.text if isinstance(each, Quantity) else f"{each:.6g}"
             for each in (self.found, self.identified)
         )
         tolerance = f"{self.tolerance / PERCENT:g} %"
-        return f"{self.key} is {found}, the compensation is for {identified} within {tolerance}"
+        return f"is {found}, the compensation is for {identified} within {tolerance}"
+
+    def __str__(self) -> str:
+        """Return key, both values and the tolerance for a reader."""
+        return f"{self.key} {self.sentence}"
 
 
 def rig_differences(scenario: Any) -> list[RigDifference] | None:
     """Return what modules without a caliper stand for beside what their compensation was identified for.
 
     None where the compensation does not list its rig; empty where a caliper is in every module, and where the
-    compensation is to be identified for this very rig. Numbers of
-    several cases (:mod:`uictest.ensemble`) give differences of several.
+    compensation is to be identified for this very rig. Numbers of several cases (:mod:`uictest.ensemble`)
+    give differences of several.
     """
     if scenario.rig.topology != "one-caliper":
         return []
@@ -100,20 +105,20 @@ def rig_as_built(scenario: Any) -> dict[str, Quantity]:
     }
 
 
-def listed_rig(model: Compensation, scenario: Any) -> Compensation:
+def with_listed_rig(model: Compensation, scenario: Any) -> Compensation:
     """Return a compensation that lists the rig of a scenario, with the tolerances of what stood in for it."""
     stated = scenario.rig.compensation_model
     sections: dict[str, dict[str, Any]] = {"caliper": {}, "wsp_valve": {}, "tank": {}}
     for key, value in rig_as_built(scenario).items():
         section, name = key.split(".")[-2:]
-        sections[section][name] = Quantity(value, value.text, value.unit, _LISTED)
+        sections[section][name] = Quantity(value, value.text, value.unit, RIG_SOURCE)
     rig = RigAsBuilt.model_construct(
         caliper=CaliperAsBuilt.model_construct(**sections["caliper"]),
         wsp_valve=ValveAsBuilt.model_construct(**sections["wsp_valve"]),
         tank_volume=sections["tank"]["volume"],
         tolerances=stated.identified_for.tolerances,
     )
-    listed = {_LISTED: Source(mark="identified", text="The rig of the bench, as built")}
+    listed = {RIG_SOURCE: Source(mark="identified", text="The rig of the bench, as built")}
     sources = {**stated.sources, **model.sources, **listed}
     return model.model_copy(update={"identified_for": rig, "sources": sources})
 

@@ -7,7 +7,6 @@ description of an FMU. A library in C and a controller in the built-in form are 
 import ast
 import io
 import lzma
-import re
 import zipfile
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -23,6 +22,7 @@ from uictest.scenario.files import Files
 from uictest.scenario.parts.declared_parameter import DeclaredParameter
 from uictest.scenario.parts.external_controller import ExternalController
 from uictest.scenario.program_files import read_program
+from uictest.scenario.python_statements import UNPARSABLE, texts_beginning_with
 from uictest.scenario.yaml import (
     COMMAND_LINE,
     Diagnostic,
@@ -44,17 +44,13 @@ from uictest.scenario.yaml import (
     single_error,
     validated,
     visible,
-    whole_file,
 )
 
 Declared = Mapping[str, DeclaredParameter]
 NAME: Final = "PARAMETERS"
 """What a Python file calls its declarations."""
-LARGEST_SOURCE: Final = 512 * 1024
-"""Bytes of a Python file in which declarations are looked for; chosen: parsing it takes some two seconds."""
 LARGEST_DESCRIPTION: Final = 64 * 1024 * 1024
 """Bytes of the description of an FMU that are read; chosen: large models have some ten megabytes."""
-_ASSIGNED: Final = re.compile(rb"^PARAMETERS\b", re.MULTILINE)
 _HINT: Final = 'write {"NAME": {"default": 1.0, "unit": "s", "range": [0.0, 2.0]}}'
 _IN_PART: Final = "list them under `declared_parameters` of its part"
 
@@ -146,14 +142,10 @@ def _source_of_module(name: str) -> Path | None:
 
 
 def _of_python(path: Path, content: bytes) -> Declared | None:
-    if not _ASSIGNED.search(content):
-        return {}
-    if len(content) > LARGEST_SOURCE:
-        message = f"{NAME} is not looked for in a file of more than {LARGEST_SOURCE // 1024} KiB"
-        raise single_error(whole_file(path), message, hint=_IN_PART)
     try:
-        statements = ast.parse(content).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        texts = texts_beginning_with(NAME, content)
+        statements = [statement for each in texts for statement in each.statements()]
+    except UNPARSABLE:
         return None  # who imports it says why
     value = next((each for each in map(_assigned, statements) if each is not None), None)
     if value is None:

@@ -2,7 +2,6 @@
 
 import ast
 import io
-import re
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -11,15 +10,11 @@ from typing import Any, Final
 from xml.etree import ElementTree
 
 from uictest.controllers import shown_version
+from uictest.scenario.python_statements import UNPARSABLE, texts_beginning_with
 
 _FMU_DESCRIPTION: Final = "modelDescription.xml"
 _BEGINNING: Final = 65536
 """Bytes of an FMU's description that are read: its first element states the version."""
-_BLOCK: Final = 65536
-"""Most bytes of the statement that gives a version."""
-_NEXT_STATEMENT: Final = re.compile(rb"\n(?=[^\s#)\]}])")
-_TEXTS: Final = rb"""#[^\n]*|(['"]{3})(?:[^\\]|\\.)*?\1|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|"""
-"""Comments and texts, in which a name is none."""
 
 
 def stated_version(kind: str, content: bytes) -> str:
@@ -32,23 +27,14 @@ def stated_version(kind: str, content: bytes) -> str:
 
 
 def _of_python(content: bytes) -> str:
-    versions = map(_assigned_version, _statements(content, b"__version__"))
+    versions = map(_assigned_version, _version_statements(content))
     return next((text for text in versions if text is not None), "")
 
 
-def _statements(content: bytes, name: bytes) -> Iterator[ast.stmt]:
-    """Yield the statements of a module that begin with a name.
-
-    Nothing else is parsed: a syntax tree takes hundreds of times the memory of its text.
-    """
-    begins = rb"^" + name + rb"\b"
-    if re.search(begins, content, re.MULTILINE) is None:
-        return
-    for found in re.finditer(_TEXTS + begins, content, re.MULTILINE | re.DOTALL):
-        if found[0] == name:
-            block = _NEXT_STATEMENT.split(content[found.start() : found.start() + _BLOCK], maxsplit=1)[0]
-            with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
-                yield from ast.parse(block).body
+def _version_statements(content: bytes) -> Iterator[ast.stmt]:
+    for each in texts_beginning_with("__version__", content):
+        with suppress(*UNPARSABLE):
+            yield from each.statements()
 
 
 def _assigned_version(statement: ast.stmt) -> str | None:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from uictest.evaluation import CaseResult, Outcome, RepeatedStop, Verdict
-from uictest.series.result import NOT_COUNTED, Rail, Role, SeriesCase, StopCounts, UncountedStop
-from uictest.series_measures import CountedStop
+from uictest.series.result import NOT_COUNTED, Role, SeriesCase, StopCounts, UncountedStop
+from uictest.series_measures import CountedStop, Rail
 from uictest.units import in_unit
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import cast
 
 from uictest import evaluation
 from uictest.evaluation import Outcome
@@ -13,7 +12,6 @@ from uictest.series.counting import SeriesStop, counts_of, not_counted, observed
 from uictest.series.plan.series import Series
 from uictest.series.relations import applies, with_relations
 from uictest.series.result import (
-    Rail,
     Role,
     SeriesCase,
     SeriesResult,
@@ -22,7 +20,7 @@ from uictest.series.result import (
     place_text,
 )
 from uictest.series.verdicts import verdict_of
-from uictest.series_measures import SERIES_MEASURES, SeriesValue, SpeedStops
+from uictest.series_measures import SERIES_MEASURES, Rail, SeriesValue, SpeedStops
 from uictest.units import KILOMETRE_PER_HOUR, in_unit
 
 
@@ -143,12 +141,11 @@ class _ObservedSeries:
     def speed_result(self, speed: SpeedStops) -> SpeedResult:
         """Return what the stops from one speed show."""
         kmh = round(speed.speed / KILOMETRE_PER_HOUR, 9)
-        rail = cast("Rail", speed.rail)
         return SpeedResult(
             speed_kmh=kmh,
-            rail=rail,
+            rail=speed.rail,
             dry=counts_of(self._at(kmh, "dry"), "dry"),
-            wet=counts_of(self._at(kmh, "wet", rail), "wet"),
+            wet=counts_of(self._at(kmh, "wet", speed.rail), "wet"),
             measures={name: each.of_speed(speed, self.confidence) for name, each in SERIES_MEASURES.items()},
         )
 

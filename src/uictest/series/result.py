@@ -10,13 +10,11 @@ from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
 from uictest.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty, is_expected
 from uictest.series.forms import WrittenEstimate, WrittenValue
+from uictest.series_measures import Rail
 
 Role = Literal["dry", "wet", "bypassed"]
 """dry: the reference. wet: a stop on a slippery rail, in which the WSP is at work. bypassed: the same stop
 without it, simulated to compare K_wet; it decides nothing."""
-
-Rail = Literal["", "cleaned", "uncleaned"]
-"""Whether sliding cleans the rail of a simulated wet stop; empty for a dry or a recorded one."""
 
 NOT_COUNTED = ("invalid", "inconclusive", "skipped", "error")
 """Outcomes of stops that do not count: no test, not judged, or failed to run."""

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import cast
 
 from uictest import evaluation
 from uictest.scenario import Criteria, Criterion
 from uictest.series.counting import SeriesStop
 from uictest.series.plan.series import Series
-from uictest.series.result import Rail, SeriesVerdict, place_text
+from uictest.series.result import SeriesVerdict, place_text
 from uictest.series_measures import (
     SERIES_MEASURES,
     Estimate,
@@ -81,11 +80,11 @@ def _over_series(
     status: evaluation.Status = "pass" if bounds.hold(estimate.value) else "fail"
     decisive = together[deciding][0]
     of_one_speed = None if pooled else round(decisive.speed / KILOMETRE_PER_HOUR, 9)
-    rail = cast("Rail", decisive.rail)
-    place = place_text(of_one_speed, rail)
+    place = place_text(of_one_speed, decisive.rail)
     reason = "" if status == "pass" else _missed(estimate.value, bounds, criterion, place)
     verdict = _verdict(criterion, definition, estimate.value, status, reason)
-    return SeriesVerdict(verdict, estimate, _confident(estimates, bounds, status), of_one_speed, rail=rail)
+    confident = _confident(estimates, bounds, status)
+    return SeriesVerdict(verdict, estimate, confident, of_one_speed, rail=decisive.rail)
 
 
 def _value(criterion: Criterion, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:

@@ -8,4 +8,9 @@ from .estimate import (
 from .measure import SeriesMeasure as SeriesMeasure, SeriesValue as SeriesValue
 from .registry import SERIES_MEASURES as SERIES_MEASURES
 from .relation import dry_relation as dry_relation, percent_of_dry as percent_of_dry
-from .stops import CountedStop as CountedStop, SpeedStops as SpeedStops, of_stop as of_stop
+from .stops import (
+    CountedStop as CountedStop,
+    Rail as Rail,
+    SpeedStops as SpeedStops,
+    of_stop as of_stop,
+)

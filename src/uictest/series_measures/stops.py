@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,9 @@ class CountedStop:
     passed: bool
 
 
+Rail = Literal["", "cleaned", "uncleaned"]
+"""Whether sliding cleans the rail of a simulated wet stop; empty for a dry or a recorded one."""
+
 Figure = Callable[[CountedStop], float]
 """Reads one number of a stop, NaN where it has none."""
 
@@ -37,7 +41,7 @@ class SpeedStops:
     speed: float
     dry: tuple[CountedStop, ...]
     wet: tuple[CountedStop, ...]
-    rail: str = ""
+    rail: Rail = ""
 
     def dry_mean(self, figure: Figure) -> float:
         """Return the mean of a figure over the dry stops, the reference; NaN without any."""

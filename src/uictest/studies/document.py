@@ -7,7 +7,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.studies.quantity import Band, PaperComparison, SourceBand
+from uictest.studies.comparison import band_origin
+from uictest.studies.quantity import PaperComparison, StudyQuantity
 from uictest.studies.study import StudyResult
 
 SCHEMA = "uictest/studies/2"
@@ -42,15 +43,18 @@ def _quantity(comparison: PaperComparison) -> dict[str, Any]:
         "high": _finite(ours.high),
         "status": quantity.status,
         "result": comparison.result,
-        "band": None if quantity.band is None else _band(quantity.band),
+        "band": _band(quantity),
         "declared_miss": quantity.declared_miss,
         "fails": comparison.fails,
     }
 
 
-def _band(band: Band) -> dict[str, Any]:
+def _band(quantity: StudyQuantity) -> dict[str, Any] | None:
+    band = quantity.band
+    if band is None:
+        return None
     return {
-        "of": "source" if isinstance(band, SourceBand) else "ours",
+        "of": band_origin(quantity),
         "lower": band.lower,
         "upper": band.upper,
         "upper_excluded": band.below,

@@ -72,7 +72,7 @@ def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
         entry, depth = yaml.entry_at(yaml.read_file(case.path), key)
         place = entry.node.place if depth == len(key) else yaml.whole_file(case.path)
         hint = "write `rig.topology: four-caliper` or `rig.compensation_model: identify`"
-        yield yaml.diagnose(place, str(each).removeprefix(f"{each.key} "), each.key, hint)
+        yield yaml.diagnose(place, each.sentence, each.key, hint)
 
 
 def _is_of_other_kind(path: Path) -> bool:

@@ -13,7 +13,6 @@ import typer
 
 from uictest import field_data, files, identification, library, runs, scenario
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.identified_rig import rig_of_record
 from uictest.cli.identify_options import (
     ActingTime,
     Base,
@@ -36,6 +35,7 @@ from uictest.cli.identify_options import (
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
+from uictest.cli.rig_of_record import rig_of_record
 from uictest.rig import bench
 from uictest.scenario import yaml
 

@@ -68,13 +68,12 @@ def _sliding_shares(
 ) -> MeasureValue:
     k = round(definition["end_speed"] / SLIDE_CLASS) - 1
     j = round((definition["sliding_below"] - SLOW_SHARES[0]) / SLOW_SHARE_CLASS)
+    end = f"{_kilometres_per_hour(definition['end_speed'])}, down to which sliding counts"
     if not stop.initial_speed > END_SPEEDS[k]:
-        why = f"the train did not run faster than {10 * (k + 1)} km/h, down to which sliding counts"
+        why = f"the train did not run faster than {end}"
         return MeasureValue(unavailable_reason=why, whatever_follows=True)
     if is_nan(stop.reached_time[k]):
-        return unavailable(
-            f"the train did not come down to {10 * (k + 1)} km/h, down to which sliding counts"
-        )
+        return unavailable(f"the train did not come down to {end}")
     duration = plain(stop.reached_time[k])
     places = range(k * len(SLOW_SHARES) + j, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
     return MeasureValue(tuple(sum(plain(table[place]) for place in places) / duration for table in tables))

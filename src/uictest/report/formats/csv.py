@@ -136,9 +136,7 @@ def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[st
 
 def controller_cells(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
     """Return the name of the controller under test and its version; empty where none is known."""
-    name, version = controller_of(result.parts, result.controller_version)
-    if name and not version and uictest_version and evaluation.program_in(result.parts) is None:
-        version = f"uictest {uictest_version}"
+    name, version = controller_of(result, uictest_version)
     return {"controller": name, "controller_version": version}
 
 

@@ -65,7 +65,7 @@ def junit_xml(
             _add_test_properties(testcases, of_program)
         duration = sum(result.duration for result in of_program)
         suite = _testsuite(program, [*testcases, *(missing if program is None else ())], duration)
-        names = [controller_of(result.parts)[0] for result in of_program]
+        names = [controller_of(result)[0] for result in of_program]
         add_suite_properties(suite, program, told, _requirements(of_program), names, uictest_version)
         root.append(suite)
     root.extend(series_testsuites(series, test_properties=test_properties, uictest_version=uictest_version))

@@ -51,7 +51,7 @@ def _add_properties(suite: ElementTree.Element, result: SeriesResult, uictest_ve
     """Add which controller was tested, and which requirements the series and its criteria verify."""
     program = evaluation.program_in(result.cases[0].case.parts) if result.cases else None
     told = dict.fromkeys(each.case.controller_version for each in result.cases)
-    names = [controller_of(each.case.parts)[0] for each in result.cases]
+    names = [controller_of(each.case)[0] for each in result.cases]
     requirements = in_order_of_ids(requirements_of(result))
     add_suite_properties(suite, program, told, requirements, names, uictest_version)
 

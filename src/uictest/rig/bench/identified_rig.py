@@ -20,22 +20,21 @@ from uictest.rig.bench.recipe import Random, Stepwise, StopReplay, Triangular
 from uictest.rig.bench.run import run_test
 from uictest.scenario import (
     COMPENSATION_SETTINGS,
+    BrakeSystem,
     Case,
     Compensation,
     Files,
     Parts,
     Quantity,
     Scenario,
-    listed_rig,
     rig_as_built,
+    with_listed_rig,
 )
 from uictest.scenario.yaml import Document, parse, quantities_in
 
 _BENCHES: Final = {"hysteresis": "six-inch-hysteresis", "pressure": "six-inch-cylinder"}
 _BASE: Final = "six-inch"
 """The compensation whose numbers the search for those of the air starts from."""
-_HIGHEST: Final = 4.63e5
-"""Gauge pressure in Pa of the brake that the benches were written for: theirs are scaled with it."""
 _ACTING_TIME, _TRANSITION_TIME, _HELD_OUT = 2.0, 0.1, 0.25
 """As the defaults of `uictest identify`: s, s and a share."""
 IDENTIFIED_KEYS: Final = (
@@ -71,7 +70,7 @@ def _compensation(scenario: Scenario) -> Compensation:
     inputs = _inputs(scenario, subjects)
     with _identifying:
         text = _kept_or_identified(inputs, scenario, pressure)
-    return listed_rig(_part(text), scenario)
+    return with_listed_rig(_part(text), scenario)
 
 
 def _inputs(scenario: Scenario, subjects: Iterable[str]) -> bytes:
@@ -164,11 +163,18 @@ def _record(bench: str, scenario: Scenario) -> tuple[dict[str, Any], identificat
     return recording.channels, facts
 
 
+def _strongest(system: BrakeSystem) -> tuple[str, float]:
+    """Return the position of a brake with the highest pressure, and that, gauge, Pa."""
+    pressures = {name: float(each.maximum_pressure) for name, each in system.positions.items()}
+    return max(pressures.items(), key=lambda item: item[1])
+
+
 def _on_rig(test: BenchTest, scenario: Scenario) -> BenchTest:
     """Return a bench test on the caliper, brake and sensors of a scenario, its pressures in proportion."""
     stop, system = test.case.scenario, scenario.brake.system
-    strongest = max(system.positions, key=lambda name: float(system.positions[name].maximum_pressure))
-    scale = float(system.positions[strongest].maximum_pressure) / _HIGHEST
+    strongest, highest = _strongest(system)
+    _, written_for = _strongest(stop.brake.system)
+    scale = highest / written_for
     position = stop.brake.position if stop.brake.position in system.positions else strongest
     rig = {"caliper": scenario.rig.caliper, "sensors": scenario.rig.sensors}
     brake = {"system": system, "position": position}

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 import uictest
+from uictest.identification import AS_BUILT
 from uictest.recording import ORIGIN, Recording
 from uictest.rig.bench.applied import bench_input
 from uictest.rig.bench.inputs import BenchInput
@@ -40,7 +41,7 @@ def run_test(test: BenchTest) -> Recording:
     facts = {
         **recording.metadata,
         "version": uictest.__version__,
-        **{f"as built: {key}": value.text for key, value in rig_as_built(test.case.scenario).items()},
+        **{f"{AS_BUILT}{key}": value.text for key, value in rig_as_built(test.case.scenario).items()},
         **{f"sha256 of {name}": value for name, value in test.case.inputs.items()},
     }
     return Recording(recording.channels, recording.units, facts)

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from uictest.scenario import Case, Criteria, Criterion
 from uictest.series.plan.model import SeriesFile
-from uictest.series.result import Rail, Role
+from uictest.series.result import Role
+from uictest.series_measures import Rail
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,7 +26,8 @@ from uictest.series.plan.model import SeriesFile, Stops
 from uictest.series.plan.same_train import differences_of_train
 from uictest.series.plan.series import PlannedStop
 from uictest.series.plan.stop_entry import recorded_by, scenario_of, values_set_by
-from uictest.series.result import Rail, Role
+from uictest.series.result import Role
+from uictest.series_measures import Rail
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
 """Keys of a scenario that decide, with the seed, how the stop goes."""

@@ -52,10 +52,7 @@ _CLAIMS: Mapping[str, tuple[str, OwnBand | SourceBand | None]] = {
 
 def _quantities() -> Iterator[StudyQuantity]:
     for error, setting, statistic in product(TITLES, SETTINGS, STATISTICS):
-        key, title = (
-            f"{error}_{statistic}_{setting}",
-            f"{TITLES[error]}, {setting}, {statistic} of all",
-        )
+        key, title = f"{error}_{statistic}_{setting}", f"{TITLES[error]}, {setting}, {statistic} of all"
         paper, band = _CLAIMS.get(key, (NOT_ASKED, None))
         # Hardware and bench were chosen while the errors of `thermal` were watched.
         status: Status = "selected" if setting == "thermal" else "predicted"
