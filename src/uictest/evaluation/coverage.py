@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from uictest import scenario
 from uictest.measures import StopMeasures, Wheelsets
@@ -34,11 +34,13 @@ class Coverage:
         missing: measure -> what each of its values lacks (one for the stop, or one per wheelset), None where
             nothing; measures that are known throughout the record are left out.
         no_initial_speed: why the initial speed is not known; empty where it is.
+        not_computed: measure -> the channels that it is computed from and that the record does not have.
 
     """
 
     missing: Mapping[str, tuple[MissingData | None, ...]]
     no_initial_speed: str = ""
+    not_computed: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,10 @@ from uictest.measures import StopMeasures, Wheelsets, is_nan
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
-_NO_RIG: Final = "not known: rig.compensation_model does not list the rig that it was identified for"
+_NO_RIG: Final = (
+    "not known: rig.compensation_model does not list the rig that it was identified for,"
+    " or states other numbers than were identified"
+)
 
 
 def judge(
@@ -179,6 +182,8 @@ def _not_applicable(
         return Decision("not_applicable", None, "; ".join(map(str, unmet)))
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
+    if stop.coverage is not None and (absent := stop.coverage.not_computed.get(criterion.measure)):
+        return Decision("not_applicable", None, f"not recorded: {absent}")
     if unknown and criterion.applies.initial_speed is not None:
         return Decision("inconclusive", None, unknown)
     if criterion.of_faults and conditions.has_faults and is_nan(stop.measures.fault_time):

@@ -52,7 +52,19 @@ def coverage_of(stop: RecordedStop) -> Coverage:
         if measure not in _NEVER
     }
     lacking = {measure: gaps for measure, gaps in missing.items() if any(gaps)}
-    return Coverage({**_NEVER, **lacking}, f"{_LATE}: no initial speed" if stop.trigger.late else "")
+    return Coverage(
+        {**_NEVER, **lacking},
+        f"{_LATE}: no initial speed" if stop.trigger.late else "",
+        dict(_not_computed(stop)),
+    )
+
+
+def _not_computed(stop: RecordedStop) -> Iterator[tuple[str, str]]:
+    """Yield measures of which the record has no computed channel of any wheelset, and what they would need."""
+    for measure in (name for name, data in _NEEDS.items() if data.computed):
+        for pattern in _NEEDS[measure].channels:
+            if not any(pattern.format(n=n) in stop.recording.channels for n in WHEELSETS):
+                yield measure, " .. ".join(pattern.format(n=n) for n in (WHEELSETS[0], WHEELSETS[-1]))
 
 
 def _missing(stop: RecordedStop, measure: str, channels: Channels) -> MissingData | None:

@@ -125,6 +125,8 @@ class RecordedData:
         when: they must be known.
         bounded: whether a part of the samples bounds the value, as that of a largest slide does.
         from_command: whether the brake command must be in the record.
+        computed: whether a channel among them is computed rather than recorded: where a record lacks all of
+            it, criteria of the measure do not apply instead of being inconclusive.
 
     """
 
@@ -132,6 +134,7 @@ class RecordedData:
     when: When = "throughout"
     bounded: bool = True
     from_command: bool = True
+    computed: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

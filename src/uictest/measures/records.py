@@ -59,7 +59,7 @@ class StopMeasures(Record):
     air_energy_residual: float  # share of the enthalpy of that air
     line_saturation: float  # time for which the brake line's pressure sensor is limited by its range, s
     saturation_time: float  # first sample by which any sensor has been, s
-    compensation_misfit: float  # difference from the rig it was identified for, over the tolerance
+    compensation_misfit: float  # differences from the rig it was identified for, over tolerances
     samples: float
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s

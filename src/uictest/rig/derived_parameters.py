@@ -23,6 +23,7 @@ from uictest.scenario import (
     FIT_KEYS,
     WHEELSET_NUMBERS,
     Scenario,
+    misfit,
     rig_differences,
     wheelset_value,
 )
@@ -77,9 +78,7 @@ def _topology(p: Parameters, scenario: Scenario) -> None:
 @_reads(*FIT_KEYS)
 def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
     differences = rig_differences(scenario)
-    p.compensation_misfit = math.nan if differences is None else 0.0
-    for each in differences or ():
-        p.compensation_misfit = np.maximum(p.compensation_misfit, each.share)
+    p.compensation_misfit = math.nan if differences is None else misfit(differences)
 
 
 @_reads("brake.command", "brake.position", "brake.system.positions")

@@ -2,6 +2,7 @@ from .choice import chosen_case as chosen_case
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
     RIG_SOURCE as RIG_SOURCE,
+    misfit as misfit,
     misfits as misfits,
     rig_as_built as rig_as_built,
     rig_differences as rig_differences,

@@ -1,13 +1,18 @@
 """Whether a compensation was identified for the rig that it computes the forces of."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
 from uictest.scenario.parts.brake import WspValve
-from uictest.scenario.parts.compensation import CaliperAsBuilt, Compensation, RigAsBuilt, ValveAsBuilt
+from uictest.scenario.parts.compensation import (
+    CaliperAsBuilt,
+    Compensation,
+    RigAsBuilt,
+    ValveAsBuilt,
+)
 from uictest.scenario.wheelset_values import WHEELSET_NUMBERS, wheelset_value
-from uictest.scenario.yaml import Quantity, Source
+from uictest.scenario.yaml import Quantity, Section, Source
 from uictest.units import PERCENT
 
 FIT_KEYS: Final = (
@@ -41,7 +46,7 @@ class RigDifference:
 
     @property
     def share(self) -> Any:
-        """The difference as a share of its tolerance: beyond 1 the compensation does not fit."""
+        """The difference as a share of its tolerance."""
         return abs(self.found - self.identified) / max(self.tolerance * self.identified, _LEAST)
 
     @property
@@ -62,7 +67,7 @@ class RigDifference:
 def rig_differences(scenario: Any) -> list[RigDifference] | None:
     """Return what modules without a caliper stand for beside what their compensation was identified for.
 
-    None where the compensation does not list its rig; empty where a caliper is in every module, and where the
+    None where the compensation does not list its rig, or its numbers were changed since; empty where a caliper is in every module, and where the
     compensation is to be identified for this very rig. Numbers of several cases (:mod:`uictest.ensemble`)
     give differences of several.
     """
@@ -72,7 +77,27 @@ def rig_differences(scenario: Any) -> list[RigDifference] | None:
     if model.to_identify:
         return []
     rig = model.identified_for
-    return None if rig is None else list(_differences(scenario, rig))
+    if rig is None or not _is_as_identified(model):
+        return None
+    return list(_differences(scenario, rig))
+
+
+def _is_as_identified(model: Compensation) -> bool:
+    """Return whether each number has a source of the compensation: one that a scenario states anew has none."""
+    sections = model.linear, model.hysteresis, model.cylinder, model.air
+    return all(
+        isinstance(each, Quantity) and each.source in model.sources
+        for section in sections
+        for each in _numbers_in(section)
+    )
+
+
+def _numbers_in(value: Any) -> Iterator[Any]:
+    if isinstance(value, Section | tuple):
+        for _, each in enumerate(value) if isinstance(value, tuple) else value:
+            yield from _numbers_in(each)
+    else:
+        yield value
 
 
 def _differences(scenario: Any, rig: RigAsBuilt) -> Iterator[RigDifference]:
@@ -123,7 +148,15 @@ def with_listed_rig(model: Compensation, scenario: Any) -> Compensation:
     return model.model_copy(update={"identified_for": rig, "sources": sources})
 
 
+def misfit(differences: Iterable[RigDifference]) -> Any:
+    """Return the sum of the differences, each as a share of its tolerance: beyond 1 the compensation does not fit.
+
+    Several numbers that differ the same way move a stop further than each of them does.
+    """
+    return sum((each.share for each in differences), 0.0)
+
+
 def misfits(scenario: Any) -> list[RigDifference]:
-    """Return the differences beyond their tolerance, the largest first."""
-    beyond = [each for each in rig_differences(scenario) or () if each.share > 1.0]
-    return sorted(beyond, key=lambda each: -each.share)
+    """Return the differences that make a compensation unfit, the largest first; none where it fits."""
+    differences = [each for each in rig_differences(scenario) or () if each.share > 0.0]
+    return sorted(differences, key=lambda each: -each.share) if misfit(differences) > 1.0 else []

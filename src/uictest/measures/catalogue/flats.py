@@ -29,7 +29,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.contact_energy for w in wheelsets),
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
-        recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}")),
+        recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}"), computed=True),
         column=WheelsetColumn("contact_energy_kj", "kJ", read=lambda wheelset: wheelset.contact_energy),
         finite_field="contact_energy",
     ),

@@ -44,7 +44,7 @@ LARGEST_BLOCK: Final = 256
 OPENING_LIMIT: Final = 60.0
 """Longest time to load, create and reset a controller, s; chosen: Python files may import large packages."""
 ANSWER_LIMIT: Final = 60.0
-"""Longest time to take a request, or from the first byte of an answer to its last, s; chosen: most take
+"""Longest time without a byte taken of a request, or sent of an answer, s; chosen: most take
 milliseconds."""
 IDLE_LIMIT: Final = 300.0
 """Longest time in which a child neither calls a controller nor answers, s; chosen: it starts in a second, and
