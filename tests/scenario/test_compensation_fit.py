@@ -61,8 +61,22 @@ def test_the_valve_of_a_module_without_a_caliper_counts(case: Load) -> None:
     assert reason.startswith("vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), ")
 
 
-def test_a_number_within_its_tolerance_fits(case: Load) -> None:
-    assert told(case("rig.caliper.load_friction=8 %", "brake.system.tank.volume=2.9 L")) == []
+@pytest.mark.parametrize("override", ["rig.caliper.load_friction=8 %", "brake.system.tank.volume=2.9 L"])
+def test_a_number_within_its_tolerance_fits(case: Load, override: str) -> None:
+    assert told(case(override)) == []
+
+
+def test_numbers_within_their_tolerances_do_not_fit_in_sum(case: Load) -> None:
+    """Together they move a stop further than any of them does."""
+    assert told(case("rig.caliper.load_friction=8 %", "brake.system.tank.volume=2.9 L")) == [
+        "brake.system.tank.volume is 2.9 L, the compensation is for 2 L within 50 %",
+        "rig.caliper.load_friction is 8 %, the compensation is for 7.5 % within 7.5 %",
+    ]
+
+
+def test_valves_that_differ_alike_count_once(case: Load) -> None:
+    conductance = "vehicle.wheelsets.{}.wsp_valve.vent_conductance=3.5e-8 m3/(s Pa)"
+    assert told(case(*(conductance.format(n) for n in (2, 3, 4)))) == []
 
 
 def test_the_valve_of_the_module_with_the_caliper_does_not_matter(case: Load) -> None:
@@ -75,6 +89,21 @@ def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> Non
     model = scenario.rig.compensation_model.model_copy(update={"identified_for": None})
     rig = scenario.rig.model_copy(update={"compensation_model": model})
     assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
+
+
+@pytest.mark.parametrize(
+    "override",
+    [
+        "rig.compensation_model.linear.slope=4.8 kN/bar",
+        "rig.compensation_model.hysteresis.bc_releasing.slope=5 kN/bar",
+        "rig.compensation_model.air.swept_volume=0.06 L",
+        "rig.compensation_model.cylinder.denominator=[0, 0, 0]",
+    ],
+)
+def test_a_compensation_whose_numbers_were_changed_is_not_known_to_fit(case: Load, override: str) -> None:
+    """It would keep the list of the rig that other numbers were identified for."""
+    numerator = ["rig.compensation_model.cylinder.numerator=[1, 0, 0, 0]"] * ("cylinder" in override)
+    assert rig_differences(case(override, *numerator).scenario) is None
 
 
 def test_a_compensation_to_identify_has_tolerances_to_be_held_to(

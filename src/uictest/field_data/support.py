@@ -60,7 +60,7 @@ def coverage_of(stop: RecordedStop) -> Coverage:
 
 
 def _not_computed(stop: RecordedStop) -> Iterator[tuple[str, str]]:
-    """Yield measures of which the record has no computed channel of any wheelset, and what they would need."""
+    """Yield the measures for which a record lacks a computed channel of all wheelsets, and that channel."""
     for measure in (name for name, data in _NEEDS.items() if data.computed):
         for pattern in _NEEDS[measure].channels:
             if not any(pattern.format(n=n) in stop.recording.channels for n in WHEELSETS):

@@ -78,7 +78,7 @@ def _topology(p: Parameters, scenario: Scenario) -> None:
 @_reads(*FIT_KEYS)
 def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
     differences = rig_differences(scenario)
-    p.compensation_misfit = math.nan if differences is None else misfit(differences)
+    p.compensation_misfit = math.nan if differences is None else misfit(differences, np.maximum)
 
 
 @_reads("brake.command", "brake.position", "brake.system.positions")

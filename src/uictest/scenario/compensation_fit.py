@@ -1,6 +1,6 @@
 """Whether a compensation was identified for the rig that it computes the forces of."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -67,9 +67,9 @@ class RigDifference:
 def rig_differences(scenario: Any) -> list[RigDifference] | None:
     """Return what modules without a caliper stand for beside what their compensation was identified for.
 
-    None where the compensation does not list its rig, or its numbers were changed since; empty where a caliper is in every module, and where the
-    compensation is to be identified for this very rig. Numbers of several cases (:mod:`uictest.ensemble`)
-    give differences of several.
+    None where the compensation does not list its rig, or its numbers were changed since; empty where a
+    caliper is in every module, and where the compensation is to be identified for this very rig. Numbers of
+    several cases (:mod:`uictest.ensemble`) give differences of several.
     """
     if scenario.rig.topology != "one-caliper":
         return []
@@ -83,7 +83,7 @@ def rig_differences(scenario: Any) -> list[RigDifference] | None:
 
 
 def _is_as_identified(model: Compensation) -> bool:
-    """Return whether each number has a source of the compensation: one that a scenario states anew has none."""
+    """Return whether each number has a source of the compensation: one that is set by a scenario has none."""
     sections = model.linear, model.hysteresis, model.cylinder, model.air
     return all(
         isinstance(each, Quantity) and each.source in model.sources
@@ -148,12 +148,17 @@ def with_listed_rig(model: Compensation, scenario: Any) -> Compensation:
     return model.model_copy(update={"identified_for": rig, "sources": sources})
 
 
-def misfit(differences: Iterable[RigDifference]) -> Any:
-    """Return the sum of the differences, each as a share of its tolerance: beyond 1 the compensation does not fit.
+def misfit(differences: Iterable[RigDifference], larger: Callable[[Any, Any], Any] = max) -> Any:
+    """Return the sum of the differences over their tolerances: beyond 1 the compensation does not fit.
 
-    Several numbers that differ the same way move a stop further than each of them does.
+    Several numbers that differ the same way move a stop further than each of them does. A number of the
+    valves counts once, with the largest difference of all modules. `larger` returns the larger of two shares.
     """
-    return sum((each.share for each in differences), 0.0)
+    shares: dict[tuple[str, ...], Any] = {}
+    for each in differences:
+        name = tuple(each.key.split(".")[-2:])
+        shares[name] = larger(shares.get(name, 0.0), each.share)
+    return sum(shares.values(), 0.0)
 
 
 def misfits(scenario: Any) -> list[RigDifference]:

@@ -30,8 +30,8 @@ MEASURES = (
         kind="number",
         unit="1",
         course="settles",
-        meaning="sum of the differences between the rig and that which its compensation was identified for, each"
-        " over its tolerance",
+        meaning="sum of the differences between the rig and that which its compensation was identified for,"
+        " each over its tolerance",
         read=lambda stop, wheelsets, definition: one_value(stop.compensation_misfit),
         of_simulation=True,
     ),
