@@ -24,20 +24,25 @@ VALUES = {
     ("pressure-sensor", "factor"): "50 %",
     ("controller", "silent"): "2 s",
 }
-LOCKED = {"locked-wheels"}
+LOCKED = {"locked-wheels", "total-locked-time"}
 """The faulty wheelset itself is locked for longer than a second."""
+WORN = LOCKED | {"wheelset-contact-energy"}
+"""It is locked for as long as the train runs."""
 MISSED = {
     # It follows the other wheelset of its bogie, which slides less.
     **dict.fromkeys(
         [("speed-sensor", kind) for kind in ("lost", "stuck", "factor", "offset", "jumps")], LOCKED
     ),
+    # It locks often, and never for long.
+    ("speed-sensor", "drop-out"): {"total-locked-time"},
+    ("vent-valve", "blocked"): {"total-locked-time"},
     # It cannot be vented, or fills meanwhile.
-    ("hold-magnet", "open-circuit"): LOCKED,
-    ("fill-valve", "stuck-open"): LOCKED,
-    ("vent-magnet", "open-circuit"): LOCKED,
-    ("vent-valve", "stuck-closed"): LOCKED,
+    ("hold-magnet", "open-circuit"): WORN,
+    ("fill-valve", "stuck-open"): WORN,
+    ("vent-magnet", "open-circuit"): WORN,
+    ("vent-valve", "stuck-closed"): WORN,
     # Nobody protects anything.
-    ("controller", "silent"): LOCKED | {"sound-wheelsets-turn"},
+    ("controller", "silent"): WORN | {"sound-wheelsets-turn"},
 }
 """Criteria that are missed; all others pass or do not apply."""
 NOT_OF_A_SENSOR = "brake-force-returns"

@@ -157,7 +157,7 @@ def test_a_compensation_that_is_not_for_its_rig_is_reported_with_file_key_and_va
     )
     answer = call("check", "unfit.yaml")
     assert answer.code == 4
-    told = "unfit.yaml:5:46: rig.caliper.lever_ratio: is 3, the compensation is for 2.45 within 0.5 %"
+    told = "unfit.yaml:5:45: rig.caliper.lever_ratio: is 3, the compensation is for 2.45 within 0.5 %"
     assert told in answer.err
     (workplace / "unfit.yaml").write_text((workplace / "unfit.yaml").read_text() + "expect: invalid\n")
     assert call("check", "unfit.yaml").code == 0
