@@ -29,6 +29,8 @@ TESTS = (
     *("tests/evaluation", "tests/rig/backends/test_native.py", "tests/rig/backends/test_lanes.py"),
     *("tests/report/formats", "tests/sweeps/summaries", "tests/cli/commands/test_run.py", "tests/stepping"),
 )
+OTHER_TEXT = "tests/scenario/test_json_schema.py::test_the_committed_schema_is_that_of_the_models"
+"""Earlier versions of pydantic write the same JSON Schema in other words."""
 NOT_RELEASED = 5
 
 
@@ -45,8 +47,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return NOT_RELEASED
         # Nothing compiled with other versions is found, and nothing is left for them.
         environment = {**os.environ, "UICTEST_CACHE": str(Path(folder, "cache"))}
-        run = [str(python), "-m", "pytest", "-q", "-W", "default", "-p", "no:cacheprovider", *chosen.tests]
-        for command in ([str(python), "-m", "uictest", "selftest"], run):
+        run = [
+            str(python),
+            "-m",
+            "pytest",
+            "-q",
+            "-W",
+            "default",
+            "-p",
+            "no:cacheprovider",
+            "--deselect",
+            OTHER_TEXT,
+        ]
+        for command in ([str(python), "-m", "uictest", "selftest"], [*run, *chosen.tests]):
             code = subprocess.run(command, cwd=REPOSITORY, env=environment, check=False).returncode
             if code != 0:
                 return code

@@ -73,10 +73,11 @@ def test_no_friction_and_no_seed_was_used_to_calibrate_or_to_judge_the_compensat
 
 
 def test_the_twin_states_the_parameters_of_the_controller_that_it_is_a_twin_of() -> None:
-    own = yaml.safe_load((ROOT / "examples/wsp/threshold-c.yaml").read_text())["parameters"]
+    own = yaml.safe_load((ROOT / "examples/wsp/threshold-c.yaml").read_text())["declared_parameters"]
     built_in = scenario.load_part("controllers/threshold")
     declared = set(CONTROLLERS[DEFAULT].declared_parameters()) - {"cycle_time"}
-    assert own == {name: float(getattr(built_in, name)) for name in declared}
+    stated = {name: each["default"] for name, each in own.items()}
+    assert stated == {name: float(getattr(built_in, name)) for name in declared}
 
 
 def test_the_order_on_a_few_stops(load: Load) -> None:

@@ -74,6 +74,8 @@ def formula(
         "energy_residual",
         "air_residual",
         "air_energy_residual",
+        "compensation_misfit",
+        "line_saturation",
         "air_consumed",
         "reservoir_minimum_pressure",
         "reservoir_margin",

@@ -182,7 +182,7 @@ def profiles(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("profiles")
-@pytest.mark.parametrize(("cases", "of_each"), [(2000, 3), pytest.param(10_000, 21, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("cases", "of_each"), [(3000, 3), pytest.param(10_000, 21, marks=pytest.mark.slow)])
 def test_hand_made_cases_are_judged_as_each_alone(
     load: Load, made_up: MakeRunner, cases: int, of_each: int
 ) -> None:
