@@ -94,7 +94,7 @@ def test_two_stops_tell_what_neither_does_alone(stop: Make, library: Scenario) -
 
 @pytest.mark.parametrize("wsp", ["active", "bypassed"])
 def test_cleaning_is_not_found_where_there_was_none(recorded_stop: Make, library: Scenario, wsp: str) -> None:
-    _, recorded = recorded_stop(80.0, "0.07", 3, wsp=wsp)
+    _, recorded = recorded_stop(80.0, "0.07", 3, wsp=wsp, settings=("rig.compensation=full",))
     fit = fit_cleaning([recorded], library)
     assert fit.estimate.standing == "not seen"
     assert not fit.determined
