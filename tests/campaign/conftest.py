@@ -19,7 +19,8 @@ def make_case() -> MakeCase:
     def make(case_id: str, *tags: str, file: str = "a.yaml", expect: str = "pass") -> Any:
         controller = SimpleNamespace(program=None)
         named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
-        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller, **named)
+        rig = SimpleNamespace(compensation_model=SimpleNamespace(to_identify=False))
+        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller, rig=rig, **named)
         return SimpleNamespace(id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={})
 
     return make

@@ -31,7 +31,7 @@ def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run: MakeRun) 
     assert heading.split() == ["case", "quantity", "first", "second", "deviation", "allowed", "unit"]
     assert line.split()[:5] == ["differs", "dry-120", "braking_distance_m", "465", "470"]
     assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["differs", "within"]
-    assert verdict_line(found) == "40 quantities compared: 1 out of tolerance, 1 different within tolerance"
+    assert verdict_line(found) == "41 quantities compared: 1 out of tolerance, 1 different within tolerance"
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
@@ -50,7 +50,7 @@ def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run: MakeRu
 def test_nothing_is_shown_of_what_is_the_same(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(), DEFAULT)
     assert list(comparison_lines(found, every=True)) == []
-    assert verdict_line(found) == "40 quantities compared, no difference"
+    assert verdict_line(found) == "41 quantities compared, no difference"
 
 
 def test_the_json_form_says_whether_they_agree(make_run: MakeRun) -> None:

@@ -91,7 +91,8 @@ def test_the_order_on_a_few_stops(load: Load) -> None:
     energy = values([threshold, slip_band, bypassed], "worst_contact_energy")
     assert [value for value, _, _ in energy] == sorted(value for value, _, _ in energy)
     assert "locked-time" not in missed(threshold)
-    assert {"locked-time", "contact-energy", "adhesion-utilisation", "passing-stops"} <= missed(bypassed)
+    assert {"locked-time", "contact-energy", "passing-stops"} <= missed(bypassed)
+    assert "adhesion-utilisation" not in missed(bypassed)  # judged on a rail that sliding cleans
 
 
 def _small(planned: series.Series) -> series.Series:

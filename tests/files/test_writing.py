@@ -115,3 +115,11 @@ def test_a_link_is_neither_replaced_nor_followed(tmp_path: Path, target: str) ->
     assert link.is_symlink()
     assert (tmp_path / "file").read_text() == "mine"
     assert not (tmp_path / "nothing").exists()
+
+
+def test_a_failed_write_leaves_no_folder_that_it_has_made(tmp_path: Path) -> None:
+    (tmp_path / "kept").mkdir()
+    for name in ("a/b/stop.parquet", "kept/stop.parquet"):
+        with pytest.raises(ZeroDivisionError), new_file(tmp_path, name):
+            raise ZeroDivisionError
+    assert [path.name for path in tmp_path.iterdir()] == ["kept"]

@@ -10,8 +10,10 @@ from scipy.signal import lfilter
 
 from uictest.measures import (
     STOP_MEASURES,
+    WHEELSET_MEASURES,
     WINDOW_SECONDS,
     begin_build_up,
+    begin_slow_times,
     begin_train,
     begin_utilisation,
     begin_window,
@@ -29,6 +31,7 @@ def begun(held_before: float) -> np.ndarray:
     begin_window(train[0])
     begin_build_up(train[0], 3.8e5, 0.0)
     begin_utilisation(train[0])
+    begin_slow_times(train[0], np.zeros(4, WHEELSET_MEASURES).view(np.recarray))
     return train.view(np.float64)
 
 

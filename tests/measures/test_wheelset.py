@@ -8,7 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import SPEED_CLASSES, WHEELSET_MEASURES, begin_contact, begin_slides, begin_wheelset
+from uictest.measures import (
+    SPEED_CLASSES,
+    STOP_MEASURES,
+    WHEELSET_MEASURES,
+    begin_contact,
+    begin_slides,
+    begin_slow_times,
+    begin_wheelset,
+)
 
 Stop = tuple[Any, Any]
 Measured = Callable[[Any], Stop]
@@ -29,6 +37,7 @@ def begun(held_before: float) -> np.ndarray:
     begin_wheelset(wheelset[0])
     begin_slides(wheelset[0])
     begin_contact(wheelset[0])
+    begin_slow_times(np.zeros(1, STOP_MEASURES)[0], [wheelset[0]] * 4)
     return wheelset.view(np.float64)
 
 

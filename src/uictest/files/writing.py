@@ -31,7 +31,11 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
 
     """
     below, last, temporary = str(PurePath(name).parent), PurePath(name).name, partial_name()
-    with _errors_about(folder, name, temporary), opened(folder, below, make=True) as place:
+    with (
+        _errors_about(folder, name, temporary),
+        _made_folders(folder, below),
+        opened(folder, below, make=True) as place,
+    ):
         if last in ("", ".."):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
         _require_replaceable(place, last)
@@ -51,6 +55,20 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
             raise
         finally:
             os.close(descriptor)
+
+
+@contextlib.contextmanager
+def _made_folders(folder: Path, below: str) -> Iterator[None]:
+    """Remove the folders down to `below` that the block has made, should it raise."""
+    names = [str(each) for each in (PurePath(below), *PurePath(below).parents) if str(each) != "."]
+    missing = [name for name in names if not os.path.lexists(folder / name)]
+    try:
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError), opened(folder) as place:
+            for name in missing:
+                os.rmdir(name, dir_fd=place)
+        raise
 
 
 def _require_replaceable(place: int, name: str) -> None:

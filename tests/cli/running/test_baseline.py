@@ -42,7 +42,7 @@ def test_a_run_like_its_baseline_exits_0_and_a_changed_one_1(
     assert answer.code == 1
     assert "differs a outcome=fail" in answer.out
     assert "outcome was pass, is fail" in answer.out
-    assert "38 quantities compared with the baseline accepted: 1 out of tolerance" in answer.err
+    assert "40 quantities compared with the baseline accepted: 1 out of tolerance" in answer.err
     assert call("run", "--baseline", baseline, "--accept").code == 0
     assert call("run", "--baseline", baseline).code == 0
 
@@ -99,7 +99,7 @@ def test_the_results_hold_the_comparison_as_data(call: Call, scenario: Write, ba
     scenario("a", DIFFERENT)
     document = json.loads(call("run", "--baseline", baseline, "--format", "json").out)
     compared = document["baseline"]
-    assert (compared["folder"], compared["agrees"], compared["compared"]) == ("accepted", False, 38)
+    assert (compared["folder"], compared["agrees"], compared["compared"]) == ("accepted", False, 40)
     assert len(compared["sha256"]) == 64
     (difference,) = compared["differences"]
     assert (difference["case"], difference["quantity"]) == ("a", "outcome")

@@ -29,7 +29,7 @@ _SOURCES = (
     "record.py",
     *("physics", "controllers", "faults", "lanes", "rig"),
     *(f"measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
-    *(f"measures/{name}.py" for name in ("build_up", "contact", "reaction")),
+    *(f"measures/{name}.py" for name in ("build_up", "contact", "reaction", "sliding_share")),
 )
 """Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}

@@ -8,8 +8,6 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, Final
 
-import scipy
-
 import uictest
 from uictest import identification, user_cache
 from uictest.recording import ORIGIN
@@ -75,6 +73,8 @@ def _compensation(scenario: Scenario) -> Compensation:
 
 def _inputs(scenario: Scenario, subjects: Iterable[str]) -> bytes:
     """Return everything that the numbers depend on: those of the rig, the benches, the program."""
+    import scipy
+
     parts = scenario.rig.caliper, scenario.brake.system, scenario.rig.sensors
     numbers = [[(key, float(value)) for key, value in quantities_in(part)] for part in parts]
     benches = [recipe_path(name).read_bytes() for name in _BENCHES.values()]
