@@ -24,7 +24,7 @@ def test_two_cases_stand_in_one_plot_with_one_time_axis(browser: Any, page: Path
     _choose(browser, 2)
     wait(browser, DRAWN)
     names = run(browser, "return [...document.querySelectorAll('.cases a')].map((each) => each.textContent)")
-    assert names == ["dry-120", "wet-80"]
+    assert names == ["slip-120", "dry-120"]
     traces = run(
         browser,
         "return document.querySelector('.compared-plot').data.filter((each) => each.y.length > 100)"

@@ -20,6 +20,8 @@ from uictest.report.traces.trace import trace_of
 from .chromium import resize, run, wait, written
 
 CASES = 300
+ORDER = sorted(range(CASES), key=lambda n: n % 7 != 0)
+"""Of the rows, before they are sorted: what is not as expected first."""
 REASON = "0 of 4 wheelsets within the limit of 1 s (4 needed): 15.69, 16.19, 13.97, 16.95 s; and so on, " * 4
 
 _SHOWN = """
@@ -70,12 +72,12 @@ def _reset(browser: Any) -> None:
 def test_a_filter_leaves_the_rows_it_names_in_their_order(browser: Any, long_page: Path) -> None:
     browser.get(long_page.as_uri())
     _search(browser, "case-29")
-    assert run(browser, _SHOWN) == _ids(*range(290, 300))
+    assert run(browser, _SHOWN) == _ids(*(n for n in ORDER if n >= 290))
     assert browser.find_element("css selector", ".count").text == "10 of 300 shown"
     _search(browser, "wheelsets CASE-29")
     assert run(browser, _SHOWN) == _ids(294)
     _reset(browser)
-    assert run(browser, _SHOWN) == _ids(*range(CASES))
+    assert run(browser, _SHOWN) == _ids(*ORDER)
 
 
 def test_a_verdict_that_is_switched_off_and_on_is_back_in_its_place(browser: Any, long_page: Path) -> None:
@@ -84,7 +86,7 @@ def test_a_verdict_that_is_switched_off_and_on_is_back_in_its_place(browser: Any
     run(browser, word)
     assert run(browser, _SHOWN) == _ids(*range(0, CASES, 7))
     run(browser, word)
-    assert run(browser, _SHOWN) == _ids(*range(CASES))
+    assert run(browser, _SHOWN) == _ids(*ORDER)
 
 
 def test_rows_are_sorted_by_numbers_and_stay_so_while_they_are_filtered(
@@ -104,10 +106,10 @@ def test_a_case_without_a_value_stands_last_however_the_rows_are_sorted(
 ) -> None:
     browser.get(long_page.as_uri())
     run(browser, "document.querySelectorAll('.verdicts tbody tr')[5].cells[3].textContent = 'none'")
-    others = [place for place in range(CASES) if place != 5]
+    others = [n for n in range(CASES) if n != ORDER[5]]
     for expected in (reversed(others), others):
         run(browser, "document.querySelectorAll('.verdicts thead button')[3].click()")
-        assert run(browser, _SHOWN) == _ids(*expected, 5)
+        assert run(browser, _SHOWN) == _ids(*expected, ORDER[5])
 
 
 def test_no_row_is_lost_or_doubled(browser: Any, long_page: Path) -> None:
@@ -138,7 +140,7 @@ def test_a_link_to_a_row_that_is_filtered_away_shows_all_rows_again(browser: Any
     _search(browser, "case-29")
     run(browser, "location.hash = '#case-case-150'")
     assert wait(browser, _IN_SIGHT, "case-case-150")
-    assert run(browser, _SHOWN) == _ids(*range(CASES))
+    assert run(browser, _SHOWN) == _ids(*ORDER)
 
 
 def test_the_part_of_a_drawn_case_is_where_its_link_leads(browser: Any, long_page: Path) -> None:

@@ -126,6 +126,6 @@ def test_a_strict_case_names_every_verdict_that_is_not_settled(
     assert result_word(strict) == "unsettled"
     assert tone("unsettled") == "bad"
     assert explanation(strict) == [
-        "expected pass, got pass, unsettled",
+        "pass, unsettled. Expected: pass",
         "minimum-slide (validity) turns: low_speed_cutoff 10 .. 60 km/h: pass 10 .. 30, fail 40 .. 60",
     ]

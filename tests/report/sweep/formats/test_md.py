@@ -38,7 +38,7 @@ def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: Mak
     ]
     assert "| `brake.90 %` ↓ `rail.friction` → | 0.10 | 0.12 |" in text
     assert "| 90 % | **0** | 100 |" in text
-    assert "| **fail** | `b[x]` | fail | 465.2 | – |  | fail. Expected: pass; locked |" in text  # noqa: RUF001 - a dash on paper
+    assert "| **fail** | `b[x]` | fail | 465.2 | – |  | fail. Expected&#58; pass; locked |" in text  # noqa: RUF001 - a dash on paper
     assert "|  | 90 % | 2 | 1 | 50 | █████░░░░░ |" in text
     assert "| 90 % = 90 % | not met up to 90 %, met from 0.11 | 90 % |" in text
 
