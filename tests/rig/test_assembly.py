@@ -171,7 +171,7 @@ def test_cylinder_is_stable_with_unity_gain_at_every_step(rig: Any, step: str) -
 
 def test_a_step_too_short_for_the_cylinder_dynamics_is_refused(rig: Any) -> None:
     with pytest.raises(ScenarioErrors, match="too short for the cylinder dynamics"):
-        rig.parameters("simulation.time_step=0.01 ms")
+        rig.parameters("simulation.time_step=0.01 ms", "rig.compensation=full")
 
 
 def test_steps_of_friction_are_pairs_of_points(rig: Any) -> None:
@@ -212,7 +212,7 @@ def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig: Any,
     assert gaps.min() * p.rail_points_per_metre > 1.0
 
 
-SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', parameters: {lower_slide: %s}}"
+SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', free_parameters: true, parameters: {lower_slide: %s}}"
 
 
 def test_the_digest_of_a_case_names_what_decides_its_stop(rig: Any) -> None:
