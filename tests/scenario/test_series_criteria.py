@@ -100,11 +100,6 @@ def test_a_criterion_of_stops_needs_no_series(criterion: Callable[[str], Criteri
             "'wheelsets' belongs to a criterion of stops",
             "leave it out",
         ),
-        (
-            "scope: series\nmeasure: k_wet\nlower: 0.8\napplies: {rail_condition: [wet]}",
-            "'applies' belongs to a criterion of stops",
-            "leave it out",
-        ),
         ("scope: train\nmeasure: k_wet\nlower: 0.8", "expected one of stop, series", ""),
     ],
 )
