@@ -195,7 +195,7 @@ def test_a_controller_from_outside_that_answers_otherwise_is_found(
     stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     files = template_stops.templates.controller_files("python")
-    files["my-wsp.yaml"] = files["my-wsp.yaml"].replace("upper_slide: 0.15", "upper_slide: 0.16")
+    files["my_wsp.py"] = files["my_wsp.py"].replace('"default": 0.15', '"default": 0.16')
     monkeypatch.setattr(template_stops.templates, "controller_files", lambda language: files)
     assert status_of(stops, "python-controller") == "fail"
 

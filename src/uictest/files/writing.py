@@ -23,7 +23,8 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
     Args:
         folder: as the user named it; it may be a link.
         name: of the file, or its path below the folder, through no link; missing folders are made.
-        private: whether only this user can read and write it.
+        private: whether only this user can read and write it, in a folder of uictest's own: whatever stands
+            in its place is replaced.
         listed: whether it is added to the list of the folder, where there is one.
 
     Raises:
@@ -38,7 +39,8 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
     ):
         if last in ("", ".."):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
-        _require_replaceable(place, last)
+        if not private:
+            _require_replaceable(place, last)
         flags, mode = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600 if private else 0o666
         descriptor = os.open(temporary, flags, mode, dir_fd=place)
         try:

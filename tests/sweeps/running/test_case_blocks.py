@@ -85,13 +85,12 @@ sample:
     brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
 """,
     "wheelsets": """
-grid: {rig.topology: [four-caliper]}
 sample:
   method: sobol
   size: 16
   parameters:
     vehicle.wheelsets.2.wheel_radius: {uniform: [0.41 m, 0.44 m]}
-    vehicle.wheelsets.3.caliper.load_friction: {uniform: [1 %, 9 %]}
+    vehicle.wheelsets.3.wsp_valve.travel_time: {uniform: [10 ms, 30 ms]}
     vehicle.wheelsets.4.brake_force: {choice: [80 %, 100 %, 120 %]}
     vehicle.wheelset.radius: {uniform: [0.42 m, 0.43 m]}
     brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
@@ -172,9 +171,12 @@ class Watched:
         self.__dict__.update(_model=model, _above=above, _read=read)
 
     def __getattr__(self, name: str) -> Any:
+        declared = getattr(type(self._model), name, None)
+        if isinstance(declared, property) and declared.fget is not None:
+            return declared.fget(self)
         value = getattr(self._model, name)
         if name not in type(self._model).model_fields:
-            self._read.add(self._above.rstrip("."))  # a property may read anything of its model
+            self._read.add(self._above.rstrip("."))  # a method may read anything of its model
             return value
         key = f"{self._above}{name}"
         if key == "vehicle.wheelsets":

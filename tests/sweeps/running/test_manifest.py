@@ -16,7 +16,7 @@ from uictest.sweeps.running.manifest import SOURCES, manifest_differences
 Load = Callable[..., Plan]
 PACKAGE = Path(uictest.__file__).parent
 WITHOUT_INFLUENCE = {
-    *("campaign", "identification", "library", "recording", "report", "user_cache"),
+    *("campaign", "files", "library", "recording", "report", "user_cache"),
     "validation",
 }
 """Rooms that select cases, serve the bench, keep files, write reports or say what was validated; the files of

@@ -18,7 +18,7 @@ from uictest.sweeps.running.case_selection import CaseSelection
 SCHEMA: Final = SWEEP_MANIFEST_SCHEMA
 SOURCES: Final = (
     *("physics", "controllers", "faults", "measures", "lanes", "rig"),
-    *("evaluation", "scenario", "series_measures", "statistics", "sweeps"),
+    *("evaluation", "identification", "scenario", "series_measures", "statistics", "sweeps"),
     *("ensemble.py", "record.py", "units.py"),
 )
 """Rooms and modules of the package that determine the result of a case."""
