@@ -27,7 +27,7 @@ STEPPED = f"rail.friction={{interpolation: steps, points: [{PLACES}]}}"
 FADING = f"rail.friction_over_time={{points: [{TIMES}]}}"
 UNALIKE = (
     "{1: {wheel_radius: 0.42 m, wsp_valve: {switching_delay: 31 ms, vent_conductance: 2e-8 m3/(s Pa)}},"
-    " 2: {configured_radius: 0.44 m, brake_force: 80 %, sensors: {speed: {teeth: 60}}},"
+    " 2: {configured_radius: 0.44 m, brake_force: 80 %%, sensors: {speed: {teeth: 60}}},"
     " 3: {pad_friction: 0.3, %s sensors: {pressure: {offset: 0.1 bar}}},"
     " 4: {%s sensors: {loadcell: {gain_error: -3 %%}}}}"
 )
