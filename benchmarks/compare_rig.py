@@ -20,7 +20,7 @@ _WHEELSETS = 4
 
 def timed(name: str, stop: Stop, c_stop: CStop, turns: int) -> float:
     """Time one stop, print a line and return the ratio."""
-    ours = compiled_stop(stop.controller)
+    ours = compiled_stop()
     steps = run_to_end(ours, stop).car.steps
     comparison = side_by_side(lambda: run_to_end(ours, stop), lambda: run_to_end(c_stop, stop), turns)
     own, other = (
@@ -57,7 +57,7 @@ def agreement(stops: dict[str, Stop], c_stop: CStop) -> None:
     for name, stop in stops.items():
         if not can_run(stop.parameters):
             continue
-        ours, theirs = run_to_end(compiled_stop(stop.controller), stop), run_to_end(c_stop, stop)
+        ours, theirs = run_to_end(compiled_stop(), stop), run_to_end(c_stop, stop)
         worst = disagreement(ours, theirs)
         verdict = "same bits" if worst == 0.0 else f"{worst:.1e}"
         m = ours.measures

@@ -212,7 +212,6 @@ class Block:
             np.array([stop.parameters for stop in stops]),
             np.array([stop.wheelset_parameters for stop in stops]),
             np.array([stop.rail for stop in stops]),
-            [stop.controller for stop in stops],
         )
         return self.run_block(inputs)
 

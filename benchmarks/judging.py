@@ -80,7 +80,7 @@ def plan_of(text: str, folder: Path) -> Plan:
 def repeated_measures(runner: ChunkRunner) -> ChunkRunner:
     """Return a runner that repeats the measures of some simulated cases instead of simulating."""
     block = runner.assembler.block(np.arange(SIMULATED))
-    simulated = runner.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
+    simulated = runner.simulate(block.parameters, block.wheelset_parameters, block.rail)
 
     @cache  # what repeating takes is not judging
     def repeated(cases: int) -> Any:

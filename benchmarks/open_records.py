@@ -8,8 +8,8 @@ import numpy as np
 from stops import Stop
 
 from uictest.physics import arithmetic
-from uictest.rig.backends.compiled import translate, with_controller
-from uictest.rig.model.controller import decide
+from uictest.rig.backends.compiled import translate, with_controllers
+from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -50,7 +50,7 @@ def rolling(stop: Stop) -> Rig:
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
-    with_own = with_controller(stop.controller, _unchanged, {})
+    with_own = with_controllers(CHOICES, _unchanged, {})
     translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters, wheelset_parameters)
     read_sensors(car[0], wheelsets, parameters)
     translate(start_cycle, _unchanged, with_own)(car[0], wheelsets, parameters, rail)

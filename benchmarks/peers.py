@@ -73,7 +73,7 @@ def c_lanes(lanes: CLanes, stop: Stop) -> float:
 
 def ours_in_lanes(stop: Stop) -> float:
     """Run stops on the rig compiled in lanes."""
-    measures = run_in_lanes(*different_stops(stop), [stop.controller] * STOPS).measures
+    measures = run_in_lanes(*different_stops(stop)).measures
     return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
 
 
@@ -156,7 +156,7 @@ class JaxColumns:
 
 def peers(stop: Stop) -> Iterator[Peer]:
     """Yield the peers, the one that all are compared with first."""
-    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop(stop.controller)
+    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop()
     eight, sixteen = CLanes(8), CLanes(16)
     yield "C, scalar, gcc -O3 -march=native", lambda: one_by_one(in_c, stop)
     yield "C, scalar, without contraction", lambda: one_by_one(strict_in_c, stop)

@@ -48,7 +48,7 @@ def lanes(turns: int) -> Cost:
     """Return the cost of one stop of a block in lanes, one thread, nothing judged; the median of turns."""
     runner = chunk_runner(load_sweep(SWEEP), rig.run_block)
     block = runner.assembler.block(np.arange(LANES))
-    inputs = block.parameters, block.wheelset_parameters, block.rail, block.controllers
+    inputs = block.parameters, block.wheelset_parameters, block.rail
     runner.simulate(*inputs)  # compiles
     walls, processors = [], []
     for _ in range(turns):

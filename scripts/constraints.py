@@ -17,8 +17,8 @@ from packaging.utils import canonicalize_name
 
 REPOSITORY = Path(__file__).parents[1]
 CONSTRAINTS = REPOSITORY / "src" / "uictest" / "constraints.txt"
-NO_EXTRAS = frozenset({"dev", "docs", "cuda"})
-"""Extras that no installation for use has, or no machine without their hardware."""
+NO_EXTRAS = frozenset({"dev", "docs"})
+"""Extras that no installation for use has."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

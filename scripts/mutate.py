@@ -44,7 +44,7 @@ _OTHER_TESTS = {
     "validation": ("cli/commands/test_validate.py",),
 }
 """Room -> what else its tests are found in, nearest first, besides the folder or file called as the room."""
-_ONE_SOURCE = ("test_compiled.py", "test_cuda.py", "test_lanes.py", "test_native.py")
+_ONE_SOURCE = ("test_compiled.py", "test_lanes.py", "test_native.py")
 """Tests that hold processors against each other: they run one source, so a change of it shows in none."""
 _OTHER_OPERATOR: dict[type[ast.AST], type[ast.AST]] = {
     ast.Add: ast.Sub,

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import settings
 
 from uictest import rig, scenario
+from uictest.controllers import CONTROLLERS
 from uictest.physics import FILL, VENT
 from uictest.record import fields_of
 
@@ -47,7 +48,7 @@ class ControllerOutside:
         inputs = rig.assemble(case)
         names = inputs.parameters.dtype.names
         self.parameters = SimpleNamespace(**{name: inputs.parameters[name].tolist() for name in names})
-        self.controller = inputs.controller
+        self.controller = CONTROLLERS[case.scenario.controller.algorithm]
         self.train = SimpleNamespace()
         memory = fields_of(self.controller.wheelset_memory)
         self.wheelsets = [SimpleNamespace(**dict.fromkeys(memory, 0.0)) for _ in range(4)]

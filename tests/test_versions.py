@@ -30,7 +30,7 @@ def test_the_constraints_name_versions_and_nothing_else() -> None:
 def test_the_constraints_hold_a_version_of_every_package_that_is_allowed() -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))["project"]
     extras = project["optional-dependencies"]
-    of_use = [each for name in extras if name not in ("dev", "docs", "cuda") for each in extras[name]]
+    of_use = [each for name in extras if name not in ("dev", "docs") for each in extras[name]]
     tested = dict(line.split("==") for line in CONSTRAINTS.read_text("utf-8").splitlines())
     for text in (*project["dependencies"], *of_use):
         needed = Requirement(text)

@@ -22,7 +22,7 @@ _PROMPT = "$ "
 _NUMBER = re.compile(r"[-+]?\d[\d.,]*(?:e[-+]?\d+)?|\bnan\b")
 _VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
 _SIGN_OF_LIFE = re.compile(
-    r"^uictest: (?:compiling the rig|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE
+    r"^uictest: (?:compil(?:ing|ed) |\d+% compiled|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE
 )
 _LONGEST = 1800  # seconds after which a command is taken for hanging, however busy the machine is
 

@@ -38,7 +38,7 @@ def bits(outcome: FinishedStop) -> bytes:
 )
 def test_c_rig_agrees_bit_for_bit(name: str) -> None:
     stop = short_stop(name)
-    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(stop.controller), stop))
+    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(), stop))
 
 
 def test_c_rig_refuses_the_modelled_air_that_it_lacks() -> None:
@@ -55,7 +55,7 @@ def test_c_rig_runs_wheelsets_that_differ() -> None:
     stop.wheelset_parameters["brake_force"] = 0.9, 1.0, 1.1, 1.2
     stop.wheelset_parameters["configured_radius"] = 0.42, 0.43, 0.44, 0.45
     stop.wheelset_parameters["valve_delay_steps"] = 0.0, 5.0, 10.0, 15.0
-    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(stop.controller), stop))
+    assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(), stop))
 
 
 def test_c_rig_refuses_the_pole_wheels_that_it_lacks() -> None:

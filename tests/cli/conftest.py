@@ -135,5 +135,5 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return CaseRun(result)
 
     monkeypatch.setattr(batch, "run_case", examine)
-    monkeypatch.setattr(rig, "is_compiled", lambda cases: True)
+    monkeypatch.setattr(rig, "load_stop", lambda: None)
     return examined

@@ -1,13 +1,11 @@
 from __future__ import annotations
 
-import io
-import re
 import threading
 
 import pytest
 
 from uictest.cli import progress as progress_module
-from uictest.cli.progress import announce_compilation, progress
+from uictest.cli.progress import progress
 
 from .conftest import HANGING
 
@@ -35,32 +33,3 @@ def test_quiet_is_silent(monkeypatch: pytest.MonkeyPatch) -> None:
     with progress(7, quiet=True) as advance:
         advance()
     assert not [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
-
-
-@pytest.mark.parametrize(
-    ("warm", "quiet", "said"), [(False, False, True), (True, False, False), (False, True, False)]
-)
-def test_a_wait_is_announced_once_for_all_commands(
-    capsys: pytest.CaptureFixture[str], warm: bool, quiet: bool, said: bool
-) -> None:
-    announce_compilation(warm=warm, quiet=quiet)
-    shown = capsys.readouterr()
-    assert shown.out == ""
-    assert ("uictest: compiling the rig (once per installation" in shown.err) is said
-
-
-@pytest.mark.parametrize(("choice", "no_color"), [("never", ""), ("auto", "1")])
-def test_the_bar_has_no_colour_where_none_is_wanted(
-    monkeypatch: pytest.MonkeyPatch, choice: str, no_color: str
-) -> None:
-    monkeypatch.setenv("NO_COLOR", no_color)
-    monkeypatch.setenv("TERM", "xterm-256color")
-    stream = io.StringIO()
-    monkeypatch.setattr(stream, "isatty", lambda: True)
-    monkeypatch.setattr("sys.stderr", stream)
-    monkeypatch.setenv("CI", "")
-    with progress(2, quiet=False, colour=choice) as advance:
-        advance()
-    shown = stream.getvalue()
-    assert "1/2" in shown
-    assert not re.search(r"\x1b\[[0-9;]*m", shown)

@@ -54,10 +54,10 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pyt
         "minimum_speed",
         "lower_slide",
     } <= model.model_fields.keys()
-    inputs = assemble(load([tmp_path / "stop.yaml"])[0])._replace(controller=controller)
+    inputs = assemble(load([tmp_path / "stop.yaml"])[0])
     inputs.parameters.cycles = 1
     with np.errstate(invalid="ignore"):  # no air is drawn within one cycle
-        finished = run_to_end(plain_stop(controller), inputs)
+        finished = run_to_end(plain_stop([controller]), inputs)
     assert finished.wheelsets.valve_command.tolist() == [VENT] * 4
 
 

@@ -66,7 +66,7 @@ class Rig:
     def _stop(self, *overrides: str, every: int = 0, **fields: float) -> FinishedStop:
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
         inputs = self.inputs(*overrides, **fields)
-        return run_to_end(compiled_stop(inputs.controller), inputs, every)
+        return run_to_end(compiled_stop(), inputs, every)
 
     def columns(self, *overrides: str, every: int = 20, **fields: float) -> dict[str, Array]:
         """Trace of a stop by channel; a wheelset's channel has a column for each of the four."""

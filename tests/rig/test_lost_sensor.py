@@ -37,7 +37,7 @@ def stops(
             inputs.append(case._replace(parameters=parameters))
     parameters = np.array([each.parameters for each in inputs], inputs[0].parameters.dtype)
     wheelsets, rail = (np.array([each[k] for each in inputs]) for k in (1, 2))
-    batch = simulation.run_in_lanes(parameters, wheelsets, rail, [each.controller for each in inputs])
+    batch = simulation.run_in_lanes(parameters, wheelsets, rail)
     yield from zip(batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray), strict=True)
 
 

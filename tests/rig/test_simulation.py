@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig import SimulatedStop, is_compiled, simulate
+from uictest.rig import SimulatedStop, simulate, stop_is_compiled
 from uictest.scenario import load
 
 
@@ -81,8 +81,8 @@ def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
     assert all(stop.recording is None for stop in stops.values())
 
 
-def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop], scenarios: Any) -> None:
-    assert is_compiled(scenarios)
+def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop]) -> None:
+    assert stop_is_compiled()
 
 
 def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig: Any, tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest import rig
-from uictest.controllers import HEADER, Controller
+from uictest.controllers import HEADER
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.friction_law import FRICTIONS
 from uictest.sweeps import ChunkRunner, Plan, load_sweep
@@ -56,7 +56,6 @@ def formula(
     parameters: NDArray[Any],
     wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
-    controllers: Sequence[Controller],
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
     measures = np.zeros(parameters.size, STOP_MEASURES)

@@ -67,7 +67,7 @@ def sweep(
     texts, folders, seed = override_texts(set), as_paths(trust), checked_seed(seed)
     plan = sweeps.load_sweep(Path(file), tuple(texts), seed, folders)
     with expression_of("select", select):
-        selection = sweeps.select_cases(plan, select, "cpu")
+        selection = sweeps.select_cases(plan, select)
     if selection.size == 0:
         raise ValueError(f"nothing selected among {plan.size} cases")
 

@@ -1,4 +1,4 @@
-"""Progress: a bar on a terminal, a line every 30 s elsewhere, a message before compiling."""
+"""Progress of stops: a bar on a terminal, a line every 30 s elsewhere."""
 
 from __future__ import annotations
 
@@ -67,12 +67,6 @@ def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
     finally:
         ended.set()
         thread.join()
-
-
-def announce_compilation(*, warm: bool, quiet: bool = False) -> None:
-    """Announce that the rig is compiled, unless the cache has it (`warm`) or the command is `quiet`."""
-    if not (warm or quiet):
-        message("uictest: compiling the rig (once per installation, ten to forty seconds)...")
 
 
 def announce_in_process(*, foreign: bool, quiet: bool = False) -> None:

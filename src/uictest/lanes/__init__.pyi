@@ -9,7 +9,7 @@ from .functions import (
     sqrt as sqrt,
 )
 from .host import fuses as fuses, register_width as register_width
-from .inner import compile_inner as compile_inner
+from .linked import bitcode as bitcode, compile_inner as compile_inner
 from .records import (
     copy_from_lane as copy_from_lane,
     copy_to_lane as copy_to_lane,

@@ -4,16 +4,16 @@ from typing import Any
 
 from llvmlite import ir
 from numba.core import types
-from numba.np.numpy_support import from_dtype
 
 from uictest.lanes.compiler import in_compiled_code
+from uictest.lanes.layouts import type_of_layout
 
 _POINTER = ir.IntType(8).as_pointer()
 
 
 def record_at(layout: Any) -> Any:
     """Return a function of an address that gives the record of a layout that lies there."""
-    record = from_dtype(layout)
+    record = type_of_layout(layout)
 
     @in_compiled_code
     def at(typing: Any, address: Any) -> Any:

@@ -6,8 +6,8 @@ They are annotated here, since numba's own annotations are incomplete.
 from collections.abc import Callable
 from typing import Any
 
-from numba import njit
-from numba.core import cgutils, imputils
+from numba import cfunc, njit
+from numba.core import cgutils, compiler_machinery, imputils, typed_passes, untyped_passes
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.typing import templates
@@ -18,6 +18,8 @@ Decorator = Callable[[CompiledDefinition], CompiledDefinition]
 
 compiled: Callable[..., Any] = njit
 """Compile a function when it is first called, for the types of its arguments."""
+compiled_entry: Callable[..., Any] = cfunc
+"""Compile a function for a signature, as C calls it."""
 in_compiled_code: Decorator = intrinsic
 """Make a definition a function of compiled code; from the types of arguments it gives signature and code."""
 typing_of: Callable[[Any], Callable[[type], type]] = templates.infer_global
@@ -40,3 +42,18 @@ Library: Any = JITCodeLibrary
 """Code of one compiled function and of all that is linked into it."""
 Pipeline: Any = Compiler
 """Steps from a Python function to its code."""
+PassManager: Any = compiler_machinery.PassManager
+"""Some of these steps in an order."""
+PASSES: Any = (
+    untyped_passes.TranslateByteCode,
+    untyped_passes.FixupArgs,
+    untyped_passes.IRProcessing,
+    untyped_passes.ReconstructSSA,
+    typed_passes.NopythonTypeInference,
+    typed_passes.PreLowerStripPhis,
+    typed_passes.IRLegalization,
+    typed_passes.AnnotateTypes,
+    typed_passes.NativeLowering,
+    typed_passes.NoPythonBackend,
+)
+"""The steps without which no function is compiled, in their order."""

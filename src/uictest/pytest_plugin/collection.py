@@ -48,9 +48,9 @@ class Collection:
         """Announce that the rig is compiled: the first test takes longer."""
         cases = [item.case for item in items if isinstance(item, CaseItem)]
         cases += [case for item in items if isinstance(item, SeriesItem) for case in item.run.planned.cases]
-        if not cases or rig.is_compiled(cases):
+        if not cases or rig.stop_is_compiled():
             return []
-        return ["uictest: the first test compiles the rig (once per installation, ten to forty seconds)"]
+        return ["uictest: the first test compiles the rig (once per installation, about 15 s)"]
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(

@@ -5,34 +5,29 @@ from .assembly import (
     assemble as assemble,
     assigned as assigned,
     controller_config as controller_config,
-    controller_of as controller_of,
     friction_laws as friction_laws,
     sha256_of_case as sha256_of_case,
 )
 from .backends.batch import BatchMeasures as BatchMeasures
 from .backends.compiled import translate as translate
-from .backends.cuda import cuda as cuda, run_on_gpu as run_on_gpu
-from .backends.lanes import (
-    lanes_are_compiled as lanes_are_compiled,
-    load_lanes as load_lanes,
-    run_in_lanes as run_in_lanes,
+from .backends.lanes import load_lanes as load_lanes, run_in_lanes as run_in_lanes
+from .backends.machine_code import (
+    Target as Target,
+    Watcher as Watcher,
+    compilation_watched as compilation_watched,
 )
-from .backends.machine_code import Target as Target
-from .backends.native import stops_are_compiled as stops_are_compiled
+from .backends.native import load_stop as load_stop, stop_is_compiled as stop_is_compiled
+from .backends.scalar import STEP as STEP, STEP_ARGUMENTS as STEP_ARGUMENTS
 from .backends.stepped import (
-    STEP_ARGUMENTS as STEP_ARGUMENTS,
-    STEP_NAME as STEP_NAME,
     STOP_MEMORY as STOP_MEMORY,
     SteppedStop as SteppedStop,
     stepping_code as stepping_code,
-    stepping_is_compiled as stepping_is_compiled,
 )
 from .derived_parameters import Assignment as Assignment
 from .derived_wheelset_parameters import WHEELSET_ASSIGNMENTS as WHEELSET_ASSIGNMENTS
 from .external.block import (
     BlockInputs as BlockInputs,
     BlockRun as BlockRun,
-    block_is_compiled as block_is_compiled,
     load_block as load_block,
     run_block as run_block,
 )
@@ -56,7 +51,6 @@ from .noise_key import noise_key_text as noise_key_text, noise_keys as noise_key
 from .recorded_rail import RecordedRail as RecordedRail
 from .simulation import (
     SimulatedStop as SimulatedStop,
-    is_compiled as is_compiled,
     recording_of_stop as recording_of_stop,
     simulate as simulate,
 )

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import CONTROLLERS, Config, Controller, ControllerProgram
+from uictest.controllers import CONTROLLERS, Config, ControllerProgram
 from uictest.record import ScenarioValue, scenario_values
 from uictest.rig.derived_parameters import (
     DERIVED,
@@ -21,6 +21,7 @@ from uictest.rig.derived_parameters import (
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE
 from uictest.rig.fault_parameters import FAULTS
+from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.external_controller import EXTERNAL
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.parameters import PARAMETERS, Parameters
@@ -37,7 +38,6 @@ class StopInputs(NamedTuple):
         wheelset_parameters: four records of
             :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
         rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
-        controller: the WSP controller; of one from outside, what stands in its place in the model.
         program: what is loaded where the controller comes from outside, else None.
         config: what that controller is given before the stop, else None.
     """
@@ -45,7 +45,6 @@ class StopInputs(NamedTuple):
     parameters: Any
     wheelset_parameters: Any
     rail: NDArray[np.float64]
-    controller: Controller
     program: ControllerProgram | None = None
     config: Config | None = None
 
@@ -66,12 +65,12 @@ def assemble(case: Case) -> StopInputs:
         _fill(wheelsets[place], assigned(assignments, case.scenario))
     rail = friction_laws(case.scenario)
     record["noise_key"] = noise_keys(record, wheelsets[None], rail[None])
-    inputs = record[0], wheelsets, rail, controller_of(case.scenario)
+    inputs = record[0], wheelsets, rail
     program = case.scenario.controller.program
     if program is None:
         return StopInputs(*inputs)
     config = controller_config(record[0], wheelsets, program)
-    return StopInputs(*inputs, program, replace(config, case_sha256=case_sha256(*inputs[:3], program)))
+    return StopInputs(*inputs, program, replace(config, case_sha256=case_sha256(*inputs, program)))
 
 
 def case_sha256(
@@ -107,12 +106,6 @@ def _fill(record: Any, values: Mapping[str, float]) -> None:
         raise AssertionError(f"parameters without a value, or unknown: {', '.join(sorted(missing))}")
     for name, value in values.items():
         record[name] = value
-
-
-def controller_of(scenario: Scenario) -> Controller:
-    """Return the controller of a scenario."""
-    controller = scenario.controller
-    return EXTERNAL if controller.program is not None else CONTROLLERS[controller.algorithm]
 
 
 def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str, Any]:
@@ -151,11 +144,14 @@ def _copying(field: str, source: ScenarioValue) -> Assignment:
 
 
 def _set_controller(parameters: Parameters, scenario: Scenario) -> None:
-    """Set the parameters of the controller in use; those of the others are zero and never read."""
-    own = controller_of(scenario).declared_parameters()
+    """Set the controller in use and its parameters; those of the others are zero and never read."""
+    section = scenario.controller
+    chosen = EXTERNAL if section.program is not None else CONTROLLERS[section.algorithm]
+    parameters.controller = CHOICES.index(chosen)
+    own = chosen.declared_parameters()
     for controller in CONTROLLERS.values():
         for field in controller.declared_parameters():
-            setattr(parameters, field, getattr(scenario.controller, field) if field in own else 0.0)
+            setattr(parameters, field, getattr(section, field) if field in own else 0.0)
 
 
 ASSIGNMENTS: tuple[Assignment, ...] = (

@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 
 from uictest.rig.assembly import ASSIGNMENTS, assigned
 from uictest.rig.backends.compiled import (
-    callback,
     compile_inner,
     compiled_operations,
     compiler,
     translate,
 )
-from uictest.rig.backends.machine_code import address, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.rail_under_record import MET_RAIL, RECORDED_MOTION, follow_record
@@ -69,7 +68,7 @@ class RecordedRail:
         wheelsets["behind"] = self._behind
         wheelsets["friction"] = found[:, 0]
         car, memory, rows = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY), len(met)
-        native_function(_NAME, _compile, len(_ARGUMENTS))(
+        native_function(_UNIT, _NAME, len(_ARGUMENTS))(
             address(car, CAR, (1,)),
             address(wheelsets, WHEELSET, (_WHEELSETS,)),
             address(self._parameters, PARAMETERS, (1,)),
@@ -81,8 +80,8 @@ class RecordedRail:
         return met["friction"].T, met["cleaned_share"].T
 
 
-def _compile() -> Any:
-    """Return the walk over the rail compiled by numba, as a function of addresses and their length."""
+def _entries() -> Entries:
+    """Return the walk over the rail as a function of addresses and their length."""
     carray = compiler().carray
     entry = translate(follow_record, compile_inner, compiled_operations())
 
@@ -97,4 +96,7 @@ def _compile() -> Any:
         )
         return 0
 
-    return callback(on_addresses, *_ARGUMENTS)
+    return {_NAME: (on_addresses, _ARGUMENTS)}
+
+
+_UNIT = Unit(_NAME, {_NAME: "the rail under a record"}, _entries)

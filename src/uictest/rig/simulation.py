@@ -1,15 +1,13 @@
 """A case in, a stop out."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from uictest.controllers import ResponseTimes
 from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
-from uictest.rig.assembly import assemble, controller_of
+from uictest.rig.assembly import assemble
 from uictest.rig.backends.finished_stop import FinishedStop
-from uictest.rig.backends.native import stops_are_compiled
 from uictest.rig.external.in_process import RunInputs
 from uictest.rig.external.workers import Workers
 from uictest.rig.model.trace import (
@@ -73,11 +71,6 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
         case_sha256="" if inputs.config is None else inputs.config.case_sha256,
         noise_key=noise_key_text(inputs.parameters),
     )
-
-
-def is_compiled(cases: Iterable[Case]) -> bool:
-    """Return whether the cache holds the rig with the controllers of these cases."""
-    return stops_are_compiled(controller_of(case.scenario) for case in cases)
 
 
 def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool) -> Recording:

@@ -1,3 +1,3 @@
-from .building import build_fmu as build_fmu, code_is_compiled as code_is_compiled
+from .building import build_fmu as build_fmu
 from .linking import CannotBuildError as CannotBuildError, usable_compiler as usable_compiler
 from .model_description import FmiVersion as FmiVersion

@@ -23,11 +23,6 @@ _NO_DATE: Final = (1980, 1, 1, 0, 0, 0)
 """The first that a ZIP archive can hold: the same case gives the same file on every day."""
 
 
-def code_is_compiled() -> bool:
-    """Return whether the cache holds the machine code that is linked into FMUs."""
-    return rig.stepping_is_compiled(_TARGET)
-
-
 def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
     """Return the FMU of a case as the bytes of its file.
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest.rig import STEP_NAME, STOP_MEMORY, StopInputs
+from uictest.rig import STEP, STOP_MEMORY, StopInputs
 from uictest.rig_fmu.variables import INSTANCE_MEMORY, Variable, place_of, variables
 
 _PLACES: Final = {
@@ -61,8 +61,8 @@ def _call(points: int) -> Iterator[str]:
     parts = ", ".join(f"(memory) + {STOP_MEMORY.fields[name][1]}" for name in STOP_MEMORY.names)
     pointers = ", ".join(["void *"] * count)
     kinds = f"{pointers}, const void *, const void *, int64_t, void *, void *, int64_t, int64_t, int64_t"
-    yield f"int64_t {STEP_NAME}({kinds});"
-    yield f"#define CARRY_OUT(memory) {STEP_NAME}({parts}, \\"
+    yield f"int64_t {STEP}({kinds});"
+    yield f"#define CARRY_OUT(memory) {STEP}({parts}, \\"
     yield f"    WHEELSET_PARAMETERS, RAIL, {points}, NULL, NULL, 0, 0, 0)"
 
 

@@ -21,12 +21,6 @@ class KnownStops:
         self.cases = {case.id: case for case in scenario.load([_FOLDER])}
         self._stops: dict[str, rig.SimulatedStop] = {}
 
-    @property
-    def are_compiled(self) -> bool:
-        """Whether the cache holds the rig for them, alone and in lanes."""
-        controllers = [rig.controller_of(case.scenario) for case in self.cases.values()]
-        return rig.is_compiled(self.cases.values()) and rig.lanes_are_compiled(controllers)
-
     def stop(self, name: str) -> rig.SimulatedStop:
         """Return a stop, simulated alone."""
         if name not in self._stops:
@@ -41,7 +35,6 @@ class KnownStops:
             np.array([each.parameters for each in inputs]),
             np.array([each.wheelset_parameters for each in inputs]),
             np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-            [each.controller for each in inputs],
         )
         stops = zip(self.cases, *batch, strict=True)
         return {name: numbers_of(train, wheelsets) for name, train, wheelsets in stops}

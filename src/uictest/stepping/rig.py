@@ -72,7 +72,7 @@ class Rig:
             seed: of the sensor noise, 0 to 2^32 - 1; None: that of the scenario. The same seed gives the same
                 stop, to the bit.
 
-        Raises ValueError for another seed. The first call on a machine compiles the rig (about 30 s).
+        Raises ValueError for another seed. The first call on a machine compiles the rig (about 15 s).
         """
         inputs = assemble(self.case)
         self._noise_key = noise_key_text(inputs.parameters)

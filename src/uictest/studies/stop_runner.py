@@ -105,7 +105,6 @@ def _side_by_side(cases: Sequence[Case]) -> list[rig.SimulatedStop]:
         np.array([each.parameters for each in inputs]),
         np.array([each.wheelset_parameters for each in inputs]),
         np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-        [each.controller for each in inputs],
     )
     trains, wheelsets = batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray)
     return [rig.SimulatedStop(*stop) for stop in zip(trains, wheelsets, strict=True)]

@@ -17,7 +17,6 @@ from .running.cluster import (
     check_address as check_address,
     run_on_cluster as run_on_cluster,
 )
-from .running.device import NoDeviceError as NoDeviceError
 from .running.manifest import SCHEMA as SCHEMA, sweep_manifest as sweep_manifest
 from .running.shard import Shard as Shard, parse_shard as parse_shard
 from .running.store import (

@@ -24,7 +24,6 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
         return b"an FMU"
 
     monkeypatch.setattr(rig_fmu, "usable_compiler", lambda: "cc")
-    monkeypatch.setattr(rig_fmu, "code_is_compiled", lambda: True)
     monkeypatch.setattr(rig_fmu, "build_fmu", build)
     return made
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from uictest import rig, studies
+from uictest import studies
 from uictest.studies import (
     OwnBand,
     SourceBand,
@@ -46,7 +46,6 @@ def catalogue(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two studies, of which the second misses its band."""
     chosen = {each.name: each for each in (study("sound", 2.0), study("amiss", 0.5))}
     monkeypatch.setattr(studies, "STUDIES", chosen)
-    monkeypatch.setattr(rig, "stops_are_compiled", lambda controllers: True)
 
 
 def test_studies_are_listed(call: Call) -> None:

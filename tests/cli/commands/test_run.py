@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest import campaign, report, rig
+from uictest import campaign, report
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -229,16 +229,6 @@ def test_quiet_shows_only_what_is_not_met(call: Call, scenario: Write) -> None:
     answer = call("run", "-q")
     assert [line.split()[0] for line in answer.out.splitlines()] == ["fail"]
     assert answer.err == ""
-
-
-def test_the_first_run_of_an_installation_says_that_it_compiles(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scenario("a")
-    assert "compiling" not in call("run").err
-    monkeypatch.setattr(rig, "is_compiled", lambda cases: False)
-    assert "compiling the rig (once per installation, ten to forty seconds)..." in call("run").err
-    assert "compiling" not in call("run", "-q").err
 
 
 def test_durations_name_the_slowest(call: Call, scenario: Write) -> None:

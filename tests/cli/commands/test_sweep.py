@@ -7,16 +7,14 @@ import json
 import random
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from uictest import report, rig, sweeps as room
+from uictest import report, sweeps as room
 from uictest.sweeps.running.chunk import ChunkRunner
 
 from ..conftest import HANGING, Start
@@ -387,7 +385,6 @@ def test_stdout_is_the_document_alone(call: Call, study: Path) -> None:
         (["--frontier", "rail.friction", "--tolerance", "x"], "is not a number"),
         (["--map", "rail.friction,brake"], "name two parameters of rail.friction, brake.command"),
         (["--measure", "braking_distance"], "did you mean 'braking_distance_m'?"),
-        (["--device", "gpu"], "is not one of 'cpu', 'cuda'"),
         (["-k", "("], "expected a word"),
         (["--set", "rail.frictoin=1"], "did you mean 'friction'?"),
     ],
@@ -396,44 +393,6 @@ def test_usage(call: Call, study: Path, options: list[str], said: str) -> None:
     answer = call("sweep", study, *options)
     assert answer.code == 4
     assert said in answer.err
-
-
-def fake_cuda(monkeypatch: pytest.MonkeyPatch, context: Callable[[], None]) -> None:
-    cuda = SimpleNamespace(CudaSupportError=ImportError, current_context=context)
-    monkeypatch.setitem(vars(rig), "cuda", cuda)
-    monkeypatch.setitem(vars(rig), "run_on_gpu", lambda *inputs: None)
-
-
-@pytest.mark.parametrize(
-    ("error", "reason"),
-    [
-        (
-            "Error at driver init: \n\nCUDA driver library cannot be found.\nIf you are sure\n:",
-            "CUDA driver library cannot be found",
-        ),
-        ("Error at driver init: CUDA_ERROR_NO_DEVICE (100)", "CUDA_ERROR_NO_DEVICE (100)"),
-    ],
-)
-def test_without_a_gpu_the_processor_is_named_and_not_hindered(
-    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: str, reason: str
-) -> None:
-    def context() -> None:
-        raise ImportError(error)
-
-    fake_cuda(monkeypatch, context)
-    answer = call("sweep", study, "--device", "cuda")
-    assert answer.code == 4
-    assert answer.err == (f"uictest: no CUDA device found ({reason}): simulate on the processor (--device)\n")
-    assert call("sweep", study, "-k", "friction=0.09").code == 0
-
-
-def test_without_numba_cuda_the_extra_is_named(
-    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "uictest.rig.backends.cuda", None)  # type: ignore[arg-type]
-    answer = call("sweep", study, "--device", "cuda")
-    assert answer.code == 4
-    assert answer.err == "uictest: a GPU needs the extra: pip install 'uictest[cuda]' (--device)\n"
 
 
 def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None:

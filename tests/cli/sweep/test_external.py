@@ -109,17 +109,6 @@ def test_the_frontier_of_a_parameter_is_found(call: Call, study: Any) -> None:
     assert float(flip["to"]) - float(flip["from"]) <= 0.1
 
 
-@pytest.mark.parametrize("swept", ["grid: {rail.friction: [0.1]}\n", "grid: {controller: [threshold, x]}\n"])
-def test_a_gpu_runs_no_controller_from_outside(call: Call, study: Any, swept: str) -> None:
-    Path("x.yaml").write_text("schema: uictest/controller/1\npython: share.py\nclass: Share\n")
-    file = study(swept.replace("x]", "x.yaml]"))
-    answer = call("sweep", file, "--device", "cuda")
-    assert answer.code == 4
-    assert "a GPU runs built-in controllers only, not share.py; leave --device out" in " ".join(
-        answer.err.split()
-    ).replace("│ ", "")
-
-
 def test_a_dry_run_loads_no_controller(call: Call, study: Any) -> None:
     file = study("grid: {controller.parameters.share: [0, 1]}\n")
     declared = 'PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}\n'

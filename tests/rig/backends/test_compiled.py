@@ -2,6 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,13 @@ from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics.arithmetic import exp, maximum
 from uictest.physics.flow import mass_flow, orifice_law
 from uictest.rig import StopInputs
-from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controller
+from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controllers
 from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop
 from uictest.rig.bench.step import run_bench_test
+from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
@@ -122,8 +124,8 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
     if "cycles" not in fields:
         fields = {**fields, "cycles": 200}
     inputs = rig.inputs(*overrides, **fields)
-    plain = everything(plain_stop(inputs.controller), inputs, 1)
-    compiled = everything(compiled_stop(inputs.controller), inputs, 1)
+    plain = everything(plain_stop(), inputs, 1)
+    compiled = everything(compiled_stop(), inputs, 1)
     for name, layout in (
         ("car", CAR),
         ("bogies", BOGIE),
@@ -157,25 +159,11 @@ def test_the_settings_reach_what_they_say(rig: Any) -> None:
     assert faulty.car.ended_faults == 0b1101_0001
     assert faulty.car.leaked_air > 0.0
     assert (faulty.wheelset_measures.faulty == 1.0).all()
-    used = {rig.inputs(*overrides).controller.name for overrides, _ in SETTINGS.values()}
+    used = {CHOICES[rig.inputs(*overrides).parameters.controller].name for overrides, _ in SETTINGS.values()}
     assert used == CONTROLLERS.keys()
 
 
-def test_a_stop_with_one_controller_compiles_no_other(rig: Any) -> None:
-    """Nor the other way round: whoever adds one does not lengthen the first run of all others."""
-    functions: list[str] = []
-
-    def note(function: Any) -> Any:
-        functions.append(function.__module__)
-        return function
-
-    translate(run_stop, note, with_controller(CONTROLLERS["threshold"], note, {}))
-    assert "uictest.controllers.built_in.threshold" in functions
-    assert "uictest.controllers.built_in.slip_band" not in functions
-
-
-@pytest.mark.parametrize("controller", CONTROLLERS.values(), ids=lambda controller: controller.name)
-def test_every_translated_function_decides_whether_code_is_compiled_anew(controller: Controller) -> None:
+def test_every_translated_function_decides_whether_code_is_compiled_anew() -> None:
     """Else a change of its source would run the code of before."""
     files: set[Path] = set()
 
@@ -183,11 +171,29 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew(control
         files.add(Path(function.__code__.co_filename))
         return function
 
-    done = with_controller(controller, note, {})
+    done = with_controllers(CHOICES, note, {})
     for function in (run_stop, run_bench_test, run_queue):
         translate(function, note, done)
-    assert len(files) > 10
+    assert {f"{each.name.replace('-', '_')}.py" for each in CONTROLLERS.values()} < {
+        file.name for file in files
+    }
     assert files <= set(sources())
+
+
+@pytest.mark.parametrize("controller", CHOICES, ids=lambda controller: controller.name)
+def test_the_number_of_a_controller_chooses_it(controller: Controller) -> None:
+    called: list[Any] = []
+    noting = {each.decide: _noting(called, each) for each in CHOICES}
+    chosen = with_controllers(CHOICES, lambda function: function, noting)[decide]
+    chosen(None, None, SimpleNamespace(controller=CHOICES.index(controller)))
+    assert called == [controller]
+
+
+def _noting(called: list[Any], controller: Controller) -> Any:
+    def note(train: Any, wheelsets: Any, p: Any) -> None:
+        called.append(controller)
+
+    return note
 
 
 def test_a_stop_made_without_a_controller_says_so(rig: Any) -> None:
@@ -217,7 +223,7 @@ def test_a_sparse_trace_is_part_of_a_dense_one(rig: Any) -> None:
 def test_threads_do_not_disturb_each_other(rig: Any) -> None:
     """The same stop in six places, and others beside it."""
     cases = [rig.inputs(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
-    compiled = compiled_stop(CONTROLLERS["threshold"])
+    compiled = compiled_stop()
     with ThreadPoolExecutor(4) as threads:
         jobs = [threads.submit(everything, compiled, inputs, 0) for inputs in cases * 2]
         ends = [job.result() for job in jobs]

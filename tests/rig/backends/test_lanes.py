@@ -12,7 +12,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest.controllers import DEFAULT
 from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
@@ -84,12 +83,9 @@ import sys
 sys.modules["numba"] = None
 from pathlib import Path
 import numpy as np
-from uictest.controllers import CONTROLLERS
-from uictest.rig.backends.lanes import lanes_are_compiled, run_in_lanes
-controllers = [CONTROLLERS["threshold"]] * 2
-assert lanes_are_compiled(controllers)
+from uictest.rig.backends.lanes import run_in_lanes
 inputs = [np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "wheelsets", "rail")]
-print(run_in_lanes(*inputs, controllers).measures.tobytes().hex())
+print(run_in_lanes(*inputs).measures.tobytes().hex())
 """
 
 
@@ -106,18 +102,16 @@ class Batch:
         self.parameters: NDArray[Any] = np.zeros(len(cases), PARAMETERS)
         self.wheelsets: NDArray[Any] = np.zeros((len(cases), 4), WHEELSET_PARAMETERS)
         self.rail = np.zeros((len(cases), 4, max(case.rail.shape[1] for case in cases)))
-        self.controllers = [case.controller for case in cases]
         for number, (parameters, wheelsets, rail, *_) in enumerate(cases):
             self.parameters[number] = parameters
             self.wheelsets[number] = wheelsets
             self.rail[number, :, : rail.shape[1]] = rail
-        self.alone = [run_to_end(compiled_stop(case.controller), case) for case in cases]
+        self.alone = [run_to_end(compiled_stop(), case) for case in cases]
 
     def in_lanes(self, numbers: Sequence[int], width: int | None = None) -> BatchMeasures:
         chosen = list(numbers)
-        controllers = [self.controllers[number] for number in chosen]
         inputs = (self.parameters[chosen], self.wheelsets[chosen], self.rail[chosen])
-        return run_in_lanes(*inputs, controllers, width)
+        return run_in_lanes(*inputs, width)
 
     def is_as_alone(self, numbers: Sequence[int], batch: BatchMeasures) -> bool:
         return all(
@@ -149,16 +143,10 @@ def test_a_lane_gives_the_bits_of_a_stop_alone(batch: Batch) -> None:
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL))
 
 
-@pytest.mark.parametrize("width", [4, 8])
-def test_registers_of_most_processors_give_the_same_bits(batch: Batch, width: int) -> None:
-    """With one controller: it decides for one lane at a time, whatever their number."""
-    numbers = [number for number in ALL if batch.controllers[number].name == DEFAULT]
-    assert batch.is_as_alone(numbers, batch.in_lanes(numbers, width))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("width", [2, 4, 8, 16])
-def test_any_number_of_lanes_gives_the_same_bits_with_every_controller(batch: Batch, width: int) -> None:
+@pytest.mark.parametrize(
+    "width", [4, 8, pytest.param(2, marks=pytest.mark.slow), pytest.param(16, marks=pytest.mark.slow)]
+)
+def test_any_number_of_lanes_gives_the_same_bits(batch: Batch, width: int) -> None:
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL, width))
 
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest import user_cache
 from uictest.rig.backends import machine_code
-from uictest.rig.backends.compiled import callback
-from uictest.rig.backends.machine_code import is_kept, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, is_kept, native_function
 
-NAME = "uictest_test"
+NAME, OTHER, UNIT = "uictest_test", "uictest_other", "uictest_tests"
 
 
 @pytest.fixture
@@ -27,21 +25,25 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def begin(monkeypatch: pytest.MonkeyPatch) -> Callable[[], Callable[..., int]]:
-    """Load the function as a new process would; the compiler is `compiled`."""
+    """Load the function as a new process would."""
 
     def load() -> Callable[..., int]:
         monkeypatch.setattr(machine_code, "_loaded", {})
-        return native_function(NAME, _compiled, 1)
+        return _function(NAME)
 
     return load
 
 
-def _compiled() -> Any:
-    return callback(lambda number: 3 * number, int)
+def _function(name: str) -> Callable[..., int]:
+    return native_function(Unit(UNIT, {NAME: "a test", OTHER: "another"}, _entries), name, 1)
 
 
-def _kept(cache: Path) -> Path:
-    (path,) = cache.iterdir()
+def _entries() -> Entries:
+    return {NAME: (lambda number: 3 * number, (int,)), OTHER: (lambda number: number - 1, (int,))}
+
+
+def _kept(cache: Path, kind: str = NAME) -> Path:
+    (path,) = cache.glob(f"{kind}-*")
     return path
 
 
@@ -51,8 +53,43 @@ def test_code_is_compiled_once(
     assert not is_kept(NAME)
     assert begin()(14) == 42
     assert is_kept(NAME)
-    monkeypatch.setitem(globals(), "_compiled", lambda: pytest.fail("compiled again"))
+    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled again"))
     assert begin()(14) == 42
+
+
+def test_what_shares_code_is_compiled_once(
+    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begin()
+    assert not is_kept(OTHER)
+    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled again"))
+    assert _function(OTHER)(14) == 13
+
+
+@pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-64], lambda code: code[::-1]])
+def test_damaged_bitcode_is_compiled_anew(
+    cache: Path, begin: Callable[[], Callable[..., int]], damage: Callable[[bytes], bytes]
+) -> None:
+    begin()
+    sound = _kept(cache, UNIT).read_bytes()
+    _kept(cache, UNIT).write_bytes(damage(sound))
+    assert _function(OTHER)(14) == 13
+    assert len(_kept(cache, UNIT).read_bytes()) > 64
+
+
+def test_progress_is_told_from_nothing_to_the_end(
+    cache: Path, begin: Callable[[], Callable[..., int]]
+) -> None:
+    told: list[tuple[str, float]] = []
+    with machine_code.compilation_watched(lambda title, done: told.append((title, done))):
+        begin()
+        _function(OTHER)
+        begin()
+    assert {title for title, _ in told} == {"a test", "another"}
+    shares = [done for title, done in told if title == "a test"]
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert shares == sorted(shares)
+    assert [done for title, done in told if title == "another"] == [0.0, 1.0]
 
 
 @pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-64], lambda code: code[::-1]])
@@ -113,5 +150,5 @@ def test_what_another_process_compiles_meanwhile_is_used(
         yield
 
     monkeypatch.setattr(user_cache, "turn", turn)
-    monkeypatch.setitem(globals(), "_compiled", lambda: pytest.fail("compiled as well"))
+    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled as well"))
     assert begin()(14) == 42

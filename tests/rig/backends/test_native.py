@@ -10,18 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.controllers import CONTROLLERS
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import simulate
 from uictest.rig.backends.finished_stop import empty_trace
-from uictest.rig.backends.native import compiled_stop, stops_are_compiled
+from uictest.rig.backends.native import compiled_stop, stop_is_compiled
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.scenario import load
 
-THRESHOLD = CONTROLLERS["threshold"]
 WITHOUT_COMPILER = """
 import sys
 sys.modules["numba"] = None
@@ -62,8 +60,8 @@ def arguments(rig: Any) -> dict[str, Any]:
 
 
 def test_a_warm_start_needs_no_compiler(tmp_path: Any) -> None:
-    compiled_stop(THRESHOLD)
-    assert stops_are_compiled([THRESHOLD])
+    compiled_stop()
+    assert stop_is_compiled()
     scenario = tmp_path / "stop.yaml"
     scenario.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n")
     command = [sys.executable, "-c", WITHOUT_COMPILER, scenario]
@@ -103,5 +101,5 @@ def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Pa
 def test_another_layout_is_refused(rig: Any, name: str, other: Any) -> None:
     """Machine code would read and write beyond it."""
     with pytest.raises(TypeError, match="contiguous"):
-        compiled_stop(THRESHOLD)(**{**arguments(rig), name: other})
-    assert compiled_stop(THRESHOLD)(**arguments(rig)) == 0
+        compiled_stop()(**{**arguments(rig), name: other})
+    assert compiled_stop()(**arguments(rig)) == 0

@@ -63,7 +63,7 @@ def test_every_shipped_stop_has_the_bits_of_run(
 ) -> None:
     for case in scenarios if every == 0 else scenarios[::5]:
         inputs = assemble(case)
-        run = run_to_end(compiled_stop(inputs.controller), inputs, every)
+        run = run_to_end(compiled_stop(), inputs, every)
         assert_same(stepped_to_end(case, controller_outside, every), run)
 
 
@@ -74,7 +74,7 @@ def test_other_parts_of_the_rig_have_the_bits_of_run(
     file, overrides = VARIANTS[name]
     case = load([SCENARIOS / file], overrides)[0]
     inputs = assemble(case)
-    run = run_to_end(compiled_stop(inputs.controller), inputs, 20)
+    run = run_to_end(compiled_stop(), inputs, 20)
     assert_same(stepped_to_end(case, controller_outside, 20), run)
 
 
@@ -85,7 +85,7 @@ def test_a_stop_ends_after_its_longest_duration(rig: Any) -> None:
         stop.step()
         steps += 1
     assert steps == 50
-    run = run_to_end(compiled_stop(inputs.controller), inputs)
+    run = run_to_end(compiled_stop(), inputs)
     assert stop.finished().measures.tobytes() == run.measures.tobytes()
 
 

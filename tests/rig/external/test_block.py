@@ -82,7 +82,6 @@ def block_of(inputs: Sequence[StopInputs]) -> BlockInputs:
         np.array([stop.parameters for stop in inputs]),
         np.array([stop.wheelset_parameters for stop in inputs]),
         np.array([stop.rail for stop in inputs]),
-        [stop.controller for stop in inputs],
     )
 
 

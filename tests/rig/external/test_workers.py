@@ -304,7 +304,6 @@ def block_of_stops(stops: list[StopInputs]) -> BlockInputs:
         np.array([stop.parameters for stop in stops]),
         np.array([stop.wheelset_parameters for stop in stops]),
         np.array([stop.rail for stop in stops]),
-        [stop.controller for stop in stops],
     )
 
 

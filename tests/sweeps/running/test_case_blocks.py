@@ -115,8 +115,7 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
     for place in range(plan.size):
-        record, own, rail, controller, *_ = assemble(written_out(plan, place))
-        assert block.controllers[place] is controller
+        record, own, rail, *_ = assemble(written_out(plan, place))
         assert record.tobytes() == block.parameters[place].tobytes()
         assert own.tobytes() == block.wheelset_parameters[place].tobytes()
         assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
@@ -216,8 +215,8 @@ def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
 
     from ..conftest import formula
 
-    record, own, rail, controller, *_ = assemble(case)
-    measures, wheelsets = formula(np.array([record]), own[None], rail[None], [controller])
+    record, own, rail, *_ = assemble(case)
+    measures, wheelsets = formula(np.array([record]), own[None], rail[None])
     read: set[str] = set()
     watched: Any = Watched(case.scenario, "", read)
     for stopped in (1.0, 0.0):

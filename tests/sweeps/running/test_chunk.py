@@ -31,9 +31,7 @@ def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> N
     found = rows(runner.run(np.arange(plan.size)))
     for index, row in enumerate(found):
         block = runner.assembler.block(np.array([index]))
-        measures, wheelsets = formula(
-            block.parameters, block.wheelset_parameters, block.rail, block.controllers
-        )
+        measures, wheelsets = formula(block.parameters, block.wheelset_parameters, block.rail)
         result = evaluate(written_out(plan, index), measures[0], wheelsets[0])
         assert (row["index"], row["id"]) == (index, result.id)
         assert (row["outcome"], row["met"], row["reason"]) == (result.outcome, result.met, result.reason)
@@ -55,10 +53,10 @@ def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeRunner) -> 
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
-    def breaks(parameters: Any, own: Any, rail: Any, controllers: Any) -> Any:
+    def breaks(parameters: Any, own: Any, rail: Any) -> Any:
         if (rail[:, 1, 0] == 0.10).any():
             raise ZeroDivisionError("no wheel load")
-        return formula(parameters, own, rail, controllers)
+        return formula(parameters, own, rail)
 
     plan = load()
     found = rows(replace(made_up(plan), simulate=breaks).run(np.arange(plan.size)))

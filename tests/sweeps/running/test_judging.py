@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest import rig
-from uictest.controllers import Controller
 from uictest.evaluation import ResultColumns, error_result, evaluate_simulated, result_columns
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.sweeps import ChunkRunner, Plan, chunk_runner
@@ -129,7 +128,6 @@ def hand_made(
     parameters: NDArray[Any],
     wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
-    controllers: Sequence[Controller],
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Measures that no rig makes: every number by lot, all that can go wrong, in all combinations."""
     lot = np.random.default_rng(int(parameters["noise_key"].sum()))
@@ -161,7 +159,6 @@ def judged_alone(runner: ChunkRunner, block: CaseBlock) -> ResultColumns:
         block.parameters[simulated],
         block.wheelset_parameters[simulated],
         block.rail[simulated],
-        [block.controllers[place] for place in simulated],
     )
     for place, reason in enumerate(block.rejections):
         case = runner.assembler.case(block, place)
@@ -208,9 +205,7 @@ def test_a_case_of_a_block_is_judged_as_its_scenario_written_out(load: Load, mad
         block = runner.assembler.block(np.array([index]))
         row = runner.results(block)
         if not block.rejections[0]:
-            measures, wheelsets = hand_made(
-                block.parameters, block.wheelset_parameters, block.rail, block.controllers
-            )
+            measures, wheelsets = hand_made(block.parameters, block.wheelset_parameters, block.rail)
             result = evaluate_simulated(written_out(plan, index), measures[0], wheelsets[0], explain=False)
             assert (row.outcomes[0], row.reasons[0], row.met[0]) == (
                 result.outcome,

@@ -46,9 +46,9 @@ def finished(load: Load, made_up: MakeRunner, tmp_path: Path) -> Callable[..., t
     return finish
 
 
-def unstopped(parameters: Any, own: Any, rail: Any, controllers: Any) -> Any:
+def unstopped(parameters: Any, own: Any, rail: Any) -> Any:
     """Stops of the formula, of which those on the slipperiest rail are not over when the simulation ends."""
-    measures, wheelsets = formula(parameters, own, rail, controllers)
+    measures, wheelsets = formula(parameters, own, rail)
     running = rail[:, 1, 0] < 0.09
     measures["stopped"] = np.where(running, 0.0, 1.0)
     measures["end_speed"][running] = 2.0

@@ -44,9 +44,9 @@ def load_dry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> LoadDry:
     return write_and_load
 
 
-def slippery_stops_unfinished(parameters: Any, own: Any, rail: Any, controllers: Any) -> Any:
+def slippery_stops_unfinished(parameters: Any, own: Any, rail: Any) -> Any:
     """Stops of the formula, of which those below a friction of 0.103 do not end."""
-    measures, wheelsets = formula(parameters, own, rail, controllers)
+    measures, wheelsets = formula(parameters, own, rail)
     running = rail[:, 1, 0] < 0.103
     measures["stopped"] = np.where(running, 0.0, 1.0)
     measures["braking_distance"] = np.where(running, np.nan, measures["braking_distance"])
@@ -123,8 +123,8 @@ def test_k_dry_is_the_bound_over_the_nominal(load_dry: LoadDry) -> None:
 def test_draws_in_which_a_wheelset_slides_are_counted(load_dry: LoadDry) -> None:
     """Whatever makes the rail slippery: here its friction, under the name of dry rail."""
 
-    def sliding_below(parameters: Any, own: Any, rail: Any, controllers: Any) -> Any:
-        measures, wheelsets = formula(parameters, own, rail, controllers)
+    def sliding_below(parameters: Any, own: Any, rail: Any) -> Any:
+        measures, wheelsets = formula(parameters, own, rail)
         wheelsets["sliding_duration"][:, 2] = np.where(rail[:, 1, 0] < 0.12, 1.5, 0.5)
         return measures, wheelsets
 

@@ -10,10 +10,10 @@ from typing import Annotated
 import typer
 
 from uictest import identification, recording, runs, scenario
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.cli.progress import announce_compilation
 from uictest.recording import formats
 from uictest.rig import bench as rig_bench
 from uictest.scenario import yaml
@@ -77,8 +77,8 @@ def bench(
     test = _test(recipe, trace, pressure, command, overrides or (), seed, trusted or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     write = _writer(target)
-    announce_compilation(warm=rig_bench.is_compiled(), quiet=quiet)
-    samples = _run(test)
+    with compilation_shown(quiet=quiet):
+        samples = _run(test)
     write(samples, target)
     if not quiet:
         message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")

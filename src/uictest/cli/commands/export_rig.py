@@ -11,10 +11,10 @@ import typer
 
 from uictest import files, rig_fmu, runs, scenario
 from uictest.cli.cases import case_lines, select_by_options
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.cli.progress import announce_compilation
 
 
 class Fmi(StrEnum):
@@ -90,8 +90,8 @@ def _built(case: scenario.Case, version: Fmi) -> bytes:
         compiler = rig_fmu.usable_compiler()
     except rig_fmu.CannotBuildError as error:
         raise runs.InvalidInputError(f"{error}") from error
-    announce_compilation(warm=rig_fmu.code_is_compiled())
     try:
-        return rig_fmu.build_fmu(case, 2 if version is Fmi.TWO else 3, compiler)
+        with compilation_shown():
+            return rig_fmu.build_fmu(case, 2 if version is Fmi.TWO else 3, compiler)
     except ValueError as error:
         raise runs.InvalidInputError(f"{error}") from error

@@ -13,9 +13,9 @@ import typer
 
 from uictest import controllers, field_data, files, fitting, report, rig, runs, scenario as scenarios
 from uictest.cli import options, recordings
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, message
-from uictest.cli.progress import announce_compilation
 from uictest.recording import formats
 from uictest.scenario import yaml
 from uictest.units import KILOMETRE_PER_HOUR
@@ -115,8 +115,8 @@ def fit(
     named = dict(zip(runs.stop_names(files), stops, strict=True))
     fitted = _FittedStops(named, case, scenario, overrides or (), trusted or (), result)
     data("\n".join(_lines(fitted)))
-    announce_compilation(warm=rig.is_compiled([case]))
-    folder = _publish(fitted, context.obj.arguments, output)
+    with compilation_shown():
+        folder = _publish(fitted, context.obj.arguments, output)
     for file, stop in zip(files, stops, strict=True):
         for defect in stop.defects:
             message(f"uictest: {file}: {defect}")

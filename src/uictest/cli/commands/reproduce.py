@@ -10,11 +10,11 @@ from typing import Annotated
 
 import typer
 
-from uictest import controllers, report, rig, runs, studies
+from uictest import report, runs, studies
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Colour, Colouring, Jobs, ListFormat, PlainFormat, Verbosity
 from uictest.cli.output import coloured, data, interactive, message
-from uictest.cli.progress import announce_compilation
 from uictest.scenario import yaml
 
 _INSTALL_FIGURES = "pip install 'uictest[figures]'"
@@ -83,15 +83,13 @@ def _run(
     selected: Sequence[studies.Study], jobs: int, output: Path, *, quiet: bool
 ) -> list[studies.StudyResult]:
     """Run the studies one after the other, and write the tables of each as soon as it has ended."""
-    announce_compilation(
-        warm=rig.stops_are_compiled([controllers.CONTROLLERS[controllers.DEFAULT]]), quiet=quiet
-    )
     stop_runner = studies.StopRunner(jobs)
     results: list[studies.StudyResult] = []
     for study in selected:
         if not quiet:
             message(f"uictest: {study.name}...")
-        results.append(studies.run_study(study, stop_runner))
+        with compilation_shown(quiet=quiet):
+            results.append(studies.run_study(study, stop_runner))
         studies.write_tables(output, results[-1])
     studies.write_comparison(output, results)
     return results

@@ -8,9 +8,9 @@ from typing import Final
 
 from uictest import files, selftest as known_answers
 from uictest.cli import options
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
-from uictest.cli.progress import announce_compilation
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
 """Worst finding -> exit code; any other is `ExitCode.MET`."""
@@ -27,8 +27,8 @@ def selftest(
     """
     file = options.junit_file(junit, Path())
     stops = known_answers.KnownStops()
-    announce_compilation(warm=stops.are_compiled)
-    examination = known_answers.examine(stops)
+    with compilation_shown():
+        examination = known_answers.examine(stops)
     if shown is options.PlainFormat.JSON:
         data(known_answers.findings_json(examination))
     else:

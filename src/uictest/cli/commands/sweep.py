@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -30,14 +29,6 @@ from uictest.cli.options import (
     report_formats,
 )
 from uictest.cli.output import message
-
-
-class Device(StrEnum):
-    """The processor that simulates."""
-
-    CPU = "cpu"
-    CUDA = "cuda"
-
 
 SweepFile = Annotated[Path, typer.Argument(metavar="FILE", help="Sweep file (*.sweep.yaml).")]
 Frontier = Annotated[
@@ -72,7 +63,6 @@ Measures = Annotated[
         help="Measure to map and to compute sensitivities of: a column of summary.csv. May be repeated.",
     ),
 ]
-OnDevice = Annotated[Device, typer.Option("--device", help="Processor to simulate on.")]
 SweepFormat = Annotated[
     Format,
     typer.Option(
@@ -120,7 +110,6 @@ def sweep(
     shard: Shard = None,
     merged: Merged = None,
     dask: Dask = None,
-    device: OnDevice = Device.CPU,
     restart: Restart = False,
     dry_run: DryRun = False,
     frontier: Frontier = None,
@@ -139,8 +128,7 @@ def sweep(
     """Run a sweep. After an interruption the same command continues it."""
     format_names = report_formats(formats, "--report", report.sweep_format_names())
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
-    sweeping.reject_programs_on_gpu(plan, device.value)
-    selection = sweeping.selected_cases(plan, expression, device.value)
+    selection = sweeping.selected_cases(plan, expression)
     if selection.size == 0:
         message(f"uictest: nothing selected among {report.counted(plan.size, 'case')}")
         return ExitCode.NOTHING_SELECTED
@@ -153,7 +141,7 @@ def sweep(
             selection, expression=expression, overrides=overrides or (), seed=seed
         ),
         folder=output / plan.name,
-        jobs=1 if device is Device.CUDA else jobs,
+        jobs=jobs,
         shard=sweeping.shard_of(shard),
         merged=tuple(merged or ()),
         cluster=sweeping.cluster_address(dask),

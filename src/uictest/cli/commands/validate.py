@@ -12,9 +12,10 @@ import typer
 
 from uictest import rig, runs, scenario, validation
 from uictest.cli import options
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode, worst
 from uictest.cli.output import data, message, terminal_width
-from uictest.cli.progress import announce_compilation, progress
+from uictest.cli.progress import progress
 
 Files = Annotated[
     list[Path],
@@ -66,7 +67,8 @@ class _TerminalObserver(runs.Observer):
 
     @contextmanager
     def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
-        announce_compilation(warm=rig.is_compiled(cases))
+        with compilation_shown():
+            rig.load_stop()
         stops = sum(case.scenario.repeat for case in cases)
         with progress(stops, quiet=False, unit="stops") as advance:
             yield advance

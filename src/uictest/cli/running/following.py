@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from uictest import campaign, report, rig, runs, scenario, series
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.output import message
-from uictest.cli.progress import announce_compilation, announce_in_process, progress
+from uictest.cli.progress import announce_in_process, progress
 from uictest.cli.running.display import Display
 
 
@@ -28,7 +29,8 @@ class TerminalObserver(runs.Observer):
         """Announce what takes long or is dangerous, and show the progress of the stops."""
         foreign = any(case.scenario.controller.program for case in cases)
         announce_in_process(foreign=self._in_process and foreign, quiet=self._quiet)
-        announce_compilation(warm=rig.is_compiled(cases), quiet=self._quiet)
+        with compilation_shown(quiet=self._quiet, colour=self._colour):
+            rig.load_stop()
         stops = sum(case.scenario.repeat for case in cases)
         unit = "stops" if stops > len(cases) else "cases"
         with progress(stops, quiet=self._quiet, unit=unit, colour=self._colour) as advance:

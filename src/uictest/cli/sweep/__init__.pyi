@@ -3,7 +3,6 @@ from .arguments import (
     frontier_search as frontier_search,
     map_pair as map_pair,
     measure_names as measure_names,
-    reject_programs_on_gpu as reject_programs_on_gpu,
     selected_cases as selected_cases,
     shard_of as shard_of,
 )

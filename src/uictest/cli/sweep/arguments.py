@@ -3,31 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import PurePath
-from typing import Literal
 
 import typer
 
 from uictest import campaign, runs, sweeps
 
 
-def selected_cases(
-    plan: sweeps.Plan, expression: str | None, device: Literal["cpu", "cuda"] = "cpu"
-) -> sweeps.CaseSelection:
+def selected_cases(plan: sweeps.Plan, expression: str | None) -> sweeps.CaseSelection:
     """Return the cases that `-k` selects. Raises typer.BadParameter for a malformed expression."""
     try:
-        return sweeps.select_cases(plan, expression, device)
+        return sweeps.select_cases(plan, expression)
     except campaign.ExpressionError as error:
         raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
-
-
-def reject_programs_on_gpu(plan: sweeps.Plan, device: Literal["cpu", "cuda"]) -> None:
-    """Raise typer.BadParameter where a GPU would have to run a controller from outside."""
-    program = next(sweeps.programs_of(plan), None) if device == "cuda" else None
-    if program is not None:
-        name = PurePath(program.location).name if program.sha256 else program.location
-        message = f"a GPU runs built-in controllers only, not {name}; leave --device out"
-        raise typer.BadParameter(message, param_hint="--device")
 
 
 def shard_of(text: str | None) -> sweeps.Shard:

@@ -7,8 +7,9 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 from uictest import runs
+from uictest.cli.compilation import compilation_shown
 from uictest.cli.output import message
-from uictest.cli.progress import announce_compilation, announce_in_process
+from uictest.cli.progress import announce_in_process
 from uictest.cli.sweep.progress import sweep_progress
 from uictest.report import counted
 
@@ -27,9 +28,9 @@ class TerminalSweepObserver(runs.SweepObserver):
         """Announce that controllers from outside can crash this process."""
         announce_in_process(foreign=True, quiet=self._quiet)
 
-    def compiling(self) -> None:
-        """Announce the compilation of the rig."""
-        announce_compilation(warm=False, quiet=self._quiet)
+    def compiling(self) -> AbstractContextManager[None]:
+        """Show the compilation of the rig."""
+        return compilation_shown(quiet=self._quiet)
 
     def damaged(self, chunk: Path) -> None:
         """Report a damaged chunk."""

@@ -1,1 +1,1 @@
-"""How the model is run: plain Python, machine code, SIMD lanes, CUDA."""
+"""How the model is run: plain Python, machine code, SIMD lanes."""

@@ -8,13 +8,11 @@ that compiled and plain code give the same bits.
 
 import importlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from uictest import lanes
 from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
@@ -56,16 +54,41 @@ def step_by_address() -> Any:
     return compile_inner(call_at)
 
 
-def with_controller(
-    controller: Controller, wrap: Wrap, operations: dict[Function, Any]
+def with_controllers(
+    choices: Sequence[Controller], wrap: Wrap, operations: dict[Function, Any]
 ) -> dict[Function, Any]:
-    """Return replacements for :func:`translate` that put a controller in its place in the model.
+    """Return replacements for :func:`translate` that put controllers in their place in the model.
 
-    ``operations`` are replacements that hold within the controller, too.
+    Args:
+        choices: in the order of their numbers; the last one also stands for every other number.
+        wrap: as for :func:`translate`.
+        operations: replacements that hold within the controllers, too.
     """
     done = dict(operations)
-    functions = translate(controller.begin, wrap, done), translate(controller.decide, wrap, done)
-    return {**done, begin: functions[0], decide: functions[1]}
+    begins = [translate(each.begin, wrap, done) for each in choices]
+    decides = [translate(each.decide, wrap, done) for each in choices]
+    begin_chosen, decide_chosen = wrap(_beginning(begins[-1])), decides[-1]
+    for number in reversed(range(len(choices) - 1)):
+        begin_chosen = wrap(_either(number, wrap(_beginning(begins[number])), begin_chosen))
+        decide_chosen = wrap(_either(number, decides[number], decide_chosen))
+    return {**done, begin: begin_chosen, decide: decide_chosen}
+
+
+def _beginning(begin_at_speed: Function) -> Function:
+    def begin_stop(train: Any, wheelsets: Any, p: Any) -> None:
+        begin_at_speed(train, wheelsets, p.initial_speed)
+
+    return begin_stop
+
+
+def _either(number: int, function: Function, otherwise: Function) -> Function:
+    def call_chosen(train: Any, wheelsets: Any, p: Any) -> None:
+        if p.controller == number:
+            function(train, wheelsets, p)
+        else:
+            otherwise(train, wheelsets, p)
+
+    return call_chosen
 
 
 def compile_inner(function: Function) -> Any:
@@ -78,26 +101,13 @@ def compiler() -> Any:
     return importlib.import_module("numba")
 
 
-def callback(function: Function, *arguments: Any) -> Any:
-    """Compile a function of addresses and whole numbers, called as C calls it; it returns a whole number.
-
-    Args:
-        function: what is compiled.
-        arguments: for each argument the layout of what lies at the address, or `int` for a whole number.
-    """
-    numba = compiler()
-    kinds = [
-        numba.int64 if each is int else numba.types.CPointer(numba.from_dtype(np.dtype(each)))
-        for each in arguments
-    ]
-    return numba.cfunc(numba.int64(*kinds), **OPTIONS)(function)
-
-
 @cache
 def compiler_inputs() -> bytes:
-    """Return everything that compiled code depends on beside the processor: sources, options, versions."""
+    """Return everything that code depends on before it is made for a processor."""
     versions = (sys.version_info[:2], *(metadata.version(name) for name in ("numba", "llvmlite", "numpy")))
-    return b"".join([repr((OPTIONS, versions)).encode(), *(source.read_bytes() for source in sources())])
+    return b"".join(
+        [repr((OPTIONS, lanes.fuses(), versions)).encode(), *(source.read_bytes() for source in sources())]
+    )
 
 
 def sources() -> list[Path]:

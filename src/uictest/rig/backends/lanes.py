@@ -1,6 +1,6 @@
 """Many stops on one core, several at a time in the lanes of a SIMD register."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -8,21 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import lanes as vector_functions
-from uictest.controllers import Controller
 from uictest.lanes import block, register_width
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.physics import floor, maximum, minimum, select, sqrt
-from uictest.rig.backends.batch import BatchMeasures, cases_by_controller
+from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.compiled import (
     Function,
-    callback,
     compile_inner,
     compiled_operations,
     compiler,
     translate,
-    with_controller,
+    with_controllers,
 )
-from uictest.rig.backends.machine_code import address, is_kept, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.friction_law import ROWS
@@ -48,7 +47,6 @@ def run_in_lanes(
     parameters: NDArray[Any],
     wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
-    controllers: Sequence[Controller],
     width: int | None = None,
 ) -> BatchMeasures:
     """Run the stop of every case; each gives the same bits as alone, whatever its neighbours.
@@ -62,7 +60,6 @@ def run_in_lanes(
             :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, shape (cases, 4).
         rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
             (cases, 4, n).
-        controllers: the controller of each case.
         width: number of lanes; by default as many as this processor's registers hold.
     """
     parameters, rail = np.ascontiguousarray(parameters), np.ascontiguousarray(rail)
@@ -70,30 +67,15 @@ def run_in_lanes(
     batch = BatchMeasures(
         np.zeros(parameters.size, STOP_MEASURES), np.zeros((parameters.size, 4), WHEELSET_MEASURES)
     )
-    for controller, queue in _queues(controllers, parameters["steps_per_cycle"]):
-        _run_queue(controller, parameters, own, rail, batch, queue, width or register_width())
+    # Lanes begin their controller cycles together, so that all must have the same number of steps in one.
+    steps_per_cycle = parameters["steps_per_cycle"]
+    for steps in np.unique(steps_per_cycle):
+        queue = np.flatnonzero(steps_per_cycle == steps)
+        _run_queue(parameters, own, rail, batch, queue, width or register_width())
     return batch
 
 
-def lanes_are_compiled(controllers: Iterable[Controller]) -> bool:
-    """Return whether the cache holds the lanes of this processor for these controllers."""
-    return all(is_kept(_name(controller, register_width())) for controller in set(controllers))
-
-
-def _queues(
-    controllers: Sequence[Controller], steps_per_cycle: NDArray[np.int64]
-) -> Iterator[tuple[Controller, NDArray[np.int64]]]:
-    """Yield controllers and the numbers of cases that can run side by side.
-
-    Lanes begin their controller cycles together, so that all must have the same number of steps in one.
-    """
-    for controller, cases in cases_by_controller(controllers):
-        for steps in np.unique(steps_per_cycle[cases]):
-            yield controller, cases[steps_per_cycle[cases] == steps]
-
-
 def _run_queue(
-    controller: Controller,
     parameters: NDArray[Any],
     wheelset_parameters: NDArray[Any],
     rail: NDArray[np.float64],
@@ -112,23 +94,25 @@ def _run_queue(
         *(address(array, array.dtype, array.shape) for array in allocated),
         *(count, points, queue.size),
     )
-    load_lanes(controller, width)(*arguments)
+    load_lanes(width)(*arguments)
 
 
-def load_lanes(controller: Controller, width: int | None = None) -> Callable[..., int]:
+def load_lanes(width: int | None = None) -> Callable[..., int]:
     """Return the loop over a queue of cases in machine code, compiled first where the cache has none."""
     width = width or register_width()
-    return native_function(_name(controller, width), partial(_compile, controller, width), _ARGUMENTS)
+    titles = {_name(width): "the rig for many stops at once"}
+    unit = Unit(f"uictest_lanes_{width}", titles, partial(_entries, width))
+    return native_function(unit, _name(width), _ARGUMENTS)
 
 
-def _name(controller: Controller, width: int) -> str:
-    return f"uictest_lanes_{width}_{controller.symbol}"
+def _name(width: int) -> str:
+    return f"uictest_run_queue_{width}"
 
 
-def _compile(controller: Controller, width: int) -> Any:
-    """Return the loop over a queue of cases compiled, as a function of addresses and of what lies there."""
+def _entries(width: int) -> Entries:
+    """Return the loop over a queue of cases, as a function of addresses and of what lies there."""
     carray = compiler().carray
-    lanes, rig, all_cases, run_queue = _translated(controller)
+    lanes, rig, all_cases, run_queue = _translated()
 
     def on_addresses(
         parameters: Any,
@@ -176,10 +160,11 @@ def _compile(controller: Controller, width: int) -> Any:
     blocks = (block(layout, width).dtype for layout, _ in _BLOCKS)
     records = (*(layout for layout, _ in _RIG), STOP_MEASURES, WHEELSET_MEASURES)
     inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8"
-    return callback(on_addresses, *inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
+    arguments = (*inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
+    return {_name(width): (on_addresses, arguments)}
 
 
-def _translated(controller: Controller) -> tuple[Any, Any, Any, Any]:
+def _translated() -> tuple[Any, Any, Any, Any]:
     """Return the types of lanes, of a rig and of cases, and the loop over a queue of cases.
 
     Functions without branches are translated for all lanes at once, the others for one lane.
@@ -205,5 +190,5 @@ def _translated(controller: Controller) -> tuple[Any, Any, Any, Any]:
         observe_cycle,
     )
     wide = {function: translate(function, compile_inner, in_lanes) for function in without_branches}
-    scalar = with_controller(controller, compile_inner, compiled_operations())
+    scalar = with_controllers(CHOICES, compile_inner, compiled_operations())
     return Lanes, RigRecords, Cases, translate(run_queue, compile_inner, {**scalar, **wide})

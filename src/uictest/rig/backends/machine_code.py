@@ -2,18 +2,41 @@
 
 Importing numba and finding code in its own cache takes longer than a dozen stops. Its code generator alone
 loads an object file in a tenth of that time.
+
+Code is kept in two forms: the bitcode of a unit, which numba takes some ten seconds to make and which is the
+same for every processor of a kind, and an object file for one processor and one entry of the unit, which is
+made from that in some three seconds.
 """
 
 import ctypes
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest import user_cache
-from uictest.rig.backends.compiled import compiler_inputs
+from uictest import lanes, user_cache
+from uictest.rig.backends.compiled import OPTIONS, Function, compiler_inputs
+
+Entries = Mapping[str, tuple[Function, tuple[Any, ...]]]
+"""Functions of addresses and whole numbers by their names, as :func:`uictest.lanes.bitcode` takes them."""
+
+
+class Unit(NamedTuple):
+    """Functions that are compiled together, since they call the same functions.
+
+    Attributes:
+        name: of its file in the cache.
+        titles: what people are told is compiled, by the name of the function.
+        entries: returns the functions, ready to be compiled; loads the compiler.
+    """
+
+    name: str
+    titles: Mapping[str, str]
+    entries: Callable[[], Entries]
 
 
 class Target(NamedTuple):
@@ -30,41 +53,60 @@ class Target(NamedTuple):
     in_library: bool = False
 
 
+Watcher = Callable[[str, float], None]
+"""Is told what is compiled and the share of the work that is done: 0 when it begins, 1 when it has ended."""
+
+_BITCODE_SHARE: Final = 0.75
+"""Share of the work that ends with the bitcode: measured, 10 of 14 s of single stops, 11 of 16 s of lanes."""
 _compiling = Lock()
 _loaded: dict[str, tuple[Any, Callable[..., int]]] = {}
 """Functions by their name, and what keeps their code in this process."""
 
 
-def native_function(name: str, callback: Callable[[], Any], arguments: int) -> Callable[..., int]:
+def _log(title: str, done: float) -> None:
+    if done == 0.0:
+        logging.getLogger(__name__).warning("uictest: compiling %s, once per installation", title)
+
+
+_watcher: Watcher = _log
+
+
+@contextmanager
+def compilation_watched(watcher: Watcher) -> Iterator[None]:
+    """Let a function be told how compilations go on meanwhile, instead of a line in the log for each."""
+    global _watcher
+    before, _watcher = _watcher, watcher
+    try:
+        yield
+    finally:
+        _watcher = before
+
+
+def native_function(unit: Unit, entry: str, arguments: int) -> Callable[..., int]:
     """Return a function in machine code, from the cache, or compiled and kept there.
 
     Args:
-        name: of the function and of its file.
-        callback: returns the function compiled (see `compiled.callback`) within seconds.
+        unit: what it is compiled with.
+        entry: its name.
         arguments: how many it has, addresses and whole numbers.
     """
     with _compiling:
-        if name not in _loaded:
-            engine = load_object_file(_object_code(name, callback, host()))
+        if entry not in _loaded:
+            engine = load_object_file(_object_code(unit, entry, host()))
             prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
-            _loaded[name] = engine, prototype(engine.get_function_address(name))
-    return _loaded[name][1]
+            _loaded[entry] = engine, prototype(engine.get_function_address(entry))
+    return _loaded[entry][1]
 
 
-def object_code(name: str, callback: Callable[[], Any], target: Target) -> bytes:
+def object_code(unit: Unit, entry: str, target: Target) -> bytes:
     """Return a function as an object file for a target, from the cache, or compiled and kept there."""
     with _compiling:
-        return _object_code(name, callback, target)
+        return _object_code(unit, entry, target)
 
 
-def is_kept(name: str, target: Target | None = None) -> bool:
-    """Return whether a function is in the cache, so that it can be called or linked without compiling.
-
-    Args:
-        name: of the function.
-        target: what it is generated for [default: this process].
-    """
-    return _kept(name, target or host()) is not None
+def is_kept(entry: str) -> bool:
+    """Return whether the cache holds a function for this process, so that it can be called at once."""
+    return user_cache.read(entry, _inputs(host())) is not None
 
 
 @cache
@@ -90,22 +132,39 @@ def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
     return int(values.__array_interface__["data"][0])
 
 
-def _object_code(name: str, callback: Callable[[], Any], target: Target) -> bytes:
-    kept = _kept(name, target)
+def _object_code(unit: Unit, entry: str, target: Target) -> bytes:
+    def make() -> bytes:
+        watcher, title = _watcher, unit.titles[entry]
+        watcher(title, 0.0)
+        bitcode = _bitcode_of(unit, lambda done: watcher(title, _BITCODE_SHARE * done))
+        code = object_file(bitcode, entry, target)
+        watcher(title, 1.0)
+        return code
+
+    return _from_cache(entry, _inputs(target), make)
+
+
+def _bitcode_of(unit: Unit, advance: Callable[[float], None] = lambda done: None) -> bytes:
+    """Return the bitcode of a unit, from the cache, or compiled and kept there.
+
+    Args:
+        unit: the functions.
+        advance: is told the share of the work that is done.
+    """
+    inputs = compiler_inputs()
+    return _from_cache(unit.name, inputs, lambda: lanes.bitcode(unit.entries(), advance, **OPTIONS))
+
+
+def _from_cache(kind: str, inputs: bytes, make: Callable[[], bytes]) -> bytes:
+    kept = user_cache.read(kind, inputs)
     if kept is not None:
         return kept
-    with user_cache.turn(name, _inputs(target)):  # another process may have compiled it meanwhile
-        return _kept(name, target) or _compiled(name, callback, target)
-
-
-def _compiled(name: str, callback: Callable[[], Any], target: Target) -> bytes:
-    code = object_file(callback(), name, target)
-    user_cache.write(name, _inputs(target), code)
-    return code
-
-
-def _kept(name: str, target: Target) -> bytes | None:
-    return user_cache.read(name, _inputs(target))
+    with user_cache.turn(kind, inputs):  # another process may have made it meanwhile
+        kept = user_cache.read(kind, inputs)
+        if kept is None:
+            kept = make()
+            user_cache.write(kind, inputs, kept)
+    return kept
 
 
 @cache
@@ -113,26 +172,27 @@ def _inputs(target: Target) -> bytes:
     return repr(tuple(target)).encode() + compiler_inputs()
 
 
-def object_file(callback: Any, name: str, target: Target) -> bytes:
-    """Return a callback of numba as an object file that defines ``name`` and needs nothing from outside."""
+def object_file(bitcode: bytes, entry: str, target: Target) -> bytes:
+    """Return one entry of a unit as an object file that defines its name and needs nothing from outside."""
     from llvmlite import binding
 
-    module = binding.parse_assembly(callback.inspect_llvm())
-    entry = module.get_function(callback.native_name)
-    entry.name = name
-    if target.in_library:
-        entry.visibility = "hidden"
-    for function in module.functions:
-        if not function.is_declaration and function.name != name:
-            function.linkage = "internal"
-    for variable in module.global_variables:
-        if not variable.is_declaration:
-            variable.linkage = "internal"
     machine = _machine(target)
-    # Code for calls from Python refers to symbols that are there only where numba is loaded.
+    module = binding.parse_bitcode(bitcode)
+    for function in module.functions:
+        if not function.is_declaration and function.name != entry:
+            function.linkage = "internal"
+    if target.in_library:
+        module.get_function(entry).visibility = "hidden"
+    tuning = binding.create_pipeline_tuning_options(speed_level=3)
+    tuning.loop_vectorization = True
+    passes = binding.create_pass_builder(machine, tuning)
+    passes.getModulePassManager().run(module, passes)
+    # What reports errors to Python needs numba; that there are none is known now that all calls are inline.
     unused = binding.create_new_module_pass_manager()
+    unused.add_ipsccp_pass()
+    unused.add_simplify_cfg_pass()
     unused.add_global_dead_code_eliminate_pass()
-    unused.run(module, binding.create_pass_builder(machine, binding.create_pipeline_tuning_options()))
+    unused.run(module, passes)
     return bytes(machine.emit_object(module))
 
 

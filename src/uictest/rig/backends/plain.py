@@ -1,16 +1,18 @@
 """The stop in plain Python: slow, with the bits of compiled code, for tests and debuggers."""
 
-from functools import cache
+from collections.abc import Sequence
 from typing import Any
 
 from uictest.controllers import Controller
-from uictest.rig.backends.compiled import translate, with_controller
+from uictest.rig.backends.compiled import translate, with_controllers
+from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.stop import run_stop
 
 
-@cache
-def plain_stop(controller: Controller) -> Any:
-    """Return :func:`uictest.rig.model.stop.run_stop` for a controller, as the interpreter runs it."""
-    return translate(
-        run_stop, lambda function: function, with_controller(controller, lambda function: function, {})
-    )
+def plain_stop(choices: Sequence[Controller] = CHOICES) -> Any:
+    """Return :func:`uictest.rig.model.stop.run_stop`, with these controllers, as the interpreter runs it."""
+    return translate(run_stop, _unchanged, with_controllers(choices, _unchanged, {}))
+
+
+def _unchanged(function: Any) -> Any:
+    return function

@@ -11,22 +11,13 @@ import numpy as np
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import StopInputs
-from uictest.rig.backends.compiled import (
-    callback,
-    compile_inner,
-    compiled_operations,
-    compiler,
-    translate,
-    with_controller,
-)
 from uictest.rig.backends.finished_stop import FinishedStop, empty_trace, rows_of_trace
-from uictest.rig.backends.machine_code import Target, address, is_kept, native_function, object_code
-from uictest.rig.model.external_controller import EXTERNAL
+from uictest.rig.backends.machine_code import Target, address, native_function, object_code
+from uictest.rig.backends.scalar import SCALAR, STEP, STEP_ARGUMENTS
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.stepped_stop import step_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
@@ -49,26 +40,11 @@ STOP_MEMORY: Final[Any] = np.dtype(
 `train` and `modules` are the present true state, as a row of a trace. Zeroed, with `parameters` filled in, it
 is a stop that has not begun.
 """
-STEP_NAME: Final = "uictest_step_stop"
-"""Name of the function in machine code."""
-STEP_ARGUMENTS: Final = (
-    *(CAR, BOGIE, WHEELSET, PARAMETERS, RAIL_MEMORY, STOP_MEASURES, WHEELSET_MEASURES, EXCHANGE),
-    *(TRAIN_SAMPLE, WHEELSET_SAMPLE),
-    *(WHEELSET_PARAMETERS, "f8", int, TRAIN_SAMPLE, WHEELSET_SAMPLE, int, int, int),
-)
-"""Its arguments as `compiled.callback` names them: addresses of the parts of :data:`STOP_MEMORY`, of the
-wheelsets' parameters and of the rail, points of the rail, addresses of a trace, rows that it has room for,
-steps per sample, rows that are filled. It returns the rows filled afterwards."""
-
-
-def stepping_is_compiled(target: Target | None = None) -> bool:
-    """Return whether the cache holds the stepped stop for a target [default: this process]."""
-    return is_kept(STEP_NAME, target)
 
 
 def stepping_code(target: Target) -> bytes:
     """Return the stepped stop as an object file for a target."""
-    return object_code(STEP_NAME, _compile, target)
+    return object_code(SCALAR, STEP, target)
 
 
 class SteppedStop:
@@ -135,7 +111,7 @@ class SteppedStop:
 
 @cache
 def _native_step() -> Any:
-    return native_function(STEP_NAME, _compile, len(STEP_ARGUMENTS))
+    return native_function(SCALAR, STEP, len(STEP_ARGUMENTS))
 
 
 def _addresses_within(memory: Any) -> tuple[int, ...]:
@@ -154,49 +130,3 @@ def _of_trace(trace: Trace) -> tuple[int, int, int]:
         address(trace.wheelsets, WHEELSET_SAMPLE, (rows, 4)),
         rows,
     )
-
-
-def _compile() -> Any:
-    """Return the stepped stop compiled by numba, as a function of addresses and the lengths behind them."""
-    carray = compiler().carray
-    model = with_controller(EXTERNAL, compile_inner, compiled_operations())
-    entry = translate(step_stop, compile_inner, model)
-
-    def on_addresses(
-        car: Any,
-        bogies: Any,
-        wheelsets: Any,
-        p: Any,
-        memory: Any,
-        measures: Any,
-        wheelset_measures: Any,
-        exchange: Any,
-        present_train: Any,
-        present_wheelsets: Any,
-        wheelset_parameters: Any,
-        rail: Any,
-        points: int,
-        train_samples: Any,
-        wheelset_samples: Any,
-        room: int,
-        steps_per_sample: int,
-        rows: int,
-    ) -> Any:
-        return entry(
-            carray(car, 1)[0],
-            carray(bogies, 2),
-            carray(wheelsets, 4),
-            carray(p, 1)[0],
-            carray(wheelset_parameters, 4),
-            carray(rail, (ROWS, points)),
-            carray(memory, 1)[0],
-            carray(measures, 1)[0],
-            carray(wheelset_measures, 4),
-            carray(exchange, 1)[0],
-            Trace(carray(present_train, 1), carray(present_wheelsets, (1, 4))),
-            Trace(carray(train_samples, room), carray(wheelset_samples, (room, 4))),
-            steps_per_sample,
-            rows,
-        )
-
-    return callback(on_addresses, *STEP_ARGUMENTS)

@@ -15,7 +15,6 @@ from .loading import (
     recipe_path as recipe_path,
     trace_recipe as trace_recipe,
 )
-from .native import is_compiled as is_compiled
 from .recipe import BenchRecipe as BenchRecipe
 from .rig import clock_of as clock_of
 from .run import run_bench as run_bench, run_test as run_test

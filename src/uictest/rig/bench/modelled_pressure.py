@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from uictest.rig.assembly import StopInputs, assemble
 from uictest.rig.backends.compiled import (
-    callback,
     compile_inner,
     compiled_operations,
     compiler,
     translate,
 )
-from uictest.rig.backends.machine_code import address, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.cycle import command_valve
 from uictest.rig.model.module_air import follow_tank
 from uictest.rig.model.parameters import PARAMETERS, Parameters
@@ -60,7 +59,7 @@ class ModelledPressure:
 
     def _follow(self, inputs: StopInputs) -> Samples:
         computed = np.empty(self._tank.size)
-        follow = native_function(_NAME, _compile, len(_ARGUMENTS))
+        follow = native_function(_UNIT, _NAME, len(_ARGUMENTS))
         car, wheelset, rows = np.zeros(1, CAR), np.zeros(1, WHEELSET), computed.shape
         follow(
             address(car, CAR, (1,)),
@@ -95,8 +94,8 @@ def _with(case: Case, **sections: object) -> Case:
     return replace(case, scenario=case.scenario.model_copy(update=sections))
 
 
-def _compile() -> Any:
-    """Return the walk along a record compiled by numba, as a function of addresses and its length."""
+def _entries() -> Entries:
+    """Return the walk along a record as a function of addresses and its length."""
     carray = compiler().carray
     entry = translate(_follow, compile_inner, compiled_operations())
 
@@ -123,7 +122,7 @@ def _compile() -> Any:
         )
         return 0
 
-    return callback(on_addresses, *_ARGUMENTS)
+    return {_NAME: (on_addresses, _ARGUMENTS)}
 
 
 def _follow(
@@ -151,3 +150,6 @@ def _follow(
         wheelset.pressure_reading = tank[n]
         follow_tank(wheelset, line[n] + p.atmospheric_pressure, p)
         computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure
+
+
+_UNIT = Unit(_NAME, {_NAME: "the air of a record"}, _entries)

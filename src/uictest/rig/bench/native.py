@@ -5,13 +5,12 @@ from typing import Any
 from numpy.typing import NDArray
 
 from uictest.rig.backends.compiled import (
-    callback,
     compile_inner,
     compiled_operations,
     compiler,
     translate,
 )
-from uictest.rig.backends.machine_code import address, is_kept, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, BenchRig
 from uictest.rig.bench.step import run_bench_test
 from uictest.rig.bench.trace import BENCH_SAMPLE
@@ -27,11 +26,6 @@ _ARGUMENTS = (
 _COUNT = len(SETTINGS)
 
 
-def is_compiled() -> bool:
-    """Return whether the cache holds the compiled bench, so that a test starts at once."""
-    return is_kept(_NAME)
-
-
 def run_compiled(
     rig: BenchRig, demanded_pressures: NDArray[Any], valve_commands: NDArray[Any], trace: NDArray[Any]
 ) -> None:
@@ -39,7 +33,7 @@ def run_compiled(
 
     Raises TypeError where a record or an array does not have the compiled layout.
     """
-    native_function(_NAME, _compile, len(_ARGUMENTS))(
+    native_function(_UNIT, _NAME, len(_ARGUMENTS))(
         address(rig.car, CAR),
         address(rig.modules, WHEELSET, (MODULES,)),
         address(rig.computed, WHEELSET, (_COUNT,)),
@@ -54,8 +48,8 @@ def run_compiled(
     )
 
 
-def _compile() -> Any:
-    """Return the bench compiled by numba, as a function of addresses and the lengths behind them."""
+def _entries() -> Entries:
+    """Return the bench as a function of addresses and the lengths behind them."""
     carray = compiler().carray
     entry = translate(run_bench_test, compile_inner, compiled_operations())
 
@@ -83,4 +77,7 @@ def _compile() -> Any:
         entry(rig, carray(pressures, rows - 1), carray(commands, cycles), carray(trace, rows))
         return 0
 
-    return callback(on_addresses, *_ARGUMENTS)
+    return {_NAME: (on_addresses, _ARGUMENTS)}
+
+
+_UNIT = Unit(_NAME, {_NAME: "the bench of the rig"}, _entries)

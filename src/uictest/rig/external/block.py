@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from uictest.controllers import (
     EXCHANGE,
     Config,
-    Controller,
     ControllerError,
     ControllerInstance,
     ControllerProgram,
@@ -22,8 +21,8 @@ from uictest.controllers import (
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import run_to_end
-from uictest.rig.backends.lanes import lanes_are_compiled, load_lanes, run_in_lanes
-from uictest.rig.backends.native import compiled_stop, stops_are_compiled
+from uictest.rig.backends.lanes import load_lanes, run_in_lanes
+from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.opened import opened
 
 
@@ -52,7 +51,6 @@ class BlockInputs(NamedTuple):
             outside are written into them.
         wheelset_parameters: likewise.
         rail: likewise.
-        controllers: likewise; of one from outside, what stands in its place in the model.
     """
 
     programs: Sequence[ControllerProgram | None]
@@ -60,7 +58,6 @@ class BlockInputs(NamedTuple):
     parameters: NDArray[Any]
     wheelset_parameters: NDArray[Any]
     rail: NDArray[np.float64]
-    controllers: Sequence[Controller]
 
     def at(self, places: Sequence[int]) -> "BlockInputs":
         """Return some of the cases."""
@@ -68,7 +65,6 @@ class BlockInputs(NamedTuple):
             [self.programs[place] for place in places],
             [self.configs[place] for place in places],
             *(self.parameters[places], self.wheelset_parameters[places], self.rail[places]),
-            [self.controllers[place] for place in places],
         )
 
 
@@ -109,22 +105,12 @@ def empty_run(count: int) -> BlockRun:
     return BlockRun(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES), [""] * count)
 
 
-def load_block(programs: Sequence[ControllerProgram | None], controllers: Sequence[Controller]) -> None:
+def load_block(programs: Sequence[ControllerProgram | None]) -> None:
     """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
-    for program, controller in zip(programs, controllers, strict=True):
-        if _may_run_in_lanes(program):
-            load_lanes(controller)
-        if _may_run_alone(program):
-            compiled_stop(controller)
-
-
-def block_is_compiled(
-    programs: Sequence[ControllerProgram | None], controllers: Sequence[Controller]
-) -> bool:
-    """Return whether the cache holds everything that :func:`load_block` loads."""
-    beside = [each for program, each in zip(programs, controllers, strict=True) if _may_run_in_lanes(program)]
-    alone = [each for program, each in zip(programs, controllers, strict=True) if _may_run_alone(program)]
-    return lanes_are_compiled(beside) and stops_are_compiled(alone)
+    if any(map(_may_run_in_lanes, programs)):
+        load_lanes()
+    if any(map(_may_run_alone, programs)):
+        compiled_stop()
 
 
 # What a package has registered runs in either way; which one is known once the package is imported.
@@ -156,16 +142,16 @@ def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
 def _run_in_lanes(block: _Block, places: Sequence[int]) -> None:
     """Run cases side by side, each with a controller of its own that is open."""
     ready = block.inputs.at(places)
-    batch = run_in_lanes(ready.parameters, ready.wheelset_parameters, ready.rail, ready.controllers)
+    batch = run_in_lanes(ready.parameters, ready.wheelset_parameters, ready.rail)
     block.run.measures[places], block.run.wheelset_measures[places] = batch
 
 
 def _run_alone(block: _Block, place: int) -> None:
     """Run one case whose controller is open and cannot run beside others."""
-    programs, configs, parameters, wheelset_parameters, rail, controllers = block.inputs
-    records = parameters[place], wheelset_parameters[place], rail[place]
-    stop = StopInputs(*records, controllers[place], programs[place], configs[place])
-    finished = run_to_end(compiled_stop(stop.controller), stop)
+    own = block.inputs
+    records = own.parameters[place], own.wheelset_parameters[place], own.rail[place]
+    stop = StopInputs(*records, own.programs[place], own.configs[place])
+    finished = run_to_end(compiled_stop(), stop)
     block.run.measures[place], block.run.wheelset_measures[place] = (
         finished.measures,
         finished.wheelset_measures,

@@ -25,7 +25,7 @@ def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any 
     Raises:
         ControllerError: when a controller from outside cannot be opened, or failed.
     """
-    run_stop = compiled_stop(inputs.controller)
+    run_stop = compiled_stop()
     if inputs.program is None or inputs.config is None:
         return run_to_end(run_stop, inputs, steps_per_sample)
     exchange = empty_exchange() if exchange is None else exchange

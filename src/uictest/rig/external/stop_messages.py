@@ -10,7 +10,6 @@ from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.controller_messages import bytes_of, read_controller, written_controllers
 from uictest.rig.external.messages import Message
-from uictest.rig.model.external_controller import EXTERNAL
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET
@@ -34,7 +33,7 @@ def stop_message(inputs: StopInputs, steps_per_sample: int) -> Message:
 def stop_of(message: Message) -> tuple[StopInputs, int]:
     """Return the stop in a message, and the base steps from one sample of its trace to the next."""
     inputs = block_of(message)
-    first = inputs.parameters[0], inputs.wheelset_parameters[0], inputs.rail[0], EXTERNAL
+    first = inputs.parameters[0], inputs.wheelset_parameters[0], inputs.rail[0]
     return StopInputs(*first, inputs.programs[0], inputs.configs[0]), message.head["steps_per_sample"]
 
 
@@ -76,7 +75,6 @@ def block_of(message: Message) -> BlockInputs:
         np.frombuffer(bytearray(parameters), PARAMETERS),
         np.frombuffer(bytearray(wheelset_parameters), WHEELSET_PARAMETERS).reshape(count, 4),
         np.frombuffer(rail).reshape(count, ROWS, -1),
-        [EXTERNAL] * count,
     )
 
 

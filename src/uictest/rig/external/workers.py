@@ -49,7 +49,7 @@ class Workers:
         """
         if not _is_isolated(inputs.program):
             return run_in_process(inputs, steps_per_sample)
-        compiled_stop(inputs.controller)  # so that the child finds it in the cache
+        compiled_stop()  # so that the child finds it in the cache
         with self._worker(_key(inputs.program)) as worker:
             return worker.run(inputs, steps_per_sample)
 
@@ -57,7 +57,7 @@ class Workers:
         """Run many stops; those whose controller is built in, or a process of its own, run here."""
         places = range(len(inputs.programs))
         here = [place for place in places if not _is_isolated(inputs.programs[place])]
-        load_block(inputs.programs, inputs.controllers)  # so that the child finds it in the cache
+        load_block(inputs.programs)  # so that the child finds it in the cache
         run = empty_run(len(places))
         if here:
             _put(run, here, run_block(inputs.at(here)))

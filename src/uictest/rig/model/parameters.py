@@ -46,6 +46,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     uses_hysteresis: float = derived()  # 0 or 1, in modules without a caliper
     wsp_active: int = derived()  # 0: the valves always fill
     demand_per_pressure: float = derived()  # share of full service per demanded pressure, 1/Pa
+    controller: int = derived()  # number of rig.model.controller.CHOICES
     # a controller from outside: addresses, set where it is opened
     controller_step: int = derived()
     controller_handle: int = derived()

@@ -36,7 +36,7 @@ def start(
         start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
-    begin(car, wheelsets, p.initial_speed)
+    begin(car, wheelsets, p)
     car.initial_energy = stored_energy(car, bogies, wheelsets, p)
     car.initial_air = stored_air(car, wheelsets)
     car.initial_air_energy = stored_air_energy(car, wheelsets, p)

@@ -5,6 +5,7 @@ from typing import Any
 
 from uictest.controllers import NO_FAILURE
 from uictest.measures import StopMeasures, WheelsetMeasures
+from uictest.rig.model.controller import FROM_OUTSIDE
 from uictest.rig.model.external_controller import read_outputs, write_inputs
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import RailMemory
@@ -38,6 +39,7 @@ def step_stop(
     that ``trace`` has.
     """
     if exchange.cycles == 0:
+        p.controller = FROM_OUTSIDE  # whatever the case names: whoever carries the stop on decides
         begin_stop(car, bogies, wheelsets, p, wheelset_parameters, memory, measures, wheelset_measures)
     else:
         exchange.failure = NO_FAILURE

@@ -13,8 +13,9 @@ class SweepObserver:
     def foreign_in_process(self) -> None:
         """Take note that controllers from outside run in this process."""
 
-    def compiling(self) -> None:
-        """Take note that the rig is about to be compiled."""
+    def compiling(self) -> AbstractContextManager[None]:
+        """Return a context in which the rig is compiled, where it is not yet."""
+        return nullcontext()
 
     def damaged(self, chunk: Path) -> None:
         """Take note of a damaged chunk, which is computed again."""

@@ -132,33 +132,10 @@ def _run_on_cluster(
 
 
 def prepared_runner(run: SweepRun, observer: SweepObserver) -> ChunkRunner:
-    """Return a runner with a compiled rig.
-
-    Raises InvalidInputError where the sweep needs a GPU and there is none.
-    """
-    if run.selection.device == "cuda":
-        return _runner_on_gpu(run)
-    base = run.selection.plan.base.scenario
-    if not rig.block_is_compiled([base.controller.program], [rig.controller_of(base)]):
-        observer.compiling()
+    """Return a runner with a compiled rig."""
     runner = sweeps.chunk_runner(run.selection.plan, run.run_block)
-    runner.prepare()
-    return runner
-
-
-def _runner_on_gpu(run: SweepRun) -> ChunkRunner:
-    try:
-        runner = sweeps.chunk_runner(run.selection.plan, run.run_block, "cuda")
+    with observer.compiling():
         runner.prepare()
-    except sweeps.NoDeviceError as error:
-        raise InvalidInputError(
-            f"no CUDA device found ({error}): simulate on the processor", arguments=("device",)
-        ) from error
-    except ImportError as error:
-        # The compiler for GPUs belongs to the extra as well, and is imported at its first use.
-        raise InvalidInputError(
-            "a GPU needs the extra: pip install 'uictest[cuda]'", arguments=("device",)
-        ) from error
     return runner
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import Config, Controller, ControllerProgram
+from uictest.controllers import Config, ControllerProgram
 from uictest.ensemble import Places
 from uictest.evaluation import JUDGED_KEYS
 from uictest.identification import UnsuitableRecordError
@@ -23,7 +23,6 @@ from uictest.rig import (
     assigned,
     bench,
     controller_config,
-    controller_of,
     friction_laws,
     noise_keys,
 )
@@ -59,7 +58,6 @@ class CaseBlock:
     parameters: NDArray[Any]
     wheelset_parameters: NDArray[Any]
     rail: NDArray[np.float64]
-    controllers: list[Controller]
     programs: list[ControllerProgram | None]
     configs: list[Config | None]
     judged_as: ScenarioVariants
@@ -75,7 +73,6 @@ class CaseBlock:
             self.parameters[places],
             self.wheelset_parameters[places],
             self.rail[places],
-            [self.controllers[place] for place in numbers],
             [self.programs[place] for place in numbers],
             [self.configs[place] for place in numbers],
             self.judged_as.take(places),
@@ -97,9 +94,6 @@ class BlockAssembler:
         self._record, self._wheelset_records = inputs.parameters, inputs.wheelset_parameters
         self._parameters = _setters(plan.keys, ASSIGNMENTS)
         self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
-        self._controllers = ScenarioFunction(
-            controller_of, related_keys(plan.keys, ("controller.algorithm",))
-        )
         self._programs = ScenarioFunction(_program_of, _program_keys(plan), by_numbers=True)
         self._rail = ScenarioFunction(friction_laws, related_keys(plan.keys, FRICTION_KEYS))
         self._judged_keys = related_keys(plan.keys, JUDGED_KEYS)
@@ -128,7 +122,7 @@ class BlockAssembler:
         programs = self._programs.per_case(variants)
         return CaseBlock(
             *(indices, ids, settings, parameters, wheelsets, rail),
-            *(self._controllers.per_case(variants), programs, _configs(programs, parameters, wheelsets)),
+            *(programs, _configs(programs, parameters, wheelsets)),
             *(self._judged_as(variants), rejections),
         )
 

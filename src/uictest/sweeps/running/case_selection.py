@@ -11,14 +11,10 @@ from numpy.typing import NDArray
 
 from uictest.campaign import parse
 from uictest.sweeps.plan.plan import Plan
-from uictest.sweeps.running.device import Device
 
 _SMALLEST_CHUNK: Final = 16
-_CHUNKING: Final[dict[str, tuple[tuple[int, int], ...]]] = {
-    "cpu": ((1024, 32), (4096, 64)),
-    "cuda": ((65_536, 8),),
-}
-"""Most cases in a chunk and the number of chunks to aim at, by device: a GPU needs many cases at once.
+_CHUNKING: Final = ((1024, 32), (4096, 64))
+"""Most cases in a chunk and the number of chunks to aim at.
 
 What a chunk costs whatever its size counts in a sweep that takes hours, whose chunks may take ten seconds.
 """
@@ -31,7 +27,6 @@ class CaseSelection:
 
     plan: Plan
     selected: NDArray[np.int64] | None = None
-    device: Device = "cpu"
 
     @property
     def size(self) -> int:
@@ -41,7 +36,7 @@ class CaseSelection:
     @property
     def chunk_size(self) -> int:
         """Cases in a chunk: seconds of work, and the same on every machine."""
-        sizes = (min(largest, self.size // chunks) for largest, chunks in _CHUNKING[self.device])
+        sizes = (min(largest, self.size // chunks) for largest, chunks in _CHUNKING)
         return max(_SMALLEST_CHUNK, *sizes)
 
     @property
@@ -59,10 +54,10 @@ class CaseSelection:
         return np.arange(first, end) if self.selected is None else self.selected[first:end]
 
 
-def select_cases(plan: Plan, expression: str | None, device: Device = "cpu") -> CaseSelection:
+def select_cases(plan: Plan, expression: str | None) -> CaseSelection:
     """Return the cases whose id, sweep file or tags match an expression. Raises ExpressionError."""
     if expression is None:
-        return CaseSelection(plan, device=device)
+        return CaseSelection(plan)
     matches = parse(expression)
     common_names = [name.casefold() for name in (PurePath(plan.file).name, *plan.base.scenario.tags)]
     selected: list[NDArray[np.int64]] = []
@@ -74,4 +69,4 @@ def select_cases(plan: Plan, expression: str | None, device: Device = "cpu") -> 
             for id_ in ids
         ]
         selected.append(indices[np.array(is_selected)])
-    return CaseSelection(plan, np.concatenate(selected), device)
+    return CaseSelection(plan, np.concatenate(selected))

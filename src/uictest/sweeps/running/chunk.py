@@ -17,7 +17,6 @@ from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_
 from uictest.sweeps.plan.plan import Plan
 from uictest.sweeps.running.case_blocks import BlockAssembler, CaseBlock
 from uictest.sweeps.running.case_selection import CaseSelection
-from uictest.sweeps.running.device import Device, Measures, Simulate, simulator
 from uictest.sweeps.running.table import REPEATED_TEXTS, rows
 
 if TYPE_CHECKING:
@@ -25,6 +24,10 @@ if TYPE_CHECKING:
 
 RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
 """Simulates a block in which a controller comes from outside: here, or in child processes."""
+Measures = tuple[NDArray[Any], NDArray[Any]]
+"""Measures of stops, shape (cases,), and of their wheelsets, (cases, 4)."""
+Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
+"""Simulates cases: records, those of wheelsets and friction laws to measures."""
 WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _CHUNKS_AHEAD = 2
@@ -47,12 +50,7 @@ class ChunkRunner:
 
     def prepare(self) -> None:
         """Compile the rig before several threads need it at once."""
-        block = self.assembler.block(np.zeros(1, np.int64))
-        if any(block.programs):
-            rig.load_block(block.programs, block.controllers)
-            return
-        block.parameters["cycles"] = 1
-        self.simulate(block.parameters, block.wheelset_parameters, block.rail, block.controllers)
+        rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
 
     def results(self, block: CaseBlock) -> ResultColumns:
         """Return the results of a block; an error in a case is its result."""
@@ -72,12 +70,10 @@ class ChunkRunner:
 
     def _simulated(self, block: CaseBlock, places: Places) -> Measures:
         """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
-        controllers = [block.controllers[place] for place in places.tolist()]
         inputs = (
             rows_at(block.parameters, places),
             rows_at(block.wheelset_parameters, places),
             rows_at(block.rail, places),
-            controllers,
         )
         programs = [block.programs[place] for place in places.tolist()]
         if not any(programs):
@@ -120,9 +116,9 @@ class ChunkRunner:
         )
 
 
-def chunk_runner(plan: Plan, run_block: RunBlock, device: Device = "cpu") -> ChunkRunner:
+def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
     """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
-    return ChunkRunner(BlockAssembler(plan), simulator(device), plan, run_block)
+    return ChunkRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
 
 
 def run_on_threads(

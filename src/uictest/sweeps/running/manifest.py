@@ -55,7 +55,6 @@ def sweep_manifest(
         "selected": expression,
         "set": list(overrides),
         "seed": seed,
-        "device": selection.device,
         "parameters": list(plan.keys),
         "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
         "cases_sha256": plan.cases_sha256,
