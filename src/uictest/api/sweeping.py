@@ -18,8 +18,6 @@ from uictest.api.arguments import (
 from uictest.api.assignments import Assignments, override_texts
 from uictest.api.sweep_results import SweepResults
 
-_FORMATS = ("csv", "html")
-
 
 def sweep(
     file: PathName,
@@ -74,7 +72,7 @@ def sweep(
     option = None if validated is None else Path(validated)
     reference = runs.reference_of(option, plan.base.scenario.validated)
 
-    def run_in(folder: Path, formats: Sequence[str]) -> runs.SweepRun:
+    def run_in(folder: Path, formats: Sequence[str] | None) -> runs.SweepRun:
         return runs.SweepRun(
             selection=selection,
             manifest=sweeps.sweep_manifest(selection, expression=select, overrides=texts, seed=seed),
@@ -89,7 +87,7 @@ def sweep(
         )
 
     if output is not None:
-        return _finished(run_in(Path(output), _FORMATS), keep=True)
+        return _finished(run_in(Path(output), None), keep=True)
     with files.temporary_folder() as folder:
         return _finished(run_in(folder, ()), keep=False)
 

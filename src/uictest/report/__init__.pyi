@@ -83,6 +83,7 @@ from .series.wording import (
     series_word as series_word,
 )
 from .sheet_columns import sheet_column as sheet_column
+from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.content import SweepContent as SweepContent
 from .sweep.domain import (
     OutsideCount as OutsideCount,

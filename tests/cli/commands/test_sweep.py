@@ -53,13 +53,13 @@ def contents(folder: str | Path = "reports/study") -> dict[str, bytes]:
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """The numbers of cases that were simulated, chunk by chunk."""
     sizes: list[int] = []
-    run = ChunkRunner.run
+    run = ChunkRunner.run_together
 
-    def counting(self: ChunkRunner, indices: Any) -> bytes:
-        sizes.append(len(indices))
-        return run(self, indices)
+    def counting(self: ChunkRunner, chunks: Any) -> list[bytes]:
+        sizes.extend(len(indices) for indices in chunks)
+        return run(self, chunks)
 
-    monkeypatch.setattr(ChunkRunner, "run", counting)
+    monkeypatch.setattr(ChunkRunner, "run_together", counting)
     return sizes
 
 
@@ -210,7 +210,7 @@ def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
 def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(
     call: Call, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*arguments: Any) -> None:
+    def interrupted(*arguments: Any, **options: Any) -> None:
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
@@ -257,7 +257,7 @@ def test_ctrl_c_and_a_cancelled_job_are_2_and_resumable(
     start: Start, study: Path, cancelled: signal.Signals
 ) -> None:
     # Minutes of work: it cannot be over before the signal, however late that is sent.
-    Path(FILE).write_text(TEXT.replace("size: 32", "size: 65536"))
+    Path(FILE).write_text(TEXT.replace("size: 32", "size: 8192"))
     process = start("sweep", FILE, stderr=subprocess.PIPE)
     while not chunk_files("reports") and process.poll() is None:
         time.sleep(0.02)
@@ -293,6 +293,19 @@ def test_missed_is_1_and_maxfail_ends_early(call: Call, study: Path) -> None:
     assert len(list(Path("reports/study/chunks").iterdir())) == 1
     assert call("sweep", study, "--junitxml", "junit.xml").code == 1
     assert 'failures="3"' in Path("junit.xml").read_text()
+
+
+@pytest.mark.parametrize("options", [(), ("--report", "csv")])
+def test_so_many_cases_are_written_as_csv_only_when_asked(
+    call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...]
+) -> None:
+    monkeypatch.setattr("uictest.report.sweep.cases.LARGEST_CSV", 95)
+    monkeypatch.setattr("uictest.report.LARGEST_CSV", 95, raising=False)
+    answer = call("sweep", study, "--set", "expect=fail", *options)
+    assert Path("reports/study/summary.csv").exists() == bool(options)
+    assert Path("reports/study/summary.parquet").exists()
+    assert ("note: every case is a row of summary.parquet" in answer.err + answer.out) != bool(options)
+    assert "more, see summary.parquet" in answer.err + answer.out
 
 
 def test_cases_that_no_criterion_applies_to_are_counted(call: Call, study: Path) -> None:

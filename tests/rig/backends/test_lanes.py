@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.finished_stop import run_to_end
-from uictest.rig.backends.lanes import run_in_lanes
+from uictest.rig.backends.lanes import longest_first, run_in_lanes
 from uictest.rig.backends.native import compiled_stop
+from uictest.rig.model.friction_law import FRICTIONS, ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
@@ -83,7 +84,7 @@ import sys
 sys.modules["numba"] = None
 from pathlib import Path
 import numpy as np
-from uictest.rig.backends.lanes import run_in_lanes
+from uictest.rig.backends.lanes import longest_first, run_in_lanes
 inputs = [np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "wheelsets", "rail")]
 print(run_in_lanes(*inputs).measures.tobytes().hex())
 """
@@ -186,3 +187,13 @@ def test_the_compiler_is_loaded_only_for_a_batch() -> None:
         "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_stops_that_should_take_longest_begin_first() -> None:
+    """From a high speed or on a slippery rail; a rail that is better than needed shortens none."""
+    parameters, rail = np.zeros(4, PARAMETERS), np.zeros((4, ROWS, 2))
+    parameters["initial_speed"] = 20.0, 20.0, 40.0, 20.0
+    rail[:, FRICTIONS] = np.array([0.3, 0.06, 0.3, 0.2])[:, None]
+    order = longest_first(parameters, rail, np.array([0, 1, 2, 3]))
+    assert order.tolist() == [1, 2, 0, 3]
+    assert longest_first(parameters, rail, np.array([0, 3, 1])).tolist() == [1, 0, 3]

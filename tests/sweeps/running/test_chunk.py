@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
+import pytest
 
 from uictest.evaluation import evaluate
-from uictest.sweeps import ChunkRunner, Plan
+from uictest.sweeps import CaseSelection, ChunkRunner, Plan, run_on_threads
 
 from ..conftest import Load, formula
 from .test_case_blocks import written_out
@@ -50,6 +51,37 @@ def test_a_measure_without_a_value_is_null(load: Load, made_up: MakeRunner) -> N
 def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeRunner) -> None:
     plan = load()
     assert made_up(plan).run(np.arange(6)) == made_up(plan).run(np.arange(6))
+
+
+def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load: Load, made_up: MakeRunner) -> None:
+    plan = load("sample: {size: 90, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
+    runner = made_up(plan)
+    chunks = [np.arange(0, 31), np.arange(31, 62), np.arange(62, 90)]
+    assert runner.run_together(chunks) == [runner.run(each) for each in chunks]
+
+
+@pytest.mark.parametrize(("jobs", "queues"), [(1, [8, 8, 8, 8]), (2, [4] * 8), (100, [1] * 32)])
+def test_threads_take_queues_of_chunks_that_come_out_in_order(
+    load: Load, made_up: MakeRunner, jobs: int, queues: list[int]
+) -> None:
+    plan = load("sample: {size: 1000, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
+    selection, runner = CaseSelection(plan), made_up(plan)
+    sizes: list[int] = []
+
+    def simulate(parameters: Any, own: Any, rail: Any) -> Any:
+        sizes.append(len(parameters))
+        return formula(parameters, own, rail)
+
+    written: list[int] = []
+    run_on_threads(
+        replace(runner, simulate=simulate),
+        selection,
+        range(32),
+        jobs,
+        lambda number, _: written.append(number),
+    )
+    assert written == list(range(32))
+    assert sorted(sizes) == sorted(31 * chunks for chunks in queues)
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:

@@ -82,11 +82,12 @@ Dask = Annotated[
     str | None, typer.Option("--dask", metavar="ADDRESS", help="Simulate on the cluster of this scheduler.")
 ]
 SweepReports = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--report",
         metavar="FORMATS",
         help=f"Reports to write, joined by commas: {', '.join(report.sweep_format_names())}.",
+        show_default=f"csv,html; html for more than {report.LARGEST_CSV} cases",
     ),
 ]
 Restart = Annotated[bool, typer.Option("--restart", help="Discard finished chunks and start again.")]
@@ -120,13 +121,14 @@ def sweep(
     output: SweepOutput = Path("reports"),
     junit: JUnitFile = None,
     shown: SweepFormat = Format.TEXT,
-    formats: SweepReports = "csv,html",
+    formats: SweepReports = None,
     quiet: Quiet = False,
     verbosity: Verbosity = 0,
     in_process: InProcess = False,
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""
-    format_names = report_formats(formats, "--report", report.sweep_format_names())
+    accepted = report.sweep_format_names()
+    format_names = None if formats is None else report_formats(formats, "--report", accepted)
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
     selection = sweeping.selected_cases(plan, expression)
     if selection.size == 0:

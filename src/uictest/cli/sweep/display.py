@@ -71,7 +71,7 @@ def missed_lines(result: report.SweepResult) -> Iterator[str]:
     for case in result.missed:
         yield f"{case.outcome}  {case.id}  {runs.reason_missed(case.reason)}"
     if more := result.cases - result.met - len(result.missed):
-        yield f"and {more} more, see summary.csv"
+        yield f"and {more} more, see {report.every_case(result.cases)}"
 
 
 def _rates(result: report.SweepResult) -> Iterator[str]:

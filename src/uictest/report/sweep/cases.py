@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet
 
 SUMMARY: Final = "summary.parquet"
+LARGEST_CSV: Final = 100_000
+"""Most cases of which summary.csv is written unless it is asked for; chosen: no spreadsheet likes more."""
 
 MOST_CASES: Final = 100_000
 """Cases that a workbook has: a spreadsheet would take minutes to open a larger one."""
@@ -37,9 +39,15 @@ def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> No
         sheet.write_string(heading_rows(columns) + written, 0, left_out(cases, written))
 
 
+def every_case(cases: int) -> str:
+    """Return the name of the file that has a row for every case of a sweep."""
+    return SUMMARY if cases > LARGEST_CSV else "summary.csv"
+
+
 def left_out(cases: int, written: int) -> str:
     """Return which cases a workbook lacks."""
-    return f"{cases - written} of {cases} cases are in summary.csv only; those not met stand first here"
+    in_file = f"are in {every_case(cases)} only"
+    return f"{cases - written} of {cases} cases {in_file}; those not met stand first here"
 
 
 def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:

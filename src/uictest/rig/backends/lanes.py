@@ -24,7 +24,7 @@ from uictest.rig.backends.machine_code import Entries, Unit, address, native_fun
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
-from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.friction_law import FRICTIONS, ROWS
 from uictest.rig.model.leaks import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
@@ -39,6 +39,8 @@ _RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
 _BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records that each lane has."""
+_BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
+"""What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
 _ARGUMENTS = 20
 """How many arguments the compiled loop over a queue has."""
 
@@ -70,9 +72,21 @@ def run_in_lanes(
     # Lanes begin their controller cycles together, so that all must have the same number of steps in one.
     steps_per_cycle = parameters["steps_per_cycle"]
     for steps in np.unique(steps_per_cycle):
-        queue = np.flatnonzero(steps_per_cycle == steps)
+        queue = longest_first(parameters, rail, np.flatnonzero(steps_per_cycle == steps))
         _run_queue(parameters, own, rail, batch, queue, width or register_width())
     return batch
+
+
+def longest_first(
+    parameters: NDArray[Any], rail: NDArray[np.float64], cases: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return cases in the order in which their stops would end last if speed and friction alone decided.
+
+    A long stop that begins last would run alone, its neighbours idle.
+    """
+    adhesion = np.minimum(rail[cases, FRICTIONS].mean(axis=-1), _BRAKED_ADHESION)
+    expected = parameters["initial_speed"][cases] / np.maximum(adhesion, _LEAST_ADHESION)
+    return cases[np.argsort(-expected, kind="stable")]
 
 
 def _run_queue(

@@ -31,14 +31,16 @@ class FinishedSweep:
 def publish(run: SweepRun, store: sweeps.ChunkStore, observer: SweepObserver) -> FinishedSweep:
     """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
     files.begin_list(store.folder)
-    summary = sweeps.summarize(run.selection, store, run.pair, run.measures, run.reference)
+    summary = sweeps.summarize(
+        run.selection, store, run.pair, run.measures, run.reference, csv=run.writes_csv
+    )
     frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
     worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
     result = with_nominal_stops(run, result)
     document = report.write_sweep_result(store.folder, result, run.selection.plan.file)
-    content = report.read_sweep(store.folder, traces=report.draws_stops(run.formats))
-    report.write_sweep_formats(store.folder, content, run.formats)
+    content = report.read_sweep(store.folder, traces=report.draws_stops(run.reports))
+    report.write_sweep_formats(store.folder, content, run.reports)
     store.remove_partial_files()
     return FinishedSweep(result, document, content)
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from uictest import rig, sweeps, validation
-from uictest.report import counted
+from uictest import report, rig, sweeps, validation
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.sweep.observer import SweepObserver
 from uictest.sweeps import (
@@ -41,10 +40,23 @@ class SweepRun:
     search: FrontierSearch | None = None
     reference: validation.ValidationReference | None = None
     """Validation that the cases are held against."""
-    formats: Sequence[str] = ()
+    formats: Sequence[str] | None = None
+    """Of reports; None for tables and the page, and only the page where the cases are very many."""
     in_process: bool = False
     run_block: sweeps.RunBlock = rig.run_block
     """Simulates blocks with controllers from outside."""
+
+    @property
+    def reports(self) -> Sequence[str]:
+        """The formats of the reports."""
+        if self.formats is not None:
+            return self.formats
+        return ("html",) if self.selection.size > report.LARGEST_CSV else ("csv", "html")
+
+    @property
+    def writes_csv(self) -> bool:
+        """Whether there is a row for every case in CSV, too."""
+        return self.selection.size <= report.LARGEST_CSV or "csv" in self.reports
 
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
@@ -162,7 +174,7 @@ class _Failures:
             self._first = f"{name}: {outcome}, {reason_missed(reason)}"
         self._count += len(missed)
         if self._count >= self._maxfail:
-            raise MaxfailReached(f"{counted(self._count, 'case')} not met, the first: {self._first}")
+            raise MaxfailReached(f"{report.counted(self._count, 'case')} not met, the first: {self._first}")
 
 
 def _missed(content: bytes) -> list[tuple[str, str, str]]:

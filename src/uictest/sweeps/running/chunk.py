@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,8 +31,12 @@ Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
 """Simulates cases: records, those of wheelsets and friction laws to measures."""
 WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
-_CHUNKS_AHEAD = 2
-"""Chunks that wait or are ready beyond those in progress: bounds memory."""
+_QUEUED = 256
+"""Cases that are simulated in one queue, where they are many: at its end lanes have nothing left to do."""
+_TURNS = 4
+"""Queues of a thread at least, so that threads end at nearly the same time."""
+_QUEUES_AHEAD = 2
+"""Queues that wait or are ready beyond those in progress: bounds memory."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +50,16 @@ class ChunkRunner:
 
     def run(self, indices: NDArray[np.int64]) -> bytes:
         """Return the rows of the cases with the given indices as a Parquet file."""
-        block = self.assembler.block(indices)
-        return parquet_bytes(rows(self.plan, block, self.results(block)))
+        [content] = self.run_together([indices])
+        return content
+
+    def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
+        """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
+        block = self.assembler.block(np.concatenate(chunks))
+        table = rows(self.plan, block, self.results(block))
+        sizes = [indices.size for indices in chunks]
+        begins = np.cumsum([0, *sizes[:-1]]).tolist()
+        return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
 
     def prepare(self) -> None:
         """Compile the rig before several threads need it at once."""
@@ -129,10 +142,15 @@ def run_on_threads(
     After any exception, KeyboardInterrupt included, the chunks that `write_chunk` got are kept.
     """
     jobs = min(jobs, len(numbers)) or 1
+    together = max(min(_QUEUED // selection.chunk_size, len(numbers) // (_TURNS * jobs)), 1)
+    queues = [numbers[first : first + together] for first in range(0, len(numbers), together)]
     with ThreadedMap(
-        lambda number: runner.run(selection.chunk(number)), numbers, jobs=jobs, pending=jobs + _CHUNKS_AHEAD
+        lambda queue: runner.run_together([selection.chunk(number) for number in queue]),
+        queues,
+        jobs=jobs,
+        pending=jobs + _QUEUES_AHEAD,
     ) as contents:
-        for number, content in zip(numbers, contents, strict=True):
+        for number, content in zip(numbers, chain.from_iterable(contents), strict=True):
             write_chunk(number, content)
 
 

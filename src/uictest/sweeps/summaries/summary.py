@@ -40,6 +40,7 @@ from uictest.sweeps.summaries.worst import WorstCases
 if TYPE_CHECKING:
     import pyarrow as pa
 
+_WITHOUT_CSV = "every case is a row of summary.parquet; `--report csv,html` writes summary.csv, too"
 Columns = Mapping[str, NDArray[np.float64]]
 """Measures of all cases of a plan, by name."""
 
@@ -63,8 +64,10 @@ def summarize(
     pair: tuple[str, str] | None,
     measures: Sequence[str],
     reference: validation.ValidationReference | None = None,
+    *,
+    csv: bool = True,
 ) -> SweepSummary:
-    """Read all chunks: write summary.csv and summary.parquet, and compute the result.
+    """Read all chunks: write summary.parquet and, if it is wanted, summary.csv, and compute the result.
 
     Args:
         selection: the cases of the sweep.
@@ -72,6 +75,7 @@ def summarize(
         pair: the two parameters of the maps, None for no map.
         measures: columns to map and to compute sensitivities of, besides the verdict.
         reference: validation that the cases are held against; they get a column of what lies outside.
+        csv: whether to write summary.csv.
 
     Raises:
         OSError: a file cannot be written.
@@ -79,7 +83,7 @@ def summarize(
     """
     sums = _Sums(selection, pair, measures)
     domain = None if reference is None else DomainTally(selection.plan, reference)
-    with summary_files(store.folder) as write:
+    with summary_files(store.folder, csv=csv) as write:
         for table in store.tables(range(selection.chunks)):
             write(table if domain is None else domain.with_column(table))
             sums.add(table)
@@ -97,6 +101,7 @@ def summarize(
             *map(str, drawn_ranges(selection.plan)),
             *notes,
             *_selection_notes(selection),
+            *(() if csv else (_WITHOUT_CSV,)),
         ),
     )
     return SweepSummary(result, sums.verdicts, sums.worst.indices())

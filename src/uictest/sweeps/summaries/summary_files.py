@@ -15,33 +15,36 @@ if TYPE_CHECKING:
 
 
 @contextlib.contextmanager
-def summary_files(folder: Path) -> Iterator[Callable[[pa.Table], None]]:
-    """Lend a function that appends rows to both files; they appear when the block ends. Raises OSError."""
-    csv_path, parquet_path = (files.new_file(folder, f"summary.{suffix}") for suffix in ("csv", "parquet"))
-    with csv_path as csv, parquet_path as parquet, contextlib.ExitStack() as open_files:
-        writers: list[Any] = []
+def summary_files(folder: Path, *, csv: bool = True) -> Iterator[Callable[[pa.Table], None]]:
+    """Lend a function that appends rows to the files; they appear when the block ends. Raises OSError."""
+    with contextlib.ExitStack() as opened:
+        formats = {"parquet": _parquet_writer} | ({"csv": _csv_writer} if csv else {})
+        new = {name: opened.enter_context(files.new_file(folder, f"summary.{name}")) for name in formats}
+        with contextlib.ExitStack() as open_files:
+            writers: list[Callable[[pa.Table], None]] = []
 
-        def write(table: pa.Table) -> None:
-            if not writers:
-                writers.extend(_writers(open_files, csv, parquet, table.schema))
-            writers[0].write_table(without_formulas(table))
-            writers[1].write_table(table)
+            def write(table: pa.Table) -> None:
+                if not writers:
+                    writers.extend(formats[name](open_files, new[name], table.schema) for name in formats)
+                for write_table in writers:
+                    write_table(table)
 
-        yield write
+            yield write
 
 
-def _writers(
-    open_files: contextlib.ExitStack, csv: BinaryIO, parquet: BinaryIO, schema: pa.Schema
-) -> list[Any]:
-    from pyarrow.csv import CSVWriter, WriteOptions
+def _parquet_writer(open_files: contextlib.ExitStack, file: BinaryIO, schema: pa.Schema) -> Any:
     from pyarrow.parquet import ParquetWriter
 
-    csv_schema = without_formulas(schema.empty_table()).schema
+    return open_files.enter_context(ParquetWriter(file, schema, compression="zstd")).write_table
+
+
+def _csv_writer(open_files: contextlib.ExitStack, file: BinaryIO, schema: pa.Schema) -> Any:
+    from pyarrow.csv import CSVWriter, WriteOptions
+
+    plain = without_formulas(schema.empty_table()).schema
     options = WriteOptions(quoting_style="needed", quoting_header="needed")
-    return [
-        open_files.enter_context(CSVWriter(csv, csv_schema, write_options=options)),
-        open_files.enter_context(ParquetWriter(parquet, schema, compression="zstd")),
-    ]
+    writer = open_files.enter_context(CSVWriter(file, plain, write_options=options))
+    return lambda table: writer.write_table(without_formulas(table))
 
 
 def without_formulas(table: pa.Table) -> pa.Table:

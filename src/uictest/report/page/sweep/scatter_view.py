@@ -8,6 +8,7 @@ from typing import Any
 
 from uictest.report.escaping import printable
 from uictest.report.page.stop.packing import script_json
+from uictest.report.sweep.cases import every_case
 from uictest.report.sweep.scatter import PointNumbers, Scatter
 from uictest.report.wording import counted, tone
 
@@ -55,7 +56,7 @@ def _sentences(scatter: Scatter) -> Iterator[str]:
         by_chance = f"{_grouped(shown - scatter.added)} of {_grouped(scatter.cases)} cases"
         own = f", and {counted(scatter.added, 'drawn stop')} besides" if scatter.added else ""
         yield f"Shown: {by_chance}, chosen at random{own}."
-        yield "Rare cases may be missing here; summary.csv has every case."
+        yield f"Rare cases may be missing here; {every_case(scatter.cases)} has every case."
     else:
         yield f"Shown: all {counted(shown, 'case')}."
     if scatter.left_out:
