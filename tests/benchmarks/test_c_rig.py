@@ -3,9 +3,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
+from uictest.rig.stop_inputs import StopInputs
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""

@@ -22,15 +22,26 @@ from .conftest import HANGING, Start
 Call = Callable[..., Any]
 Write = Callable[..., Path]
 
+_LARGE = ("numba", "rich", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly")
+_RUNS = (
+    "uictest.rig.simulation",
+    "uictest.evaluation.result",
+    "uictest.report.page",
+    "uictest.series.result",
+)
+_RARE = ("uictest.rig.backends.lanes", "uictest.identification", "uictest.series.result", "uictest.sweeps")
 _FORBIDDEN = {
-    ("--help",): ("numpy", "numba", "pydantic", "yaml", "rich", "pandas", "scipy", "control", "pyarrow"),
-    ("check",): ("numpy", "numba", "rich", "pandas", "scipy", "control", "pyarrow"),
-    ("list",): ("numpy", "numba", "rich", "pandas", "scipy", "control", "pyarrow"),
-    ("run",): ("numba", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly", "rich"),
+    ("--help",): (*_LARGE, "numpy", "pydantic", "yaml"),
+    ("check",): (*_LARGE, *_RUNS, "numpy", "uictest.sweeps.plan", "uictest.series.plan"),
+    ("check", str(Path(__file__).parents[2] / "scenarios")): (*_LARGE, *_RUNS, "numpy"),
+    ("list",): (*_LARGE, *_RUNS, "numpy"),
+    ("run",): (*_LARGE, *_RARE),
 }
 
 
-@pytest.mark.parametrize("arguments", _FORBIDDEN)
+@pytest.mark.parametrize(
+    "arguments", _FORBIDDEN, ids=lambda words: " ".join(Path(word).name for word in words)
+)
 def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[str, ...]) -> None:
     [case] = load([scenario("stop")])
     rig.simulate(case)  # only the first start of all needs the compiler
@@ -45,6 +56,13 @@ def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=HANGING)
     assert done.returncode == 0, done.stderr
     assert done.stderr.splitlines()[-1] == "[]"
+
+
+def test_the_child_of_a_controller_imports_nothing_of_scenarios() -> None:
+    program = "import sys, uictest.rig.external.child as _; print([*filter(sys.modules.get, sys.argv[1:])])"
+    forbidden = (*_LARGE, "pydantic", "yaml", "uictest.scenario.model", "uictest.rig.assembly")
+    command = [sys.executable, "-c", program, *forbidden]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
 @pytest.mark.parametrize(("given", "kept"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import typer
 
-from uictest.cli.app import app
+from uictest.cli.app import application
 
 REPOSITORY = Path(__file__).parents[2]
 _CODE = re.compile(r"^```[^\n]*\n(.*?)^```|((?:^    \S[^\n]*\n)+)", re.MULTILINE | re.DOTALL)
@@ -30,7 +30,7 @@ def leaves(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
         yield from leaves(each, f"{name} {word}".strip())
 
 
-COMMANDS = dict(leaves(typer.main.get_command(app)))
+COMMANDS = dict(leaves(typer.main.get_command(application())))
 
 
 def calls(text: str) -> Iterator[str]:

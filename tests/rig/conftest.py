@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS, DEFAULT
 from uictest.record import layout_of
-from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.assembly import assemble
 from uictest.rig.backends.compiled import translate
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
@@ -25,6 +25,7 @@ from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import Case, load
 
 Array = NDArray[np.float64]

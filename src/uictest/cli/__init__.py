@@ -34,5 +34,7 @@ def main() -> None:
 def _start_lightly() -> None:
     # Nothing here multiplies large matrices, but numpy's BLAS would start a thread per core.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # Nor has anything here a use for plug-ins of pydantic, for which it would search all that is installed.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # Objects made by imports are never garbage: searching them every few hundred allocations is wasted.
     gc.set_threshold(100_000)

@@ -2,31 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from importlib import import_module
+from typing import Annotated, Final
 
 import typer
 
 from uictest import __version__
-from uictest.cli.commands.bench import bench
-from uictest.cli.commands.check import check
-from uictest.cli.commands.compare import compare
-from uictest.cli.commands.controller import controller
-from uictest.cli.commands.evaluate import evaluate
-from uictest.cli.commands.export import export
-from uictest.cli.commands.export_rig import export_rig
-from uictest.cli.commands.fit import fit
-from uictest.cli.commands.identify import identify
-from uictest.cli.commands.init import init
-from uictest.cli.commands.library import library
-from uictest.cli.commands.list import list_cases
-from uictest.cli.commands.open import open_page
-from uictest.cli.commands.report import report
-from uictest.cli.commands.reproduce import reproduce
-from uictest.cli.commands.run import run
-from uictest.cli.commands.schema import schema
-from uictest.cli.commands.selftest import selftest
-from uictest.cli.commands.sweep import sweep
-from uictest.cli.commands.validate import validate
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data
 from uictest.cli.registration import command
@@ -35,37 +16,55 @@ _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "
     "3 simulation or internal error, 4 usage or invalid file, 5 nothing selected."
 )
+_COMMANDS: Final = {
+    "run": "run",
+    "sweep": "sweep",
+    "check": "check",
+    "list": "list_cases",
+    "evaluate": "evaluate",
+    "export": "export",
+    "export-rig": "export_rig",
+    "fit": "fit",
+    "bench": "bench",
+    "reproduce": "reproduce",
+    "report": "report",
+    "open": "open_page",
+    "compare": "compare",
+    "schema": "schema",
+    "init": "init",
+    "selftest": "selftest",
+    "validate": "validate",
+}
+"""Name of a command, as `--help` lists them -> the function in the module of this name."""
+_GROUPS: Final = ("identify", "library", "controller")
+"""Names of commands with commands of their own; each is a `Typer` in the module of this name."""
 
-# Plain help instead of rich's: it starts faster, and user text is never read as markup.
-app = typer.Typer(
-    name="uictest",
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    epilog=_EPILOG,
-)
 
-for _name, _function in (
-    ("run", run),
-    ("sweep", sweep),
-    ("check", check),
-    ("list", list_cases),
-    ("evaluate", evaluate),
-    ("export", export),
-    ("export-rig", export_rig),
-    ("fit", fit),
-    ("bench", bench),
-    ("reproduce", reproduce),
-    ("report", report),
-    ("open", open_page),
-    ("compare", compare),
-    ("schema", schema),
-    ("init", init),
-    ("selftest", selftest),
-    ("validate", validate),
-):
-    command(app, _name)(_function)
+def application(first: str | None = None) -> typer.Typer:
+    """Return the program with the one command that `first` names, with all if it names none.
+
+    A command brings what it needs, and most need little of what the others need.
+    """
+    # Plain help instead of rich's: it starts faster, and user text is never read as markup.
+    app = typer.Typer(
+        name="uictest",
+        add_completion=False,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        epilog=_EPILOG,
+    )
+    app.callback(invoke_without_command=True)(_main)
+    known = (*_COMMANDS, *_GROUPS)
+    for name in (first,) if first in known else known:
+        module = import_module(f"uictest.cli.commands.{name.replace('-', '_')}")
+        if name in _COMMANDS:
+            command(app, name)(getattr(module, _COMMANDS[name]))
+        else:
+            group = getattr(module, name)
+            group.callback(invoke_without_command=True)(_show_help_alone)
+            app.add_typer(group, name=name, short_help=group.info.help)
+    return app
 
 
 def _show_help_alone(context: typer.Context) -> None:
@@ -75,19 +74,13 @@ def _show_help_alone(context: typer.Context) -> None:
         raise typer.Exit(ExitCode.USAGE)
 
 
-for _name, _group in (("identify", identify), ("library", library), ("controller", controller)):
-    _group.callback(invoke_without_command=True)(_show_help_alone)
-    app.add_typer(_group, name=_name, short_help=_group.info.help)
-
-
 def _show_version(requested: bool) -> None:
     if requested:
         data(f"uictest {__version__}")
         raise typer.Exit
 
 
-@app.callback(invoke_without_command=True)
-def main(
+def _main(
     context: typer.Context,
     version: Annotated[
         bool,

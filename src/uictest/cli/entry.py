@@ -12,13 +12,13 @@ from typing import Final
 import typer
 
 from uictest import runs, scenario
-from uictest.cli.app import app
+from uictest.cli.app import application
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CommandLine
 from uictest.cli.output import lost_data, message, use_safe_encoding
 
 _TYPER_INTERRUPTED = 130
-_OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask", "device": "--device"}
+_OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask"}
 """Argument that an error names -> the option that sets it."""
 _OF_PATHS: Final = frozenset(
     {
@@ -96,6 +96,7 @@ def _options(arguments: Sequence[str]) -> str:
 
 
 def _call(invocation: CommandLine) -> ExitCode:
+    app = application(next(iter(invocation.arguments), None))
     code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
     if code == _TYPER_INTERRUPTED:
         # Outside its standalone mode typer returns this code for an interrupt.

@@ -109,6 +109,7 @@ class Bench:
     ) -> Answers:
         if name not in self._driven:
             situation = situation_at(self._cycle_time)
+            situation.inputs.flags.writeable = False  # the next controller is driven through the same
             try:
                 self._driven[name] = Answers(situation, self._drives(situation, beginnings))
             except ControllerError as error:

@@ -1,10 +1,9 @@
 """Situations that a controller is driven through: what its sensors show, cycle by cycle.
 
 The speeds do not depend on what the controller answers. Speeds, decelerations and durations are chosen; the
-errors of the speed sensor are those of the library's standard sensors.
+errors of the speed sensor are those of the library's standard sensors. A process makes each situation once.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
@@ -64,6 +63,7 @@ class Situation:
         return times
 
 
+@cache
 def good_rail(cycle_time: float) -> Situation:
     """A stop in which every wheelset rolls, and the standstill after it."""
     time = _times(INITIAL_SPEED / DRY_DECELERATION + _STANDSTILL, cycle_time)
@@ -71,6 +71,7 @@ def good_rail(cycle_time: float) -> Situation:
     return _situation(cycle_time, train, np.tile(train, (WHEELSETS, 1)))
 
 
+@cache
 def one_slides(cycle_time: float, wheelset: int) -> Situation:
     """A wheelset slides, goes on sliding, and rolls again; the others roll."""
     train, speeds = _braking(cycle_time, _SLIDING_UNTIL)
@@ -84,13 +85,15 @@ def one_slides(cycle_time: float, wheelset: int) -> Situation:
     return _situation(cycle_time, train, speeds)
 
 
-def locked(cycle_time: float, wheelsets: Sequence[int]) -> Situation:
+@cache
+def locked(cycle_time: float, wheelsets: tuple[int, ...]) -> Situation:
     """Some wheelsets stand still, or their sensors show it, while the train brakes."""
     train, speeds = _braking(cycle_time, _LOCKED_FOR)
     speeds[list(wheelsets)] = 0.0
     return _situation(cycle_time, train, speeds)
 
 
+@cache
 def sensor_lost(cycle_time: float, wheelset: int) -> Situation:
     """One speed sensor reports a fault and reads zero while every wheelset rolls."""
     train, speeds = _braking(cycle_time, _LOCKED_FOR)
@@ -101,6 +104,7 @@ def sensor_lost(cycle_time: float, wheelset: int) -> Situation:
     return situation
 
 
+@cache
 def anything(cycle_time: float, cycles: int = 3000) -> Situation:
     """Speeds, faults and demands that change at random, the same ones each time."""
     draw = np.random.default_rng(1)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from uictest import scenario
-from uictest.ensemble import Ensemble
 from uictest.units import in_unit, value_text
 
 
@@ -53,6 +52,8 @@ class UnmetCondition:
 
     def in_case(self, number: int) -> UnmetCondition:
         """Return the condition in one case of an ensemble."""
+        from uictest.ensemble import Ensemble  # needs numpy, and what only checks a file does not
+
         if not isinstance(self.value, Ensemble):
             return self
         return replace(self, value=self.value[number].item())

@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from uictest import evaluation
+from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
 from uictest.report.difference import Difference
 from uictest.report.drawn_cases import worst_first
 from uictest.report.manifest import RunManifest
 from uictest.report.part_wording import controllers_text
-from uictest.report.series.wording import series_tally
-from uictest.series import SeriesResult
 
 if TYPE_CHECKING:
     from uictest.report.traces.trace import PlotTrace
+    from uictest.series import SeriesResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ class RunContent:
         """The counts of the run."""
         of_cases = [run_tally(self.results, self.baseline)] if self.results or not self.series else []
         differing = len(self.baseline.series) if self.baseline else 0
-        of_series = [series_tally(self.series)] if self.series else []
+        of_series = [series_views.series_tally(self.series)] if self.series else []
         beyond = [f"{differing} series different from the baseline"] if differing else []
         return "; ".join([*of_cases, *of_series, *beyond])
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from uictest import evaluation, scenario
 from uictest.report.csv_text import Cell
 from uictest.report.wording import outcome_word
-from uictest.series import SeriesResult
+
+if TYPE_CHECKING:
+    from uictest.series import SeriesResult
 
 NOT_APPLICABLE: Final = "not applicable"
 
@@ -118,13 +120,13 @@ def requirement_rows(requirements: Iterable[VerifiedRequirement]) -> Iterator[di
 
 
 def _verdicts(result: evaluation.CaseResult | SeriesResult) -> list[evaluation.Verdict]:
-    if isinstance(result, SeriesResult):
+    if not isinstance(result, evaluation.CaseResult):
         return [each.verdict for each in result.criteria]
     return list(result.criteria)
 
 
 def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[str, Evidence]]:
-    kind: Literal["case", "series"] = "series" if isinstance(result, SeriesResult) else "case"
+    kind: Literal["case", "series"] = "case" if isinstance(result, evaluation.CaseResult) else "series"
     for requirement in result.requirements:
         yield requirement, Evidence(kind, result.id, outcome_word(result.outcome, met=result.met))
     if result.expect != "pass":

@@ -1,7 +1,6 @@
 from .assembly import (
     ASSIGNMENTS as ASSIGNMENTS,
     FRICTION_KEYS as FRICTION_KEYS,
-    StopInputs as StopInputs,
     assemble as assemble,
     assigned as assigned,
     controller_config as controller_config,
@@ -54,3 +53,4 @@ from .simulation import (
     recording_of_stop as recording_of_stop,
     simulate as simulate,
 )
+from .stop_inputs import StopInputs as StopInputs

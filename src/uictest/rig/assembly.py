@@ -5,7 +5,7 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from operator import attrgetter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,26 +27,8 @@ from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIM
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.noise_key import noise_keys
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import Case, Scenario
-
-
-class StopInputs(NamedTuple):
-    """What the rig is given for one stop.
-
-    Attributes:
-        parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
-        wheelset_parameters: four records of
-            :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
-        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
-        program: what is loaded where the controller comes from outside, else None.
-        config: what that controller is given before the stop, else None.
-    """
-
-    parameters: Any
-    wheelset_parameters: Any
-    rail: NDArray[np.float64]
-    program: ControllerProgram | None = None
-    config: Config | None = None
 
 
 def assemble(case: Case) -> StopInputs:

@@ -15,7 +15,6 @@ from functools import partial
 from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any, Final
-from xml.etree import ElementTree
 
 from uictest.controllers import Problem, installed_module, nothing_declared, parameter_problems
 from uictest.scenario.files import Files
@@ -189,7 +188,7 @@ def _tree(value: ast.expr, document: Document) -> Node:
 
 
 _UNREADABLE: Final = (
-    *(OSError, RuntimeError, ValueError, LookupError, EOFError, ElementTree.ParseError),
+    *(OSError, RuntimeError, ValueError, LookupError, EOFError, SyntaxError),
     *(zipfile.BadZipFile, zlib.error, lzma.LZMAError),
 )
 """What a file raises that is no FMU; who loads it says so."""
@@ -197,6 +196,8 @@ _UNREADABLE: Final = (
 
 def _of_fmu(content: bytes) -> Declared | None:
     """Return the parameters in the description of an FMU; None where it cannot be read."""
+    from xml.etree import ElementTree
+
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             if archive.getinfo("modelDescription.xml").file_size > LARGEST_DESCRIPTION:

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path, PureWindowsPath
 from typing import Any, Self
 
@@ -66,8 +66,7 @@ class Files:
 
     def in_library(self, folder: str, name: str) -> Map:
         """The tree of a library file."""
-        tree: Map = self.once(f"library:{folder}/{name}", partial(read_library, folder, name))
-        return tree
+        return _in_library(folder, name)
 
     def beside(self, reference: Scalar, key: str) -> Map:
         """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
@@ -101,6 +100,10 @@ class Files:
         if name not in self._read:
             self._read[name] = read()
         return self._read[name]
+
+
+_in_library = cache(read_library)
+"""The tree of a library file, read once by a process: the library does not change."""
 
 
 def trust_hint(path: Path) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from types import MappingProxyType
 from typing import Any, Final
-from xml.etree import ElementTree
 
 from uictest.controllers import shown_version
 from uictest.scenario.python_statements import UNPARSABLE, texts_beginning_with
@@ -55,6 +54,8 @@ def _of_fmu(content: bytes) -> str:
 
 
 def _attribute_of_first_element(xml: bytes, name: str) -> str:
+    from xml.etree import ElementTree
+
     parser: Any = ElementTree.XMLPullParser(["start"])
     parser.feed(xml)
     first = next(iter(parser.read_events()), None)

@@ -55,6 +55,10 @@ class ResolvedPart:
     documents: tuple[Document, ...]
 
 
+_LIBRARY_PARTS: Final[dict[tuple[str, str], ResolvedPart]] = {}
+"""Folder and name of a part of the library -> the part, made once by a process."""
+
+
 class Parts:
     """Resolves references to parts; a part that is referred to again is not read again."""
 
@@ -76,9 +80,10 @@ class Parts:
         if is_path(node.text):
             return self._built(self._fetch(node, model, full_key), model, (), full_key)
         name = (folder_of(model), node.text)
-        if name not in self._by_name:
-            self._by_name[name] = self._built(self._fetch(node, model, full_key), model, (), full_key)
-        return self._by_name[name]
+        known = _LIBRARY_PARTS if node.text in library.names(name[0]) else self._by_name
+        if name not in known:
+            known[name] = self._built(self._fetch(node, model, full_key), model, (), full_key)
+        return known[name]
 
     def _resolve_inline(self, node: Map, model: Any, key: Key) -> ResolvedPart:
         if id(node) not in self._inline:

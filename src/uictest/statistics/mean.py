@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from scipy.special import stdtrit
-
 
 def mean_interval(values: Sequence[float], confidence: float = 0.95) -> tuple[float, float]:
     """Return the interval of the mean of what some values were drawn from; NaN at both ends for one value.
@@ -34,6 +32,8 @@ def _of_sample(values: Sequence[float], confidence: float) -> tuple[float, float
     count = len(values)
     if count < 2:
         return math.nan, math.nan, math.nan
+    from scipy.special import stdtrit  # here, for what only checks a file judges no draws
+
     mean = math.fsum(values) / count
     variance = math.fsum((value - mean) ** 2 for value in values) / (count - 1)
     return mean, variance, float(stdtrit(count - 1, 0.5 + confidence / 2.0))

@@ -12,8 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from scipy.special import betainc, betaincc
-
 Side = Literal["lower", "upper", "both"]
 """Bounds of a quantile: one that lies below it, one above, or an interval."""
 
@@ -69,11 +67,15 @@ def _confidence_of_each(confidence: float, side: Side) -> float:
 
 def _is_below(level: float, draws: int, rank: int) -> float:
     """Return the probability that the draw of a rank from the smallest lies at or below the quantile."""
+    from scipy.special import betainc
+
     return float(betainc(rank, draws - rank + 1, level))
 
 
 def _is_above(level: float, draws: int, rank: int) -> float:
     """Return the probability that the draw of a rank from the largest lies at or above the quantile."""
+    from scipy.special import betaincc
+
     return float(betaincc(draws - rank + 1, rank, level))
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from scipy.special import betaincinv
-
 
 def proportion_interval(successes: int, trials: int, confidence: float = 0.95) -> tuple[float, float]:
     """Return the interval of Clopper and Pearson (1934) for a probability, of which `successes` were counted.
@@ -15,6 +13,8 @@ def proportion_interval(successes: int, trials: int, confidence: float = 0.95) -
     """
     if not 0 <= successes <= trials or trials < 1:
         raise ValueError(f"{successes} successes in {trials} trials")
+    from scipy.special import betaincinv
+
     alpha = 1.0 - confidence
     low = 0.0 if successes == 0 else betaincinv(successes, trials - successes + 1, alpha / 2)
     high = 1.0 if successes == trials else betaincinv(successes + 1, trials - successes, 1 - alpha / 2)

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import HEADER
-from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.assembly import assemble
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import load
 
 HERE = Path(__file__).parent

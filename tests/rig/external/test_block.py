@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 import uictest.controllers.built_in.threshold as threshold
 from uictest.controllers import EXCHANGE
 from uictest.controllers.adapters import registered
-from uictest.rig.assembly import StopInputs, assemble
-from uictest.rig.external import block
+from uictest.rig.assembly import assemble
+from uictest.rig.backends import lanes
 from uictest.rig.external.block import BlockInputs, run_block
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import load, load_part
 
 Compile = Callable[..., Path]
@@ -53,13 +54,13 @@ def package(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def ran_in_lanes(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many stops ran in lanes, for each call."""
     counts: list[int] = []
-    original = block.run_in_lanes
+    original = lanes.run_in_lanes
 
     def counted(parameters: NDArray[np.void], *others: object) -> object:
         counts.append(len(parameters))
         return original(parameters, *others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(block, "run_in_lanes", counted)
+    monkeypatch.setattr(lanes, "run_in_lanes", counted)
     return counts
 
 

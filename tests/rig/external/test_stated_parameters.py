@@ -9,7 +9,8 @@ import pytest
 
 from uictest.controllers import ControllerError
 from uictest.rig import Workers
-from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.assembly import assemble
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import load
 
 Compile = Callable[..., Path]

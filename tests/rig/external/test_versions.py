@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import ControllerError
-from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.assembly import assemble
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import load
 
 VersionOf = Callable[[str], StopInputs]

@@ -49,34 +49,40 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
         return _collect(folder)
 
 
-def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
+def _read_in_process(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
+    """Return the exit code of a process that reads a file into a folder."""
     # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
     # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
     flags = ["-I", "-B", "-m", _MODULE]
     command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect))]
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        timeout=seconds,
+        check=False,
+    )
+    return done.returncode
+
+
+def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
     try:
-        done = subprocess.run(
-            command,
-            cwd=folder,
-            env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            timeout=seconds,
-            check=False,
-        )
+        code = _read_in_process(name, path, dialect, folder, seconds)
     except subprocess.TimeoutExpired as error:
         raise UnreadableError(f"reading it as {name} did not end within {seconds:g} s") from error
-    if done.returncode == 0:
+    if code == 0:
         return
-    if done.returncode == EXTRA_MISSING:
+    if code == EXTRA_MISSING:
         raise MissingExtraError(_reason_in(folder))
-    if done.returncode == NO_ROOM:
+    if code == NO_ROOM:
         raise ReadingInterruptedError(
             errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} to read {path}", str(folder.parent)
         )
-    if -done.returncode in _KILLED:
-        name = signal.Signals(-done.returncode).name
+    if -code in _KILLED:
+        name = signal.Signals(-code).name
         raise ReadingInterruptedError(
             errno.EINTR, f"the process that reads it was killed ({name})", str(path)
         )

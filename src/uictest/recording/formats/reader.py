@@ -32,21 +32,27 @@ _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
 def main(name: str, path: str, dialect: str) -> int:
     """Read the file and leave its contents in the working folder; return the exit code."""
     _bound_resources()
+    return read_into(Path.cwd(), name, Path(path), Dialect(**json.loads(dialect)))
+
+
+def read_into(folder: Path, name: str, path: Path, dialect: Dialect) -> int:
+    """Read the file and leave its contents, or why there are none, in a folder; return the exit code."""
     try:
-        contents = read_here(name, Path(path), Dialect(**json.loads(dialect)))
+        contents = read_here(name, path, dialect)
     except MissingExtraError as error:
-        return _reject(str(error), EXTRA_MISSING)
+        return _reject(folder, str(error), EXTRA_MISSING)
     except UnreadableError as error:
-        return _reject(str(error), REJECTED)
+        return _reject(folder, str(error), REJECTED)
     except MemoryError:
-        return _reject("reading it needs more memory than is allowed", TOO_LARGE)
+        return _reject(folder, "reading it needs more memory than is allowed", TOO_LARGE)
     # A library that meets a damaged file may raise anything at all.
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
             return NO_ROOM
-        return _reject(f"damaged, or nothing that can be read as {name} ({type(error).__name__})", REJECTED)
+        reason = f"damaged, or nothing that can be read as {name} ({type(error).__name__})"
+        return _reject(folder, reason, REJECTED)
     try:
-        write_contents(contents, Path.cwd())
+        write_contents(contents, folder)
     except OSError:
         return NO_ROOM
     return 0
@@ -89,10 +95,10 @@ def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str,
     }
 
 
-def _reject(reason: str, code: int) -> int:
+def _reject(folder: Path, reason: str, code: int) -> int:
     text = " ".join(reason.split())[:_LONGEST_REASON]
     try:
-        Path("refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
+        (folder / "refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")
     except OSError:
         return NO_ROOM
     return code

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.report import series as series_views
 from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, Table, csv_text
 from uictest.report.format_registry import ReportFormat
@@ -21,10 +23,11 @@ from uictest.report.repeat_wording import (
     stop_rows,
 )
 from uictest.report.requirements import requirement_rows, verified_requirements
-from uictest.report.series.tables import series_tables
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import definition_sentence, reading_sentences
-from uictest.series import SeriesResult
+
+if TYPE_CHECKING:
+    from uictest.series import SeriesResult
 
 CHANGED = "changed_parameters"
 REQUIREMENTS = "requirements"
@@ -110,7 +113,7 @@ def run_tables(content: RunContent) -> Mapping[str, Table]:
         "wheelsets": wheelsets_table(results),
         "criteria": criteria_table(results),
         **{name: table for name, table in optional.items() if table.rows},
-        **(series_tables(content.series) if content.series else {}),
+        **(series_views.series_tables(content.series) if content.series else {}),
     }
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 from uictest import evaluation
+from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import Difference
@@ -22,10 +24,11 @@ from uictest.report.junit_properties import (
 from uictest.report.part_wording import changes_line, controller_of, controllers_text
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
-from uictest.report.series.junit import series_testsuites
 from uictest.report.wording import DIFFERS, real_time_sentences
 from uictest.scenario import in_order_of_ids
-from uictest.series import SeriesResult
+
+if TYPE_CHECKING:
+    from uictest.series import SeriesResult
 
 
 def junit_xml(
@@ -68,7 +71,8 @@ def junit_xml(
         names = [controller_of(result)[0] for result in of_program]
         add_suite_properties(suite, program, told, _requirements(of_program), names, uictest_version)
         root.append(suite)
-    root.extend(series_testsuites(series, test_properties=test_properties, uictest_version=uictest_version))
+    if series:
+        root.extend(series_views.series_testsuites(series, test_properties, uictest_version))
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 

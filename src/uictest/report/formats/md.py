@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from uictest import evaluation
+from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import Difference, side_text, worst_of_wheelsets
@@ -15,7 +16,6 @@ from uictest.report.markdown_table import MarkdownTable, code, number_cell, pros
 from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import VerifiedRequirement, verified_requirements
-from uictest.report.series.md import series_markdown
 from uictest.report.wording import listed, reading_sentences
 
 _MEASURES = {
@@ -51,7 +51,7 @@ def markdown_summary(content: RunContent, limit: int = LIMIT) -> str:
     if not content.complete:
         text += "**Incomplete**: selected cases were not run.\n\n"
     text += "".join(f"{prose(line)}.\n\n" for line in domain_notices(content.all_results))
-    text += series_markdown(content.series, limit // 2)
+    text += series_views.series_markdown(content.series, limit // 2) if content.series else ""
     text += _baseline(content.baseline, limit // 2) if content.baseline else ""
     text += _requirements(content, limit // 4)
     repeated = any_repeated(content.results)

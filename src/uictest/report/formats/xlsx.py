@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from uictest import evaluation
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.report import series as series_views
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.cover_sheet import COVER, insert_charts, write_cover
@@ -20,7 +21,6 @@ from uictest.report.part_wording import changes_of
 from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
 from uictest.report.requirement_matrix import REQUIREMENTS_SHEET, requirement_matrix, verdict_columns
 from uictest.report.requirements import verified_requirements
-from uictest.report.series.tables import series_sheets
 from uictest.report.sheet import (
     VERDICT_COLUMNS,
     Row,
@@ -52,7 +52,7 @@ def workbook_bytes(content: RunContent) -> bytes:
 def _sheets(content: RunContent) -> Mapping[str, Iterable[Row]]:
     """Return the rows of each sheet by its name; those that grow with the cases are made when read."""
     return {
-        **series_sheets(content.series),
+        **series_views.series_sheets(content.series),
         "Cases": RowsMadeAnew(lambda: _cases(content)),
         "Wheelsets": RowsMadeAnew(lambda: _wheelsets(content)),
         "Criteria": RowsMadeAnew(lambda: _criteria(content)),

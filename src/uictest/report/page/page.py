@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from itertools import islice
+from typing import Any
 
 from uictest import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
@@ -18,7 +19,6 @@ from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
 from uictest.report.page.rerun_command import rerun_commands
-from uictest.report.page.series_view import SERIES_WORDS, series_view
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.wording import (
@@ -38,7 +38,6 @@ def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
     keys = {view.result.id: view.fragment for view in drawn}
-    series = [series_view(each) for each in sorted(content.series, key=lambda each: each.met)]
     return render(
         "run.html.j2",
         content=content,
@@ -46,10 +45,7 @@ def page_html(content: RunContent) -> str:
         drawn=drawn,
         keys=keys,
         case_anchor=case_anchor,
-        series=series,
-        series_first=_series_first(content),
-        series_keys={view.result.id: view.fragment for view in series},
-        **SERIES_WORDS,
+        **_of_series(content),
         maps=maps_of(content.results),
         requirements=verified_requirements(content.results, content.series),
         requirement_tones=REQUIREMENT_TONES,
@@ -83,9 +79,20 @@ def page_html(content: RunContent) -> str:
     )
 
 
-def _series_first(content: RunContent) -> bool:
-    """Return whether all cases pass and a series is not as expected: what is not stands first."""
-    return all(map(content.passes, content.results)) and not all(each.met for each in content.series)
+def _of_series(content: RunContent) -> dict[str, Any]:
+    """Return what the page shows of series; what is not as expected stands first."""
+    if not content.series:
+        return {"series": [], "series_first": False, "series_keys": {}}
+    from uictest.report.page.series_view import SERIES_WORDS, series_view  # few runs have any
+
+    series = [series_view(each) for each in sorted(content.series, key=lambda each: each.met)]
+    fine = all(map(content.passes, content.results))
+    return {
+        "series": series,
+        "series_first": fine and not all(each.met for each in content.series),
+        "series_keys": {view.result.id: view.fragment for view in series},
+        **SERIES_WORDS,
+    }
 
 
 def _drawn(content: RunContent) -> list[CaseView]:

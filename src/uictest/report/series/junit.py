@@ -22,7 +22,7 @@ from uictest.series import SeriesResult, SeriesVerdict
 
 
 def series_testsuites(
-    results: Sequence[SeriesResult], *, test_properties: bool = False, uictest_version: str = ""
+    results: Sequence[SeriesResult], test_properties: bool, uictest_version: str
 ) -> Iterator[ElementTree.Element]:
     """Yield the suite of every series.
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from uictest.controllers import ResponseTimes
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.assembly import StopInputs
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.stop_inputs import StopInputs
 
 RunStop = Callable[..., int]
 """:func:`uictest.rig.model.stop.run_stop` made for one controller, plain or compiled."""

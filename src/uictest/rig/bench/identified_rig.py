@@ -19,7 +19,6 @@ from uictest.rig.bench.run import run_test
 from uictest.scenario import (
     COMPENSATION_SETTINGS,
     BrakeSystem,
-    Case,
     Compensation,
     Files,
     Parts,
@@ -39,30 +38,14 @@ IDENTIFIED_KEYS: Final = (
     *("rig.caliper", "rig.sensors", "brake.system"),
     *("rig.topology", "rig.compensation", "rig.compensation_model"),
 )
-"""Keys of a scenario at or below which :func:`identified` reads."""
+"""Keys of a scenario at or below which the identification reads."""
 _identifying = Lock()
 _texts: dict[str, str] = {}
 """Compensation files of this process by the digest of what they depend on; only under the lock."""
 
 
-def identified(case: Case) -> Case:
-    """Return a case whose compensation, where it is to be identified, is: for its caliper, brake and sensors.
-
-    The same rig gives the same numbers, in every process and in every order. What is identified is what the
-    setting of the compensation uses. It takes up to some minutes, once for each distinct rig.
-
-    Raises:
-        UnsuitableRecordError: the bench cannot identify a compensation for the rig; the message says why.
-    """
-    rig = case.scenario.rig
-    if not rig.compensation_model.to_identify or rig.topology != "one-caliper":
-        return case
-    model = _compensation(case.scenario)
-    changed = case.scenario.model_copy(update={"rig": rig.model_copy(update={"compensation_model": model})})
-    return replace(case, scenario=changed)
-
-
-def _compensation(scenario: Scenario) -> Compensation:
+def identified_compensation(scenario: Scenario) -> Compensation:
+    """Return the compensation of a scenario's rig, identified as its setting of the compensation needs it."""
     pressure = COMPENSATION_SETTINGS[scenario.rig.compensation].pressure
     subjects = ("hysteresis",) if pressure == "tank" else ("hysteresis", pressure)
     inputs = _inputs(scenario, subjects)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.rig.assembly import StopInputs, assemble
+from uictest.rig.assembly import assemble
 from uictest.rig.backends.compiled import (
     compile_inner,
     compiled_operations,
@@ -26,6 +26,7 @@ from uictest.rig.model.wheelset_parameters import (
     WheelsetParameters,
     copy_wheelset_parameters,
 )
+from uictest.rig.stop_inputs import StopInputs
 from uictest.scenario import Case
 
 Samples = NDArray[np.float64]

@@ -19,11 +19,10 @@ from uictest.controllers import (
     ControllerProgram,
 )
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import run_to_end
-from uictest.rig.backends.lanes import load_lanes, run_in_lanes
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.opened import opened
+from uictest.rig.stop_inputs import StopInputs
 
 
 class BlockRun(NamedTuple):
@@ -108,6 +107,8 @@ def empty_run(count: int) -> BlockRun:
 def load_block(programs: Sequence[ControllerProgram | None]) -> None:
     """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
     if any(map(_may_run_in_lanes, programs)):
+        from uictest.rig.backends.lanes import load_lanes  # single stops do without them
+
         load_lanes()
     if any(map(_may_run_alone, programs)):
         compiled_stop()
@@ -141,6 +142,8 @@ def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
 
 def _run_in_lanes(block: _Block, places: Sequence[int]) -> None:
     """Run cases side by side, each with a controller of its own that is open."""
+    from uictest.rig.backends.lanes import run_in_lanes
+
     ready = block.inputs.at(places)
     batch = run_in_lanes(ready.parameters, ready.wheelset_parameters, ready.rail)
     block.run.measures[places], block.run.wheelset_measures[places] = batch

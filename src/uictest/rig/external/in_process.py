@@ -5,10 +5,10 @@ from dataclasses import replace
 from typing import Any
 
 from uictest.controllers import shown_version
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.opened import empty_exchange, opened
+from uictest.rig.stop_inputs import StopInputs
 
 RunInputs = Callable[[StopInputs, int], FinishedStop]
 """Runs a stop, with so many base steps between two samples of its trace: here or in a child process."""

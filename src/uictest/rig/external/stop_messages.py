@@ -5,7 +5,6 @@ from typing import Any, Final
 import numpy as np
 
 from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.controller_messages import bytes_of, read_controller, written_controllers
@@ -15,6 +14,7 @@ from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.stop_inputs import StopInputs
 
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
 

@@ -25,7 +25,6 @@ from uictest.controllers import (
     WROTE_BEYOND,
     ControllerError,
 )
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.drive import DriveRequest, Drives
@@ -38,6 +37,7 @@ from uictest.rig.external.messages import (
     write_message,
 )
 from uictest.rig.external.stop_messages import block_message, finished_of, run_of, stop_message
+from uictest.rig.stop_inputs import StopInputs
 
 LARGEST_BLOCK: Final = 256
 """Most stops that a child runs at once."""

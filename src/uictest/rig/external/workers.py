@@ -7,7 +7,6 @@ from types import TracebackType
 from typing import Final, Self, TypeGuard
 
 from uictest.controllers import ControllerProgram
-from uictest.rig.assembly import StopInputs
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
@@ -15,6 +14,7 @@ from uictest.rig.external.drive import DriveRequest, Drives, drive_controller
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.opened import empty_exchange
 from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, ProgramKey, Worker
+from uictest.rig.stop_inputs import StopInputs
 
 _MOST_IDLE: Final = 8
 """Children that are kept for the next stop of their program; chosen: each takes some 110 MB."""

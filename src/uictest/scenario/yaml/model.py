@@ -1,6 +1,6 @@
 """Base classes of all models of files: frozen, no unknown keys, all inconsistencies reported at once."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, Literal, NamedTuple, Self
 
@@ -38,7 +38,7 @@ class Model(BaseModel):
     tag: ClassVar[str] = ""
     """Names the model in a union that a function tells apart; no key of a file may be called so."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values that are impossible together."""
@@ -182,16 +182,22 @@ class PartReference:
         return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, inline, listed]}
 
 
+_WITHOUT_QUANTITIES: Final = frozenset({type(None), bool, int, float, str})
+"""Types of most fields; every part is searched when it is read."""
+
+
 def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]]:
     """Yield every quantity inside a model, tuple or mapping with its key."""
     if isinstance(value, Quantity):
         yield key, value
-    elif isinstance(value, BaseModel):
-        for name, inner in value:
-            yield from quantities_in(inner, (*key, name))
+        return
+    inside: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, tuple):
+        inside = enumerate(value)
     elif isinstance(value, dict):
-        for name, inner in value.items():
+        inside = value.items()
+    elif isinstance(value, BaseModel):
+        inside = value.__dict__.items()
+    for name, inner in inside:
+        if type(inner) not in _WITHOUT_QUANTITIES:
             yield from quantities_in(inner, (*key, name))
-    elif isinstance(value, tuple):
-        for index, inner in enumerate(value):
-            yield from quantities_in(inner, (*key, index))

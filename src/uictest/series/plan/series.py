@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from uictest.scenario import Case, Criteria, Criterion
 from uictest.series.plan.model import SeriesFile
-from uictest.series.result import Role
 from uictest.series_measures import Rail
+
+if TYPE_CHECKING:
+    from uictest.series.result import Role
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from uictest import evaluation
 from uictest.scenario import LONGEST, Case, Criteria, Files, load_file
@@ -26,8 +26,10 @@ from uictest.series.plan.model import SeriesFile, Stops
 from uictest.series.plan.same_train import differences_of_train
 from uictest.series.plan.series import PlannedStop
 from uictest.series.plan.stop_entry import recorded_by, scenario_of, values_set_by
-from uictest.series.result import Role
 from uictest.series_measures import Rail
+
+if TYPE_CHECKING:
+    from uictest.series.result import Role
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
 """Keys of a scenario that decide, with the seed, how the stop goes."""
