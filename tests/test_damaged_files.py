@@ -41,14 +41,10 @@ from uictest.field_data.defect import DefectKind
 from uictest.recording import Recording
 from uictest.recording.formats import (
     FORMATS,
-    Dialect,
     UnreadableError,
-    isolation,
     read_contents,
-    reader,
     writer_of,
 )
-from uictest.scenario import yaml as scenario_yaml
 
 SOURCE = Path(__file__).parents[1]
 LIBRARY = SOURCE / "src" / "uictest" / "library"
@@ -632,15 +628,8 @@ def _place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setattr(typer.main, "get_command", functools.cache(typer.main.get_command))
-        patch.setattr("uictest.scenario.files.read_library", functools.cache(scenario_yaml.read_library))
         for variable in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER", "GITHUB_STEP_SUMMARY"):
             patch.delenv(variable, raising=False)
-        in_child = isolation._run
-        patch.setattr(
-            isolation,
-            "_run",
-            lambda name, *rest: (_read_here if name in ("csv", "parquet") else in_child)(name, *rest),
-        )
         for name, text in FILES.items():
             Path(name).write_text(
                 text.replace("{}", _variables(int(name[3]))) if name.startswith("fmi") else text
@@ -662,15 +651,6 @@ def _place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
             writer_of(kind)(_small_recording(), Path(f"short{FORMATS[kind].suffix}"))
         shutil.copy("short.csv", "stop.csv")
         yield folder
-
-
-def _read_here(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
-    """Read a recording as the process does that is started for it."""
-    try:
-        contents = reader.read_here(name, path, dialect)
-    except Exception as error:
-        raise UnreadableError(type(error).__name__) from error
-    reader.write_contents(contents, folder)
 
 
 def _valid_files(kind: Kind) -> list[bytes]:

@@ -13,6 +13,7 @@ import re
 import shutil
 import subprocess
 import sysconfig
+from collections.abc import Callable
 from pathlib import Path
 
 from markup import Block, blocks, with_blocks
@@ -24,6 +25,7 @@ _VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
 _SIGN_OF_LIFE = re.compile(
     r"^uictest: (?:compil(?:ing|ed) |\d+% compiled|\d+ of \d+ (?:cases|stops))[^\n]*\n", re.MULTILINE
 )
+Output = Callable[[str, Path, bool], str]
 _LONGEST = 1800  # seconds after which a command is taken for hanging, however busy the machine is
 
 
@@ -49,20 +51,24 @@ def prepare(page: str, folder: Path) -> None:
             target.write_text(block.text, "utf-8")
 
 
-def executed(block: Block, folder: Path) -> str:
-    """Return the block with each command followed by what it prints."""
+def executed(block: Block, folder: Path, output_of: Output | None = None) -> str:
+    """Return the block with each command followed by what it prints.
+
+    `output_of` runs a command in a folder, on a terminal or for a pipe [default: in a shell of its own].
+    """
+    output_of = output_of or in_shell
     lines = []
     for command in commands_in(block):
         lines.append(f"{_PROMPT}{command}")
         # Only the first run on a machine, or a slow one, says that it is compiling and how far it is.
-        shown = _SIGN_OF_LIFE.sub("", _output(command, folder, terminal="terminal" in block.info))
+        shown = _SIGN_OF_LIFE.sub("", output_of(command, folder, "terminal" in block.info))
         lines += shown.lstrip("\n").splitlines()
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
 def coloured(command: str, folder: Path) -> str:
     """Return what a command writes to a terminal that shows colours."""
-    colours = {name: text for name, text in _environment().items() if name != "NO_COLOR"}
+    colours = {name: text for name, text in environment().items() if name != "NO_COLOR"}
     return _on_terminal(command, folder, {**colours, "TERM": "xterm-256color"})
 
 
@@ -81,28 +87,28 @@ def shape(text: str) -> str:
     return re.sub(r"[ \t]+", " ", _NUMBER.sub("#", steady(text)))
 
 
-def _output(command: str, folder: Path, *, terminal: bool) -> str:
-    environment = _environment()
-    if not terminal:
-        done = subprocess.run(
-            ["sh", "-c", command],
-            cwd=folder,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-            timeout=_LONGEST,
-        )
-        return done.stdout
-    return _on_terminal(command, folder, environment)
+def in_shell(command: str, folder: Path, on_terminal: bool) -> str:
+    """Return what a command writes to a terminal or to a pipe, both streams."""
+    if on_terminal:
+        return _on_terminal(command, folder, environment())
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=folder,
+        env=environment(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+        timeout=_LONGEST,
+    )
+    return done.stdout
 
 
-def _on_terminal(command: str, folder: Path, environment: dict[str, str]) -> str:
+def _on_terminal(command: str, folder: Path, variables: dict[str, str]) -> str:
     ours, theirs = pty.openpty()
     with subprocess.Popen(
-        ["sh", "-c", command], cwd=folder, env=environment, stdin=theirs, stdout=theirs, stderr=theirs
+        ["sh", "-c", command], cwd=folder, env=variables, stdin=theirs, stdout=theirs, stderr=theirs
     ) as process:
         os.close(theirs)
         text = _read_to_end(ours)
@@ -124,7 +130,8 @@ def _read_to_end(terminal: int) -> str:
     return b"".join(parts).decode()
 
 
-def _environment() -> dict[str, str]:
+def environment() -> dict[str, str]:
+    """Return the variables that the commands of a page see."""
     kept = {name: os.environ[name] for name in ("HOME", "LANG", "UICTEST_CACHE") if name in os.environ}
     path = f"{sysconfig.get_path('scripts')}{os.pathsep}{os.environ.get('PATH', '')}"
     return {**kept, "PATH": path, "TERM": "dumb", "COLUMNS": "100", "NO_COLOR": "1"}

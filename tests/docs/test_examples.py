@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+import os
+import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 import yaml
 
 from uictest import scenario
+from uictest.cli.entry import execute
 from uictest.field_data import load_map
 from uictest.rig.bench.loading import load_bench
 from uictest.scenario import ScenarioErrors
@@ -22,6 +29,8 @@ from uictest.validation import ValidationFile
 
 REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")
+CALL = re.compile(r"""uictest (?P<arguments>[^|;&<>$`*]*)(?P<code>; echo "exit code \$\?")?""")
+"""A call of the program that needs no shell."""
 KEYS = {
     "brake": "brake: {system: %s}",
     "pad": "brake: {pad: %s}",
@@ -101,6 +110,29 @@ def takes_long(block: Any) -> bool:
     return any(f"uictest reproduce {each}" in block.text for each in (*SLOW_STUDIES, "-q\n"))
 
 
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def output_of(command: str, folder: Path, on_terminal: bool) -> str:
+    """What a command of a page prints: one of ours alone in this process, any other in a shell."""
+    from consoles import environment, in_shell
+
+    call = CALL.fullmatch(command)
+    if call is None:
+        return str(in_shell(command, folder, on_terminal))
+    shown = Terminal() if on_terminal else io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        patch.dict(os.environ, environment(), clear=True),
+        contextlib.redirect_stdout(shown),
+        contextlib.redirect_stderr(shown),
+    ):
+        code = execute(shlex.split(call["arguments"]))
+    return f"{shown.getvalue()}exit code {code:d}\n" if call["code"] else shown.getvalue()
+
+
 def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> None:
     """Run the console blocks of a page that are chosen, and compare what they print with the page."""
     from consoles import executed, prepare, shape
@@ -109,7 +141,7 @@ def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> N
     text = page.read_text("utf-8")
     prepare(text, folder)
     for block in filter(chosen, blocks(text, "console")):
-        assert shape(executed(block, folder)) == shape(block.text), "run docs/tools/refresh.py"
+        assert shape(executed(block, folder, output_of)) == shape(block.text), "run docs/tools/refresh.py"
 
 
 def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:

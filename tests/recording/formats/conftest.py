@@ -9,9 +9,17 @@ import numpy as np
 import pytest
 
 from uictest.recording import Recording
-from uictest.recording.formats import FORMATS, writer_of
+from uictest.recording.formats import FORMATS, isolation, writer_of
+
+from ...conftest import READ_IN_PROCESS
 
 Written = Callable[[str], Path]
+
+
+@pytest.fixture(autouse=True)
+def _isolated(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here a process of its own is the point."""
+    monkeypatch.setattr(isolation, "_read_in_process", READ_IN_PROCESS)
 
 
 @pytest.fixture

@@ -24,6 +24,8 @@ from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 
+from ...conftest import FUSED
+
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 FAULTS = (
     "[{at: 0.3 s, until: 0.8 s, wheelset: 1, part: speed-sensor, kind: lost},"
@@ -112,6 +114,31 @@ def everything(function: Any, inputs: StopInputs, every: int) -> dict[str, bytes
     }
 
 
+def quickly(*arguments: Any) -> None:
+    """Run the stop in plain Python, on plain numbers and fused by the C library: in an eighth of the time."""
+    stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, dict(FUSED)))
+    records = [each for each in arguments if getattr(each, "dtype", None) is not None and each.dtype.names]
+    plain = {id(each): _numbers(each) for each in records}
+    stop(*(plain.get(id(each), each) for each in arguments))
+    for record in records:
+        _write_back(plain[id(record)], record)
+
+
+def _numbers(record: Any) -> Any:
+    if record.shape:
+        return [_numbers(each) for each in record]
+    return SimpleNamespace(**{name: record[name].tolist() for name in record.dtype.names})
+
+
+def _write_back(numbers: Any, record: Any) -> None:
+    if record.shape:
+        for place, each in enumerate(numbers):
+            _write_back(each, record[place])
+    else:
+        for name in record.dtype.names:
+            record[name] = getattr(numbers, name)
+
+
 def fields_that_differ(layout: np.dtype[Any], one: bytes, other: bytes) -> list[str]:
     a, b = (np.frombuffer(data, layout) for data in (one, other))
     return [name for name in layout.names or () if a[name].tobytes() != b[name].tobytes()]
@@ -124,7 +151,8 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
     if "cycles" not in fields:
         fields = {**fields, "cycles": 200}
     inputs = rig.inputs(*overrides, **fields)
-    plain = everything(plain_stop(), inputs, 1)
+    as_it_is = setting == "standstill on a dry rail"
+    plain = everything(plain_stop() if as_it_is else quickly, inputs, 1)
     compiled = everything(compiled_stop(), inputs, 1)
     for name, layout in (
         ("car", CAR),

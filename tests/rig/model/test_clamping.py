@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.rig.model.clamping import step_clamping
+from uictest.rig.model import clamping
+
+from ...conftest import quick
+
+step_clamping = quick(clamping.step_clamping)
 
 Benches = Callable[[Any], Any]
 EXACT = {

@@ -7,8 +7,12 @@ import numpy as np
 import pytest
 
 from uictest.physics.flow import REFERENCE_TEMPERATURE
+from uictest.rig.model import pneumatics
 from uictest.rig.model.balance import air_energy_residual, stored_air
-from uictest.rig.model.pneumatics import step_air
+
+from ...conftest import quick
+
+step_air = quick(pneumatics.step_air)
 
 Benches = Callable[[Any], Any]
 
