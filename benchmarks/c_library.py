@@ -37,6 +37,15 @@ RECORDS = {
     "Measures": STOP_MEASURES,
     "WheelsetMeasures": WHEELSET_MEASURES,
 }
+STATES = ("Car", "Bogie", "Wheelset")
+"""Records whose numbers lie STRIDE apart where scalar code works on one lane of several."""
+_BESIDE = """
+#ifdef STRIDE
+#define BESIDE(name) double name##_beside[STRIDE - 1];
+#else
+#define BESIDE(name)
+#endif
+"""
 _C_TYPES = {"f": "real", "i": "integer"}
 
 
@@ -47,7 +56,7 @@ class NoCompilerError(RuntimeError):
 def records_header() -> str:
     """Return records.h: the struct of each record, field by field in the order of its dtype."""
     structs = (_struct(name, dtype) for name, dtype in RECORDS.items())
-    return "\n".join(["#pragma once", '#include "number.h"', *structs, _copy_function()])
+    return "\n".join(["#pragma once", '#include "number.h"', _BESIDE, *structs, _copy_function()])
 
 
 def _copy_function() -> str:
@@ -59,7 +68,8 @@ def _copy_function() -> str:
 
 
 def _struct(name: str, dtype: np.dtype[Any]) -> str:
-    fields = (_field(field, dtype[field]) for field in dtype.names or ())
+    beside = "    BESIDE({})\n" if name in STATES else ""
+    fields = (_field(field, dtype[field]) + beside.format(field) for field in dtype.names or ())
     return f"typedef struct {{\n{''.join(fields)}}} {name};\n"
 
 
@@ -124,14 +134,19 @@ def _folder(units: tuple[Unit, ...]) -> Path:
 
 
 class CLanes:
-    """Many stops of the C rig in lanes of the processor's vectors; contraction and reassociation allowed."""
+    """Many stops of the C rig in lanes of the processor's vectors.
 
-    def __init__(self, width: int = 8) -> None:
-        vectors = (*PLAIN, "-ffast-math", f"-DLANES={width}", "-x", "c++", "-Wno-psabi")
+    `strict` keeps the operations as they are written, as our own build does; else they may be contracted and
+    ordered anew.
+    """
+
+    def __init__(self, width: int = 8, *, strict: bool = False) -> None:
+        freedom = ("-ffp-contract=off", "-DSTRICT") if strict else ("-ffast-math",)
+        of_headers = ("-Wno-psabi", "-Wno-uninitialized", "-Wno-maybe-uninitialized")
+        vectors = (*PLAIN, *freedom, f"-DLANES={width}", "-x", "c++", *of_headers)
+        scalar = (*(STRICT if strict else PLAIN), "-fno-strict-aliasing", f"-DSTRIDE={width}")
         # The measures compare with NaN, which -ffast-math assumes away: only the steps get it.
-        self._stops = library(
-            Unit("lanes.c", (*PLAIN, f"-DWIDTH={width}")), Unit("lanes_step.c", vectors)
-        ).stops
+        self._stops = library(Unit("lanes.c", scalar), Unit("lanes_step.c", vectors)).stops
         self._stops.restype = None
         # number of stops, parameters, those of wheelsets, friction laws, measures, wheelsets' measures
         self._stops.argtypes = [ctypes.c_int64] + [ctypes.c_void_p] * 5

@@ -157,11 +157,12 @@ class JaxColumns:
 def peers(stop: Stop) -> Iterator[Peer]:
     """Yield the peers, the one that all are compared with first."""
     in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop()
-    eight, sixteen = CLanes(8), CLanes(16)
+    eight, sixteen, strict_eight = CLanes(8), CLanes(16), CLanes(8, strict=True)
     yield "C, scalar, gcc -O3 -march=native", lambda: one_by_one(in_c, stop)
     yield "C, scalar, without contraction", lambda: one_by_one(strict_in_c, stop)
     yield "uictest, scalar, strict", lambda: one_by_one(ours, stop)
     yield "uictest, lanes, strict", lambda: ours_in_lanes(stop)
+    yield "C, 8 lanes, strict", lambda: c_lanes(strict_eight, stop)
     yield "C, 8 lanes, -ffast-math", lambda: c_lanes(eight, stop)
     yield "C, 16 lanes, -ffast-math", lambda: c_lanes(sixteen, stop)
     yield "numpy over 256 runs", lambda: numpy_columns(stop, 256, 50)

@@ -23,6 +23,18 @@ typedef int mask;
 
 #ifdef LANES
 OURS real number(double x) { return x - (real){}; }
+OURS real number(real x) { return x; }
+#if defined(STRICT) && LANES == 8 && defined(__AVX512F__)
+#include <immintrin.h>
+OURS real fused(real a, real b, real c) { return (real)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c); }
+OURS real sqrt_of(real x) { return (real)_mm512_sqrt_pd((__m512d)x); }
+#define fma(a, b, c) fused(number(a), number(b), number(c))
+#elif defined(STRICT) && LANES == 4 && defined(__FMA__)
+#include <immintrin.h>
+OURS real fused(real a, real b, real c) { return (real)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c); }
+OURS real sqrt_of(real x) { return (real)_mm256_sqrt_pd((__m256d)x); }
+#define fma(a, b, c) fused(number(a), number(b), number(c))
+#else
 #define fma(a, b, c) ((a) * (b) + (c)) /* which the compiler may contract */
 OURS real sqrt_of(real x)
 {
@@ -31,6 +43,7 @@ OURS real sqrt_of(real x)
         y[k] = sqrt(x[k]);
     return y;
 }
+#endif
 OURS real size_of(real x) { return x < 0.0 ? -x : x; }
 #else
 OURS real number(double x) { return x; }

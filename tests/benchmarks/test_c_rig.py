@@ -111,3 +111,25 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
         scalar.wheelset_measures.maximum_clamping_force,
         rtol=1e-9,
     )
+
+
+def test_strict_lanes_have_the_bits_of_ours() -> None:
+    from c_library import CLanes
+
+    from uictest.lanes import fuses, register_width
+    from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+    from uictest.rig import run_in_lanes
+
+    if not fuses():
+        pytest.skip("the C lanes fuse by an instruction that this processor lacks")
+    stop = short_stop("low-adhesion-80")
+    parameters, own, rail, *_ = stop
+    stops = np.repeat(parameters.reshape(1), 11).view(parameters.dtype)
+    stops["noise_key"] = np.arange(11)
+    owns, rails = np.tile(own, (11, 1)), np.tile(rail[:, :1], (11, 1, 1))
+    measures, wheelset_measures = np.zeros(11, STOP_MEASURES), np.zeros(44, WHEELSET_MEASURES)
+    strict = CLanes(register_width(), strict=True)
+    strict(stops, owns, np.ascontiguousarray(rails[:, :, 0]), measures, wheelset_measures)
+    ours = run_in_lanes(stops, owns, rails)
+    assert measures.tobytes() == ours.measures.tobytes()
+    assert wheelset_measures.tobytes() == ours.wheelset_measures.tobytes()
