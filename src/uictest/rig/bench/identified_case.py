@@ -18,7 +18,6 @@ def identified(case: Case) -> Case:
     if not rig.compensation_model.to_identify or rig.topology != "one-caliper":
         return case
     # It brings the bench and the identification, which few stops need.
-    # It brings the bench and the identification, which few stops need.
     from uictest.rig.bench.identified_rig import identified_compensation
 
     model = identified_compensation(case.scenario)
