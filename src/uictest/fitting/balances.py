@@ -16,6 +16,7 @@ derivative of a noisy speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +61,7 @@ def over(windows: Windows, samples: StopSamples, values: Array) -> Array:
     return integral
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Balances:
     """The balances of a stop, whose residuals are adhesion coefficients: 0.01 is a hundredth of the load."""
 
@@ -83,7 +84,7 @@ class Balances:
             return None
         radius = of_wheelsets(self.scenario, "wheel_radius")
         turned = (s.wheel_speed[:, self.windows.last] - s.wheel_speed[:, self.windows.first]) / radius
-        torque = brake_factor * over(self.windows, s, s.torque)
+        torque = brake_factor * self._torque_impulse
         impulse: Array = (torque + wheelset.rotational_inertia * turned) / radius
         return impulse
 
@@ -97,17 +98,18 @@ class Balances:
             brake_factor: on the torque of the brakes, one or (4, 1).
         """
         by_rail, by_brake = self.rail_impulse(friction), self.brake_impulse(brake_factor)
-        load, sliding, standing = self._load_impulse(), self.windows.sliding, self.windows.standing
+        load, sliding, standing = self._load_impulse, self.windows.sliding, self.windows.standing
         if by_brake is None:
             of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)
         else:
             of_wheelsets = ((by_rail - by_brake) / load)[sliding & ~standing]
             impulse, known = np.where(sliding, by_rail, by_brake), (sliding | ~standing).all(axis=0)
-        of_train = (impulse.sum(axis=0) - self.lost_momentum()) / load.sum(axis=0)
+        of_train = (impulse.sum(axis=0) - self.lost_momentum) / load.sum(axis=0)
         return of_wheelsets, np.asarray(of_train[known])
 
+    @cached_property
     def lost_momentum(self) -> Array:
-        """Return the impulse of the rails by the deceleration of the train, N s, (k,)."""
+        """The impulse of the rails by the deceleration of the train, N s, (k,)."""
         s, vehicle = self.samples, self.scenario.vehicle
         resistance = vehicle.running_resistance
         drag = resistance.constant + resistance.linear * s.speed + resistance.quadratic * s.speed**2
@@ -119,10 +121,16 @@ class Balances:
         """Return the adhesion each wheelset used in each window, (4, k): by its brake, else by the train."""
         needed = self.brake_impulse(1.0)
         if needed is None:
-            shared = self.lost_momentum() / self._load_impulse().sum(axis=0)
+            shared = self.lost_momentum / self._load_impulse.sum(axis=0)
             return np.broadcast_to(shared, self.windows.sliding.shape)
-        return np.asarray(needed / self._load_impulse())
+        return np.asarray(needed / self._load_impulse)
 
+    @cached_property
+    def _torque_impulse(self) -> Array:
+        assert self.samples.torque is not None
+        return over(self.windows, self.samples, self.samples.torque)
+
+    @cached_property
     def _load_impulse(self) -> Array:
         wheels = 2.0
         return wheels * over(self.windows, self.samples, self.samples.load)
