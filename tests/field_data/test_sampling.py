@@ -8,7 +8,8 @@ from hypothesis import given, strategies as st
 
 from uictest.field_data import MapError, Preparation, RawChannel
 from uictest.field_data.signals import low_passed, resampled
-from uictest.field_data.standstill import find_standstill
+from uictest.field_data.standstill import find_standstill, require_plausible_deceleration
+from uictest.field_data.time_axis import coarse_defects, gap_defects, gaps
 from uictest.field_data.trigger import find_trigger
 
 RISING = st.lists(st.floats(0.01, 1.0), min_size=2, max_size=30).map(np.cumsum)
@@ -42,6 +43,39 @@ def test_a_gap_stays_a_gap_but_for_its_edges() -> None:
     time = np.array([0.0, 0.1, 0.2, 0.3, 1.0, 1.1, 1.2])
     values = resampled(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), raster=0.1)
     np.testing.assert_allclose(values, [0.3, np.nan, 1.0])
+
+
+@pytest.mark.parametrize(("lost", "is_a_gap"), [(1, False), (2, True)])
+def test_one_sample_lost_is_no_gap_and_two_are(lost: int, is_a_gap: bool) -> None:
+    time = np.delete(0.125 * np.arange(20), range(10, 10 + lost))
+    assert gaps(time, raster=0.125).any() == is_a_gap
+    assert len(list(gap_defects(time, "speed", raster=0.125))) == is_a_gap
+
+
+def test_an_interval_of_two_and_a_half_usual_ones_is_no_gap_and_a_longer_one_is() -> None:
+    time = np.array([0.0, 1.0, 2.0, 3.0, 5.5, 6.5, 7.5, 10.25])
+    assert list(gaps(time, raster=0.1)) == [False] * 6 + [True]
+
+
+def test_what_is_sampled_no_more_slowly_than_the_raster_has_no_gaps() -> None:
+    """Times of a file are rounded: the raster itself may come out a digit longer."""
+    time = np.array([0.0, 0.01, 0.02, 0.03, 0.13, 0.14])
+    assert not gaps(time, raster=0.1).any()
+    assert gaps(time, raster=0.09).any()
+
+
+def test_the_first_gaps_are_named_and_the_others_counted() -> None:
+    time = np.concatenate([10.0 * k + np.arange(5.0) for k in range(6)])
+    [defect] = gap_defects(time, "speed", raster=0.1)
+    listed = "4 to 10 s, 14 to 20 s, 24 to 30 s and 2 more"
+    assert str(defect) == f"gap: speed is not recorded from {listed}"
+
+
+@pytest.mark.parametrize(("interval", "coarse"), [(0.25, False), (0.26, True)])
+def test_samples_a_quarter_of_a_second_apart_are_the_last_that_show_all(
+    interval: float, coarse: bool
+) -> None:
+    assert len(list(coarse_defects(interval * np.arange(100), "speed"))) == coarse
 
 
 def test_a_missing_sample_spoils_what_lies_beside_it() -> None:
@@ -131,6 +165,63 @@ def test_a_sensor_that_reads_a_little_at_rest_does_not_delay_standstill() -> Non
     found = find_standstill(time, np.maximum(10.03 - time, 0.05), 0.0, slow=0.3)
     assert found is not None
     assert found.time == pytest.approx(10.03, abs=0.06)
+
+
+def test_a_zero_long_after_the_fall_is_another_stop() -> None:
+    """The train creeps for three seconds, then stands: what it ran out to is the standstill."""
+    time = np.arange(0.0, 15.0, 0.1)
+    speed = np.where(time < 13.0, np.maximum(10.03 - time, 0.05), 0.0)
+    found = find_standstill(time, speed, 0.0, slow=0.3)
+    assert found is not None
+    assert found.time == pytest.approx(10.03, abs=0.06)
+    assert "run out" in found.text
+
+
+def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second() -> None:
+    """It brakes twice as hard from then on."""
+    time = np.arange(0.0, 9.75, 0.05)
+    speed = np.where(time < 9.2, 10.2 - time, 1.0 - 2.0 * (time - 9.2)) + 0.25
+    found = find_standstill(time, speed, 0.0, slow=0.3)
+    assert found is not None
+    assert found.time == pytest.approx(time[-1] + speed[-1] / 2.0)
+    assert found.beyond == pytest.approx(speed[-1] ** 2 / 4.0)
+
+
+def test_one_slow_sample_after_a_second_without_any_is_no_standstill() -> None:
+    """No deceleration can be taken from it, so nobody knows when the train stood."""
+    time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    assert find_standstill(time, np.array([8.0, 6.0, 4.0, 2.0, 0.1]), 0.0, slow=0.3) is None
+
+
+def _braking(deceleration: float, initial_speed: float = 20.0) -> RawChannel:
+    time = np.linspace(0.0, initial_speed / deceleration, 2001)
+    return _channel("speed", time, initial_speed - deceleration * time)
+
+
+@pytest.mark.parametrize("deceleration", [0.0102, 1.0, 19.8])
+def test_what_a_train_can_do_is_plausible(deceleration: float) -> None:
+    require_plausible_deceleration(_braking(deceleration), 0.0)
+
+
+@pytest.mark.parametrize("deceleration", [0.0098, 20.2])
+def test_what_no_train_can_do_is_told_in_numbers(deceleration: float) -> None:
+    numbers = f"from 72 to 36 km/h in {10.0 / deceleration:.4g} s, at {deceleration:.4g} m/s2"
+    with pytest.raises(MapError, match=f"the train slows {numbers}"):
+        require_plausible_deceleration(_braking(deceleration), 0.0)
+
+
+def test_a_train_that_stands_at_the_brake_command_has_no_deceleration_to_ask_for() -> None:
+    time = np.arange(0.0, 20.0, 0.1)
+    speed = np.where(np.abs(time - 5.0) < 2.0, 5.0, 0.0)
+    require_plausible_deceleration(_channel("speed", time, speed), 0.0)
+
+
+def test_the_deceleration_is_asked_for_after_the_brake_command_alone() -> None:
+    """Before it, a wagon may have been shunted or a sensor switched on."""
+    braking = _braking(1.0)
+    time = np.concatenate(([-2.0, -1.9], braking.time))
+    speed = np.concatenate(([300.0, 0.0], braking.samples))
+    require_plausible_deceleration(_channel("speed", time, speed), 0.0)
 
 
 def test_a_low_pass_keeps_level_and_place_and_takes_ripple() -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
-from uictest.field_data import stated_case
+from uictest.field_data import WHEELSETS, stated_case
 from uictest.fitting import CleaningFit, FitError, fit_cleaning, fit_stop
+from uictest.rig import simulate
 from uictest.scenario import Scenario
 
 Make = Callable[..., Any]
@@ -65,6 +67,21 @@ def test_stops_with_deep_slides_tell_both_within_their_confidence(
     assert fit.estimate.energy_half_width < 0.2 * fit.estimate.energy
     assert fit.stops[0].friction[0].value == pytest.approx(friction, rel=0.02)
     assert float(fit.in_force.energy) == pytest.approx(fit.estimate.energy, rel=1e-3)
+
+
+def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(
+    recorded_stop: Make, library: Scenario
+) -> None:
+    """Friction under a wheelset is mu0 + C (mur - mu0), with the cleaned share C."""
+    settings = (cleaning(8000.0, 0.22), "rig.topology=one-caliper")
+    case, recorded = recorded_stop(80.0, "0.07", 1, settings=settings)
+    recording = simulate(case, record_every=0.01).recording
+    speed, definition = recording["speed"], case.scenario.measures
+    slip = speed - np.array([recording[f"wheel_speed_{n}"] for n in WHEELSETS])
+    slides = (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed)
+    friction = np.array([recording[f"friction_{n}"] for n in WHEELSETS])
+    share = (friction[slides & (speed > definition.moving_speed)].max() - 0.07) / (0.22 - 0.07)
+    assert fit_cleaning([recorded], library).estimate.largest_share == pytest.approx(share, rel=0.1)
 
 
 def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop: Make, library: Scenario) -> None:

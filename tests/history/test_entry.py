@@ -1,16 +1,19 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from hypothesis import given, strategies as st
 
 from uictest import report
+from uictest.evaluation import RepeatedStop, Repeats
 from uictest.history.entry import ENTRY, CaseEntry, RunEntry, _written, entry_of, read_entry
 
 from .conftest import Publish, case
 
+STOPS = tuple(RepeatedStop(seed, "pass") for seed in range(3))
 words = st.sampled_from(report.CASE_WORDS)
 names = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
 entries = st.builds(
@@ -54,6 +57,7 @@ def test_counts_and_distances_are_those_of_the_results() -> None:
         ({"counts": {"splendid": 1}}, "no verdict 'splendid'"),
         ({"counts": {"pass": -1}}, "counts.pass"),
         ({"cases": [["a", "pass", None, [99]]]}, "found number 99"),
+        ({"parts": ["x"], "cases": [["a", "pass", None, [1]]]}, "there are 1 parts, found number 1"),
         ({"cases": [["a", "splendid", None, []]]}, "no verdict 'splendid'"),
         ({"cases": [["a", "pass", "far", []]]}, "cases.0.2"),
         ({"cases": [["a", "pass", float("inf"), []]]}, "cases.0.2"),
@@ -73,6 +77,25 @@ def test_a_damaged_entry_is_rejected_by_the_place_of_the_damage(
 def test_what_is_no_entry_is_rejected(text: bytes) -> None:
     with pytest.raises(ValueError, match=r"\w"):
         read_entry(text)
+
+
+def test_a_folder_whose_name_is_no_text_has_an_entry_all_the_same() -> None:
+    """A file name of other bytes than UTF-8 holds lone surrogates, which no JSON file can."""
+    entry = RunEntry("run-\udcff", True, 1, "old-\udcff", {}, {}, ())
+    text = _written(entry).model_dump_json(by_alias=True).encode()
+    assert (read_entry(text).name, read_entry(text).baseline) == (r"run-\udcff", r"old-\udcff")
+
+
+@pytest.mark.parametrize(
+    ("repeats", "part"),
+    [
+        (Repeats("all", STOPS), "repeat/3-all"),
+        (Repeats("at_least", STOPS, required_share=0.6), "repeat/3-at_least-0.6"),
+    ],
+)
+def test_how_a_stop_is_repeated_stands_among_what_it_was_run_with(repeats: Repeats, part: str) -> None:
+    [entry] = entry_of(report.RunContent("", [replace(case("a"), repeats=repeats)]), 10).cases
+    assert entry.parts_by_kind["repeat"] == [part]
 
 
 def test_without_its_cases_an_entry_has_the_same_head(publish: Publish) -> None:

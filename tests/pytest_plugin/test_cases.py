@@ -22,6 +22,26 @@ class Broken:
     def step(self, inputs): raise ValueError("no idea")
 """
 
+TURNING = """\
+schema: uictest/scenario/1
+name: turning
+initial_speed: 120 km/h
+rail: {condition: wet, friction: 0.09}
+rig: {compensation: thermal}
+criteria:
+  schema: uictest/criteria/1
+  name: own
+  criteria:
+    - id: slides-deeply
+      layer: requirement
+      measure: maximum_slide_above_cutoff
+      wheelsets: any
+      lower: 50 %
+      definition: {low_speed_cutoff: {value: 60 km/h, range: [10 km/h, 60 km/h]}}
+expect: fail
+"""
+"""Its verdict is another one from where the range of its definition ends."""
+
 
 @pytest.fixture
 def five(scenario: Scenario, write: Write) -> None:
@@ -138,6 +158,16 @@ def test_options_change_every_scenario(run: Run, scenario: Scenario) -> None:
     assert properties(testcase)["braking_time_s"] == report.number(result.measures["braking_time_s"])
 
 
+def test_a_verdict_that_is_not_settled_fails_where_strictness_is_asked_for(run: Run, write: Write) -> None:
+    write("scenarios/turning.yaml", TURNING)
+    assert run().summary == "1 passed"
+    strict = run("--uictest-strict", "--uictest-output", "out")
+    assert strict.summary == "1 failed"
+    assert any("slides-deeply" in line for line in strict.lines)
+    command = json.loads(Path("out/latest/manifest.json").read_text("utf-8"))["command"]
+    assert command[-1] == "--strict"
+
+
 def test_an_invalid_file_is_an_error_of_collection_with_its_place(run: Run, scenario: Scenario) -> None:
     scenario("good")
     scenario("bad", "brake: {command: 200 %}\nrail: {friction: 0,1}\n")
@@ -155,7 +185,8 @@ def test_an_invalid_file_is_an_error_of_collection_with_its_place(run: Run, scen
 
 def test_an_option_without_effect_is_an_error_of_usage(run: Run, scenario: Scenario) -> None:
     scenario("stop")
-    for option in ("--uictest-set=rail.friction=0.06", "--uictest-seed=0", "--uictest-output=out"):
+    options = ("set=rail.friction=0.06", "seed=0", "repeat=1", "strict", "output=out")
+    for option in (f"--uictest-{each}" for each in options):
         outcome = run("-o", "uictest_files=", option)
         assert outcome.code == pytest.ExitCode.USAGE_ERROR
         assert f"{option.partition('=')[0]} has no effect" in "\n".join(outcome.lines)

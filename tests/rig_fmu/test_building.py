@@ -6,10 +6,12 @@ import io
 import json
 import shutil
 import subprocess
+import uuid
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 
@@ -41,6 +43,67 @@ def test_the_description_says_what_other_tools_must_know(build: Build, version: 
     assert inputs == {f"{magnet}_{i}": "Boolean" for magnet in ("hold", "vent") for i in (1, 2, 3, 4)}
     # Without a direct way from input to output a tool finds no algebraic loop.
     assert all(unknown.dependencies == [] for unknown in described.outputs)
+
+
+def described(path: Path) -> ElementTree.Element:
+    """Return the root of the model description as it is written."""
+    with zipfile.ZipFile(path) as archive:
+        return ElementTree.fromstring(archive.read("modelDescription.xml"))
+
+
+@VERSIONS
+def test_units_are_told_in_those_of_the_si_and_in_those_that_people_read(build: Build, version: int) -> None:
+    """1 N = 1 kg m/s2, 1 Pa = 1 N/m2; 1 m/s = 3.6 km/h, 1 Pa = 0.00001 bar."""
+    units = list(described(build(version)).iter("Unit"))
+    in_si = {
+        str(unit.get("name")): {base: int(power) for base, power in unit.find("BaseUnit").attrib.items()}  # type: ignore[union-attr]
+        for unit in units
+    }
+    assert in_si == {
+        "s": {"s": 1},
+        "m": {"m": 1},
+        "m/s": {"m": 1, "s": -1},
+        "N": {"kg": 1, "m": 1, "s": -2},
+        "N.m": {"kg": 1, "m": 2, "s": -2},
+        "Pa": {"kg": 1, "m": -1, "s": -2},
+    }
+    shown = {
+        (unit.get("name"), display.get("name")): float(display.get("factor", "nan"))
+        for unit in units
+        for display in unit.iter("DisplayUnit")
+    }
+    assert shown == {("m/s", "km/h"): 3.6, ("Pa", "bar"): 1e-5}
+
+
+@VERSIONS
+def test_every_variable_has_the_unit_of_its_quantity(build: Build, version: int) -> None:
+    quantities = {"speed": "m/s", "pressure": "Pa", "distance": "m", "time": "s", "load": "N", "force": "N"}
+    quantities["torque"] = "N.m"
+    for variable in fmpy.read_model_description(str(build(version))).modelVariables:
+        quantity = variable.name.rstrip("_1234").rpartition("_")[2]
+        assert variable.unit == quantities.get(quantity), variable.name
+
+
+@VERSIONS
+def test_the_seed_and_the_longest_duration_are_those_of_the_case(
+    build: Build, case: Case, version: int
+) -> None:
+    description = fmpy.read_model_description(str(build(version)))
+    longest = float(case.scenario.simulation.maximum_duration)
+    assert float(description.defaultExperiment.stopTime) == pytest.approx(longest)
+    [seed] = [each for each in description.modelVariables if each.causality == "parameter"]
+    largest = {2: 2**31 - 1, 3: 2**32 - 1}[version]
+    assert (seed.name, int(seed.start), int(seed.min), int(seed.max)) == ("seed", 5, 0, largest)
+
+
+def test_the_token_of_a_description_is_a_guid_of_its_own(build: Build) -> None:
+    tokens = [
+        described(build(2)).get("guid", ""),
+        described(build(3)).get("instantiationToken", ""),
+    ]
+    for token in tokens:
+        assert str(uuid.UUID(token)) == token.strip("{}")
+    assert tokens[0] != tokens[1]
 
 
 @VERSIONS

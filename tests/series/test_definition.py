@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from uictest import series
-from uictest.scenario import ScenarioErrors
+from uictest.scenario import LONGEST, ScenarioErrors
 
 Load = Callable[..., list[series.Series]]
 Write = Callable[[str, str], Path]
@@ -129,6 +129,11 @@ def test_stops_are_judged_by_the_criteria_of_their_scenario_and_those_of_the_ser
         (f"{PAIR}matrix: {{name: [a, b]}}\n", 5, "'name' belongs to the file"),
         ("dry: dry.yaml\nwet: {scenario: wet.yaml, recordings: [a.csv]}\n", 4, "no such file: 'a.csv'"),
         (
+            "dry: dry.yaml\nwet: {scenario: wet.yaml, recordings: [wet.yaml], set: {seed: [1, 2]}}\n",
+            4,
+            "recordings belong to one stop, the scenario has 2 cases",
+        ),
+        (
             "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: []}}\n",
             4,
             "an empty list makes no stop",
@@ -160,6 +165,34 @@ def test_a_file_of_another_kind_is_refused(write: Write, text: str, message: str
     (diagnostic,) = caught.value.diagnostics
     assert message in diagnostic.message
     assert hint in diagnostic.hint
+
+
+BY_K_WET = """schema: uictest/criteria/1
+name: by-k-wet
+criteria:
+  - {id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 1}
+"""
+
+
+def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(write: Write) -> None:
+    """That of a stop with the WSP bypassed, which is longer by a word, is cut."""
+    write("by-k-wet.yaml", BY_K_WET)
+    wet = f"wet-{'w' * 90}"
+    write("wet.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", f"name: {wet}"))
+
+    def ids_of(name: str) -> list[str]:
+        head = f"schema: uictest/series/1\nname: {name}\ncriteria: by-k-wet.yaml\n"
+        stops = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.08, 0.09]}}\n"
+        (planned,) = series.load_series(write("x.series.yaml", head + stops))
+        return [stop.case.id for stop in planned.stops]
+
+    own = f"{wet}[friction=0.08]"
+    name = "s" * (LONGEST - len(own) - 1)
+    shown = ids_of(name)
+    assert shown[1] == f"{name}.{own}"
+    assert shown[3] == f"{name}.bypassed.{own}"[:LONGEST]
+    with pytest.raises(ScenarioErrors, match=f"is longer than {LONGEST} characters"):
+        ids_of(f"{name}s")
 
 
 def test_a_criterion_in_both_profiles_is_refused(load: Load, write: Write) -> None:

@@ -49,6 +49,14 @@ def test_a_series_that_keeps_everything_passes(planned: series.Series, judge: Ju
     assert k_wet.speed_kmh == 120.0
 
 
+def test_a_miss_says_what_was_found_what_is_demanded_and_how_much_is_missing(
+    planned: series.Series, judge: Judge
+) -> None:
+    # Deceleration distances 600, 640 and 680 m against 400 m.
+    k_wet = verdicts(judge(planned, [460.0, 660.0, 700.0, 740.0]))["k-wet"].verdict
+    assert (k_wet.status, k_wet.reason) == ("fail", "0.625 from 120 km/h misses >= 0.8 by 0.175")
+
+
 def test_one_stop_from_each_speed_has_a_speed_that_decides(load: Load, judge: Judge, write: Write) -> None:
     write("own.yaml", OWN)
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
@@ -140,8 +148,31 @@ def test_the_verdict_of_a_stop_that_does_not_count_decides_nothing(
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("pass", 0.5, 2, 2)
 
 
+def test_a_criterion_of_which_a_stop_leaves_open_whether_it_is_kept_is_open(
+    load: Load, judge: Judge, write: Write
+) -> None:
+    """The stop counts, as it fails by something else."""
+    over = _locks(load, judge, write, {2.5: "fail"}, {2.5: "inconclusive"})
+    assert (over.verdict.status, over.kept, over.stops) == ("inconclusive", 2, 3)
+    assert over.verdict.reason == "2 of 3 stops keep it"
+
+
+def test_stops_that_a_criterion_is_not_for_neither_keep_nor_miss_it(
+    load: Load, judge: Judge, write: Write
+) -> None:
+    one = _locks(load, judge, write, {2.5: "pass"}, {2.5: "not_applicable"})
+    assert (one.verdict.status, one.kept, one.stops) == ("pass", 2, 2)
+    none = _locks(load, judge, write, {2.5: "pass"}, dict.fromkeys((0.0, 0.5, 2.5), "not_applicable"))
+    assert (none.verdict.status, none.verdict.value) == ("not_applicable", None)
+    assert none.verdict.reason == "it applies to none of the stops that count"
+
+
 def _locks(
-    load: Load, judge: Judge, write: Write, outcomes: dict[float, evaluation.Outcome]
+    load: Load,
+    judge: Judge,
+    write: Write,
+    outcomes: dict[float, evaluation.Outcome],
+    statuses: dict[float, evaluation.Status] | None = None,
 ) -> series.SeriesVerdict:
     """The verdict over a dry and two wet stops whose wheels lock for 0, 0.5 and 2.5 s."""
     criterion = "{id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}"
@@ -150,11 +181,11 @@ def _locks(
     (planned,) = load(f"dry: dry.yaml\nwet: {wet}\nvalid_stops: 50 %\ncriteria: own.yaml\n")
     cases = []
     for each, longest in zip(judge(planned, [460.0, 500.0, 510.0]).cases, (0.0, 0.5, 2.5), strict=True):
-        status: evaluation.Status = "pass" if longest <= 1.0 else "fail"
+        status = (statuses or {}).get(longest, "pass" if longest <= 1.0 else "fail")
         verdict = evaluation.Verdict(
             "locks", "requirement", longest, "s", None, 1.0, 1.0 - longest, status, ""
         )
-        outcome = outcomes.get(longest, status)
+        outcome = outcomes.get(longest, "pass" if longest <= 1.0 else "fail")
         case = replace(each.case, criteria=(verdict,), outcome=outcome, repeats=None)
         cases.append(replace(each, case=case))
     (over,) = series.judge_series(planned, cases).criteria
@@ -365,6 +396,8 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(
     (planned,) = load(BOTH_RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
     assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
+    # Wheels lock: that they miss the criteria is what is expected, and no reason to keep their recordings.
+    assert {stop.case.scenario.expect for stop in planned.stops[5:]} == {"fail"}
     distances = [460.0, 500.0, 510.0, 600.0, 610.0]
     better, without = judge(planned, distances, {480.0: "fail"}, 480.0), judge(planned, distances)
     assert better.bypassed_k_wet.estimate.value == pytest.approx(400.0 / 420.0)

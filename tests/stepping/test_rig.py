@@ -86,6 +86,42 @@ def test_the_state_is_the_true_one(write_scenario: Write) -> None:
     assert rig.state.distance < 30 / 3.6 * rig.state.time
 
 
+def test_the_state_is_what_a_recording_shows_of_each_wheelset(write_scenario: Write) -> None:
+    rig = uictest.Rig(write_scenario(), record=100)
+    rig.reset()
+    states = [rig.state]
+    while not rig.stopped:
+        # Another command for each wheelset, so that none is like another.
+        rig.step(hold=[0, 1, 1, len(states) % 2], vent=[0, 0, len(states) % 2, 0])
+        states.append(rig.state)
+    recording, states = rig.recording(), states[:200]
+    at = np.searchsorted(recording["time"], [state.time - 1e-6 for state in states])
+    of_train = {"distance": "distance", "train_speed": "speed", "reservoir_pressure": "reservoir_pressure"}
+    for name, channel in of_train.items():
+        shown = [getattr(state, name) for state in states]
+        np.testing.assert_array_equal(shown, recording[channel][at])
+    for name in ("wheel_speed", "slide", "friction", "tank_pressure", "clamping_force", "brake_torque"):
+        recorded = np.transpose([recording[f"{name}_{number}"][at] for number in (1, 2, 3, 4)])
+        np.testing.assert_array_equal([getattr(state, name) for state in states], recorded, name)
+
+
+@pytest.mark.parametrize("record", [0, -1, math.inf, math.nan])
+def test_a_rate_that_is_no_number_of_samples_per_second_is_refused(
+    write_scenario: Write, record: float
+) -> None:
+    with pytest.raises(ValueError, match="expected samples per second or None"):
+        uictest.Rig(write_scenario(), record=record)
+
+
+def test_no_sample_is_recorded_more_often_than_each_step(write_scenario: Write) -> None:
+    rig = uictest.Rig(write_scenario("simulation: {maximum_duration: 20 s}\n"), record=1e9)
+    rig.reset()
+    while not rig.stopped:
+        rig.step()
+    step = float(rig.case.scenario.simulation.time_step)
+    np.testing.assert_allclose(np.diff(rig.recording()["time"]), step, rtol=1e-6)
+
+
 def test_one_of_several_cases_is_chosen_by_its_id(write_scenario: Write) -> None:
     path = write_scenario(TWO_CASES)
     assert uictest.Rig(path, "stop[command=90]").case.parameters == {"brake.command": "90 %"}
@@ -148,6 +184,12 @@ def test_commands_that_no_valve_has_leave_the_stop_where_it_is(
 def test_a_seed_out_of_range_is_refused(write_scenario: Write, seed: Any) -> None:
     with pytest.raises(ValueError, match="expected a whole number from 0 to 4294967295"):
         uictest.Rig(write_scenario()).reset(seed)
+
+
+@pytest.mark.parametrize("seed", [0, 2**32 - 1])
+def test_the_least_and_the_largest_seed_are_taken(write_scenario: Write, seed: int) -> None:
+    rig = uictest.Rig(write_scenario("seed: 7\n"))
+    assert rig.reset(seed).wheel_speed != rig.reset().wheel_speed
 
 
 def test_the_package_is_imported_without_the_rig() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -30,8 +31,12 @@ CHECKS = {
         "stop", "numerics", "a stop", lambda stops: selftest.Answer("a1", "b2", "1 differs")
     ),
     "error": selftest.Check("creep", "physics", "the creep", no_answer),
+    "nothing": selftest.Check("air", "physics", "air", lambda stops: selftest.Answer(300.0, math.nan), 0.01),
+    "close": selftest.Check("play", "physics", "a play", lambda stops: selftest.Answer(1.0, 1.000000001)),
     "not checked": selftest.Check("c", "controllers", "a controller in C", not_here),
 }
+FOUR = ("met", "missed", "error", "not checked")
+"""With each verdict once."""
 
 
 @pytest.fixture
@@ -63,7 +68,7 @@ def test_exit_code_is_that_of_the_worst_finding(
 def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
     call: Call, asks: Callable[..., None]
 ) -> None:
-    asks(*CHECKS)
+    asks(*FOUR)
     lines = call("selftest").out.splitlines()
     assert "tank   pass         1         1.001  1e-02   K     a tank" in lines
     assert "stop   fail         a1        b2     exact         a stop" in lines
@@ -75,8 +80,45 @@ def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
     ]
 
 
+@pytest.mark.parametrize(
+    ("width", "hidden"),
+    [
+        (None, []),
+        (100, []),
+        (45, ["within", "unit"]),
+        (40, ["within", "unit", "known answer"]),
+    ],
+)
+def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
+    width: int | None, hidden: list[str]
+) -> None:
+    """What was expected and found goes last, and is in JSON all the same."""
+    stops = selftest.KnownStops()
+    examined = selftest.examine(stops, [CHECKS["met"]])
+    lines = list(selftest.finding_table(examined, width))
+    [titles] = [line for line in lines if line.startswith("check ")]
+    shown = {"verdict", "expected", "found", "within", "unit", "known answer"} - set(hidden)
+    assert {title for title in shown | set(hidden) if title in titles} == shown
+    told = [line for line in lines if line.startswith("not shown")]
+    assert told == (
+        [f"not shown for lack of room: {', '.join(hidden)}; --format json has them"] if hidden else []
+    )
+
+
+def test_json_has_numbers_as_numbers_and_none_for_what_is_none(call: Call, asks: Callable[..., None]) -> None:
+    asks("met", "nothing")
+    met, nothing = json.loads(call("selftest", "--format", "json").out)["checks"]
+    assert (met["expected"], met["found"], met["tolerance"]) == (1.0, 1.001, 0.01)
+    assert (nothing["status"], nothing["expected"], nothing["found"]) == ("fail", 300.0, None)
+
+
+def test_numbers_that_differ_in_the_tenth_digit_are_told_apart(call: Call, asks: Callable[..., None]) -> None:
+    asks("close")
+    assert "1.000000001" in call("selftest").out
+
+
 def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[..., None]) -> None:
-    asks(*CHECKS)
+    asks(*FOUR)
     document = json.loads(call("selftest", "--format", "json").out)
     assert (document["schema"], document["status"]) == ("uictest/selftest/1", "error")
     assert {"uictest", "python", "processor", "numpy"} <= set(document["environment"])
@@ -95,10 +137,20 @@ def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[
 
 
 def test_junit_has_a_testcase_for_every_question(call: Call, asks: Callable[..., None]) -> None:
-    asks(*CHECKS)
+    asks(*FOUR)
     call("selftest", "--junitxml", "selftest.xml")
     [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
     assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (4, 1, 1, 1)
     kinds = [type(case.result[0]).__name__ if case.result else "" for case in suite]
     assert kinds == ["", "Failure", "Error", "Skipped"]
     assert {"uictest", "processor", "reference"} <= {each.name for each in suite.properties()}
+
+
+def test_the_message_of_a_failure_is_its_reason_or_else_what_was_expected_and_found(
+    call: Call, asks: Callable[..., None]
+) -> None:
+    asks("missed", "nothing")
+    call("selftest", "--junitxml", "selftest.xml")
+    [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
+    messages = [case.result[0].message for case in suite]
+    assert messages == ["1 differs", "expected 300, found nan"]

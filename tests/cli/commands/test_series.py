@@ -165,6 +165,19 @@ def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Call
     assert results()["complete"] is False
 
 
+@pytest.mark.parametrize(("maxfail", "series_run"), [(1, 0), (2, 1), (3, 2)])
+def test_cases_that_are_missed_count_towards_the_series_that_may_be(
+    call: Call, scenario: Write, campaign: Callable[..., Path], maxfail: int, series_run: int
+) -> None:
+    path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
+    alone = scenario("alone", "criteria: uictest-stop\nexpect: fail\n")
+    assert call("run", alone, path, "--maxfail", str(maxfail)).code == 1
+    written = results()
+    assert [case["id"] for case in written["cases"]] == ["alone"]
+    assert len(series.series_results_of(written["series"]) if series_run else ()) == series_run
+    assert ("series" in written) == (series_run > 0)
+
+
 def test_missed_series_are_selected_again(call: Call, campaign: Callable[..., Path]) -> None:
     campaign("101 % of the dry stop")
     call("run", "scenarios")

@@ -167,11 +167,20 @@ def test_a_copy_of_a_record_that_the_numbers_come_from_does_not_count(validate: 
 
 def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Callable[..., Any]) -> None:
     near, far = record("near.csv", SIMULATED, 32.0), record("far.csv", SIMULATED, 34.0)
-    answer = validate(f"recordings: [{near}, {far}]")
+    slow = record("slow.csv", SIMULATED, 26.0)
+    answer = validate(f"recordings: [{near}, {far}, {slow}]")
     assert answer.code == 1
-    assert "stop my-train.stop.far from 34 km/h: not counted: its scenario begins at 30 km/h" in answer.out
+    why = "not counted: its scenario begins at 30 km/h, more than 3 km/h away"
+    assert f"stop my-train.stop.far from 34 km/h: {why}" in answer.out
+    assert f"stop my-train.stop.slow from 26 km/h: {why}" in answer.out
     validation = read_validation(newest() / "validation.json").validation
     assert [stop.id for stop in validation.counted] == ["my-train.stop.near"]
+
+
+def test_copies_that_cannot_be_compared_say_why_all_the_same(validate: Callable[..., Any]) -> None:
+    copy = Path(shutil.copy(record("far.csv", SIMULATED, 34.0), "further.csv"))
+    answer = validate(f"recordings: [far.csv, {copy}]")
+    assert answer.out.count("not counted: its scenario begins at 30 km/h") == 2
 
 
 def test_a_record_without_an_end_is_named_and_the_others_count(validate: Callable[..., Any]) -> None:

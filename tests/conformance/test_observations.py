@@ -1,0 +1,167 @@
+"""What each check reads from answers that are written down: no controller, only what one might answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from uictest import conformance
+from uictest.conformance import situations
+from uictest.conformance.bench import Answers, Bench
+from uictest.conformance.checks import Observation
+from uictest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, Situation
+from uictest.controllers import OUTPUTS
+from uictest.rig import Driven
+
+CYCLE = 0.05
+NEVER = float("inf")
+Write = Callable[[Any, np.ndarray], object]
+"""Writes commands into the answers to a situation, whose times are given."""
+
+
+def nothing(outputs: Any, time: np.ndarray) -> None:
+    """Fill, always: no magnet is energised."""
+
+
+def vents(wheelset: int, begin: float, end: float) -> Write:
+    """Vent one wheelset from one time to another."""
+
+    def write(outputs: Any, time: np.ndarray) -> None:
+        for magnet in ("hold", "vent"):
+            outputs[magnet][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 1
+
+    return write
+
+
+def observed(check_id: str, write: Write, only: str = "", wheelset: int = 0) -> Observation:
+    """Observe answers that are `write` in one situation, for one wheelset, and to fill in all others."""
+
+    def answers(kind: str, situation: Situation, which: int = 0) -> Answers:
+        outputs = np.zeros(len(situation.time), OUTPUTS)
+        outputs["reference_speed"] = situation.train_speed
+        (write if (kind, which) == (only, wheelset) else nothing)(outputs, situation.time)
+        return Answers(situation, (Driven(outputs, np.full(len(outputs), 0.2 * CYCLE)),))
+
+    def one_slides(which: int) -> Answers:
+        return answers("slides", situations.one_slides(CYCLE, which), which)
+
+    def good_rail() -> Answers:
+        return answers("rolls", situations.good_rail(CYCLE))
+
+    def locked(*which: int) -> Answers:
+        return answers("locked", situations.locked(CYCLE, which), which[0] if len(which) == 1 else -1)
+
+    def sensor_lost(which: int) -> Answers:
+        return answers("lost", situations.sensor_lost(CYCLE, which), which)
+
+    bench = SimpleNamespace(
+        subject=SimpleNamespace(config=SimpleNamespace(cycle_time=CYCLE)),
+        good_rail=good_rail,
+        one_slides=one_slides,
+        locked=locked,
+        sensor_lost=sensor_lost,
+        every_situation=lambda: [good_rail(), one_slides(0)],
+    )
+    check = next(each for each in conformance.CHECKS if each.id == check_id)
+    return check.observe(cast(Bench, bench))
+
+
+@pytest.mark.parametrize(
+    ("hold", "vent", "illegal"),
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1), (2, 0, 1), (-1, 0, 1), (2, 2, 1), (1, -1, 1)],
+)
+def test_a_valve_has_three_commands(hold: int, vent: int, illegal: int) -> None:
+    """Fill, hold and vent; each other pair counts once."""
+
+    def write(outputs: Any, time: np.ndarray) -> None:
+        outputs["hold"][7, 2], outputs["vent"][7, 2] = hold, vent
+
+    assert observed("legal-commands", write, "rolls").value == illegal
+
+
+def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted() -> None:
+    def write(outputs: Any, time: np.ndarray) -> None:
+        outputs["hold"][20:23, 1] = 1
+        outputs["hold"][22:24, 3] = 1
+
+    found = observed("keeps-brake", write, "rolls")
+    assert found.value == 4
+    assert found.words.endswith("; first at 1.00 s")
+
+
+def vents_all_at_once(outputs: Any, time: np.ndarray) -> None:
+    """Vent every wheelset a second after one begins to slide."""
+    for wheelset in range(4):
+        vents(wheelset, SLIDE_BEGINS + 1.0, SLIDE_BEGINS + 1.5)(outputs, time)
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "value"),
+    [
+        (SLIDE_BEGINS, 3.0, 0.0),
+        (SLIDE_BEGINS + 0.4, 3.0, 0.4),
+        (ROLLS_AGAIN - CYCLE, 7.0, ROLLS_AGAIN - CYCLE - SLIDE_BEGINS),
+        (1.0, SLIDE_BEGINS, NEVER),
+        (ROLLS_AGAIN, 8.0, NEVER),
+    ],
+)
+def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin: float, end: float, value: float) -> None:
+    """Wheelset 3 is asked alone: the others never vent, which is longer than any time."""
+    found = observed("vents-sliding", vents(2, begin, end), "slides", 2)
+    third = "never" if value == NEVER else f"{value:.2f} s"
+    assert found.words.endswith(f"wheelsets 1 to 4: never, never, {third}, never")
+    assert found.value == NEVER
+
+
+def test_wheelsets_that_are_vented_beside_the_one_that_slides_are_counted_by_cycles() -> None:
+    assert observed("spares-rolling", vents_all_at_once, "slides", 1).value == 10
+    assert observed("spares-rolling", vents(1, 3.0, 3.5), "slides", 1).value == 0
+
+
+def test_the_brake_is_given_back_with_the_last_command_after_the_wheelset_rolls() -> None:
+    """It rolls at the train's speed again some 1.6 s after its slide ends."""
+    situation = situations.one_slides(CYCLE, 0)
+    speed, time = situation.inputs["wheel_speed"][:, 0], situation.time
+    rolls = time[(time > ROLLS_AGAIN) & (speed > 0.99 * situation.train_speed)][0]
+    assert rolls == pytest.approx(7.6, abs=0.2)
+    for last in (9.0, 12.0):
+        found = observed("gives-back", vents(0, 3.0, last), "slides")
+        assert found.value == pytest.approx(last - CYCLE - rolls)
+    assert observed("gives-back", vents(0, 3.0, 5.0), "slides").value == 0.0
+    assert observed("gives-back", nothing).value == 0.0
+    assert observed("gives-back", vents(0, 3.0, 99.0), "slides").value == NEVER
+
+
+@pytest.mark.parametrize(("check_id", "situation"), [("ends-vents", "locked"), ("lost-sensor", "lost")])
+def test_the_longest_vent_without_a_pause_counts(check_id: str, situation: str) -> None:
+    def write(outputs: Any, time: np.ndarray) -> None:
+        vents(1, 2.0, 5.0)(outputs, time)
+        vents(1, 6.0, 8.0)(outputs, time)
+        vents(2, 8.0, 9.0)(outputs, time)
+
+    assert observed(check_id, write, situation, 3).value == pytest.approx(3.0)
+
+
+def test_vents_of_a_train_that_is_locked_altogether_count_as_well() -> None:
+    found = observed("ends-vents", vents(1, 2.0, 5.0), "locked", -1)
+    assert found.value == pytest.approx(3.0)
+    assert found.words.endswith("all together: 3.00 s")
+
+
+@pytest.mark.parametrize("error", [-2.5, 2.5])
+def test_the_largest_error_of_the_reference_speed_counts_where_there_is_one(error: float) -> None:
+    def write(outputs: Any, time: np.ndarray) -> None:
+        outputs["reference_speed"][30] += error
+        outputs["reference_speed"][40] = np.nan
+
+    assert observed("reference-speed", write, "slides", 3).value == pytest.approx(2.5)
+
+
+def test_the_time_of_an_answer_is_a_share_of_the_cycle() -> None:
+    found = observed("in-time", nothing)
+    assert found.value == pytest.approx(20.0)
+    assert "answers within 10.0 ms, the longest 10.0 ms" in found.words

@@ -1,0 +1,108 @@
+"""What each fault does to the rig, as its description says it: values as users write them, SI in the rig."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+
+import pytest
+
+from uictest.faults import FAULT_KINDS, Effects, FaultKind
+from uictest.scenario.yaml import parse_quantity
+
+NOTHING = {
+    "speed_valid": 1.0,
+    "speed_held": 0.0,
+    "speed_factor": 1.0,
+    "speed_offset": 0.0,
+    "speed_jump": 0.0,
+    "drop_out": 0.0,
+    "lost_teeth": 0.0,
+    "fill_at_least": 0.0,
+    "fill_at_most": 1.0,
+    "vent_at_least": 0.0,
+    "vent_at_most": 1.0,
+    "travel_time": 0.0,
+    "tank_leak": 0.0,
+    "line_leak": 0.0,
+    "pressure_held": 0.0,
+    "pressure_factor": 1.0,
+    "pressure_offset": 0.0,
+    "silent": 0.0,
+    "release_time": math.inf,
+}
+"""Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
+NO_VALUE = ""
+FAULTS = [
+    ("speed-sensor", "lost", "36 km/h", {"speed_valid": 0.0, "speed_factor": 0.0, "speed_offset": 10.0}),
+    ("speed-sensor", "lost", NO_VALUE, {"speed_valid": 0.0, "speed_factor": 0.0}),
+    ("speed-sensor", "stuck", "36 km/h", {"speed_factor": 0.0, "speed_offset": 10.0}),
+    ("speed-sensor", "stuck", NO_VALUE, {"speed_held": 1.0}),
+    ("speed-sensor", "factor", "90 %", {"speed_factor": 0.9}),
+    ("speed-sensor", "offset", "-36 km/h", {"speed_offset": -10.0}),
+    ("speed-sensor", "jumps", "36 km/h", {"speed_jump": 10.0}),
+    ("speed-sensor", "drop-out", "25 %", {"drop_out": 0.25}),
+    ("speed-sensor", "missing-teeth", "3", {"lost_teeth": 3.0}),
+    ("hold-magnet", "open-circuit", NO_VALUE, {"fill_at_least": 1.0}),
+    ("hold-magnet", "shorted", NO_VALUE, {"fill_at_most": 0.0}),
+    ("vent-magnet", "open-circuit", NO_VALUE, {"vent_at_most": 0.0}),
+    ("vent-magnet", "shorted", NO_VALUE, {"vent_at_least": 1.0}),
+    ("fill-valve", "stuck-open", NO_VALUE, {"fill_at_least": 1.0}),
+    ("fill-valve", "stuck-closed", NO_VALUE, {"fill_at_most": 0.0}),
+    ("fill-valve", "blocked", "25 %", {"fill_at_most": 0.75}),
+    ("vent-valve", "stuck-open", NO_VALUE, {"vent_at_least": 1.0}),
+    ("vent-valve", "stuck-closed", NO_VALUE, {"vent_at_most": 0.0}),
+    ("vent-valve", "blocked", "25 %", {"vent_at_most": 0.75}),
+    ("wsp-valve", "slow", "250 ms", {"travel_time": 0.25}),
+    ("tank", "leak", "2e-9 m3/(s Pa)", {"tank_leak": 2e-9}),
+    ("brake-line", "leak", "2e-9 m3/(s Pa)", {"line_leak": 2e-9}),
+    ("pressure-sensor", "offset", "-0.5 bar", {"pressure_offset": -0.5e5}),
+    ("pressure-sensor", "factor", "90 %", {"pressure_factor": 0.9}),
+    ("pressure-sensor", "stuck", "1.5 bar", {"pressure_factor": 0.0, "pressure_offset": 1.5e5}),
+    ("pressure-sensor", "stuck", NO_VALUE, {"pressure_held": 1.0}),
+    ("brake", "cut-out", NO_VALUE, {"fill_at_most": 0.0, "vent_at_least": 1.0}),
+    ("controller", "silent", "2 s", {"silent": 1.0, "release_time": 2.0}),
+    ("controller", "silent", NO_VALUE, {"silent": 1.0}),
+]
+
+
+def test_without_a_fault_nothing_is_changed() -> None:
+    assert asdict(Effects()) == NOTHING
+
+
+@pytest.mark.parametrize(("part", "name", "value", "changed"), FAULTS)
+def test_a_fault_changes_what_its_description_says_and_nothing_else(
+    part: str, name: str, value: str, changed: dict[str, float]
+) -> None:
+    row = FAULT_KINDS[part, name]
+    given = float(parse_quantity(value, row.value.kind)) if row.value and value else None
+    assert asdict(row.effects(given)) == pytest.approx({**NOTHING, **changed})
+
+
+def test_every_fault_is_held_to_its_description() -> None:
+    """With a value where it takes one, and without where it can do without."""
+    ways = {
+        (*key, given)
+        for key, row in FAULT_KINDS.items()
+        for given in (True, False)
+        if (row.value is not None if given else row.value is None or row.value.without)
+    }
+    assert {(part, name, value != NO_VALUE) for part, name, value, _ in FAULTS} == ways
+
+
+@pytest.mark.parametrize("row", FAULT_KINDS.values(), ids=["-".join(key) for key in FAULT_KINDS])
+def test_no_value_in_range_is_beyond_what_equations_hold_for(row: FaultKind) -> None:
+    """A way is open by 0 to 1, a share of readings is one, air leaks out and not in, time passes."""
+    if row.value is None:
+        return
+    for text in (row.value.at_least, row.value.at_most):
+        effects = row.effects(float(parse_quantity(text, row.value.kind)))
+        for low, high in (
+            (effects.fill_at_least, effects.fill_at_most),
+            (effects.vent_at_least, effects.vent_at_most),
+        ):
+            assert 0.0 <= low <= high <= 1.0
+        assert 0.0 <= effects.drop_out <= 1.0
+        not_negative = ("speed_factor", "speed_jump", "lost_teeth", "travel_time", "tank_leak", "line_leak")
+        for name in (*not_negative, "pressure_factor", "release_time"):
+            assert getattr(effects, name) >= 0.0

@@ -1,0 +1,47 @@
+"""What a fit takes from a record: torques by forces, and the speed at the brake command."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uictest.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
+from uictest.fitting.samples import initial_speed, samples_of
+from uictest.recording import TIME
+from uictest.rig import simulate
+
+
+def test_forces_say_the_torque_of_pads_that_do_not_vary() -> None:
+    """By calipers, pads, radius and friction, each wheelset with its own: the rig records both."""
+    own = "{1: {brake_force: 80 %}, 4: {pad_friction: 0.45}}"
+    settings = ["rail.condition=wet", "rail.friction=0.07", f"vehicle.wheelsets={own}"]
+    case = stated_case("stop", 80.0 / 3.6, settings)
+    recording = simulate(case, record_every=0.01).recording
+    assert recording is not None
+    time = np.asarray(recording[TIME])
+    names = [f"{kind}_{n}" for n in WHEELSETS for kind in ("wheel_speed", "clamping_force", "brake_torque")]
+    channels = {
+        name: RawChannel(name, name, time, np.array(recording[name], dtype=float))
+        for name in ("speed", *names)
+    }
+    torques = []
+    for without in ("brake_torque", "clamping_force"):
+        kept = {name: each for name, each in channels.items() if not name.startswith(without)}
+        samples = samples_of(prepare(kept, recording.metadata, Preparation()), case.scenario)
+        assert samples.torque is not None
+        torques.append(np.where(samples.standing, 0.0, samples.torque))
+    by_forces, recorded = torques
+    assert recorded.max() > 1e3
+    rolling = np.abs(by_forces - recorded) < 1e-3 * recorded.max()
+    assert rolling.mean() > 0.98
+
+
+def test_the_initial_speed_is_the_mean_of_the_first_tenth_of_a_second() -> None:
+    """One sample has the noise of one sample; a long mean would be that of a train that brakes."""
+    time = np.arange(-1.0, 21.0, 0.01)
+    dice = np.random.default_rng(0)
+    speed = np.clip(20.0 - np.maximum(time, 0.0), 0.0, 20.0) + dice.normal(0.0, 0.05, len(time))
+    channels = {"speed": RawChannel("speed", "speed", time, speed)}
+    stop = prepare(channels, {"brake_command_time": "0 s"}, Preparation())
+    first = (time > -1e-6) & (time < 0.1 + 1e-6)
+    assert initial_speed(stop) == pytest.approx(float(speed[first].mean()), abs=0.01)
