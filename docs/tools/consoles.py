@@ -83,8 +83,11 @@ def steady(text: str) -> str:
 
 
 def shape(text: str) -> str:
-    """Return the text with every number and every width made alike: what stays when figures move."""
-    return re.sub(r"[ \t]+", " ", _NUMBER.sub("#", steady(text)))
+    """Return the text with every number and every width made alike: what stays when figures move.
+
+    A bar of progress that has gone may leave an empty line: they do not count either.
+    """
+    return re.sub(r"\n\s*\n", "\n", re.sub(r"[ \t]+", " ", _NUMBER.sub("#", steady(text))))
 
 
 def in_shell(command: str, folder: Path, on_terminal: bool) -> str:
