@@ -32,7 +32,7 @@ import typer.main
 import yaml
 from hypothesis import HealthCheck, Phase, given, settings, strategies as st
 
-from uictest import comparison, report, rig, scenario, validation
+from uictest import comparison, report, scenario, validation
 from uictest.cli.entry import execute
 from uictest.cli.exit_codes import ExitCode
 from uictest.controllers import Config, ControllerError
@@ -45,6 +45,7 @@ from uictest.recording.formats import (
     read_contents,
     writer_of,
 )
+from uictest.rig import bench
 
 SOURCE = Path(__file__).parents[1]
 LIBRARY = SOURCE / "src" / "uictest" / "library"
@@ -350,7 +351,7 @@ KINDS = (
         "x.yaml",
         "yaml",
         ("src/uictest/library/benches/*.yaml",),
-        function(rig.bench.load_bench),
+        function(bench.load_bench),
     ),
     Kind(
         "channel map",
@@ -516,6 +517,8 @@ KINDS = (
 )
 
 FOUND = (
+    ("validation", "a.parquet", "x" * 300),
+    ("sensors part", "sources:", "sources:\n  value: {mark: chosen, text: x}"),
     ("recording in CSV", "\n0.49,", "\n0.29,"),
     ("scenario", "faults:", "faults: [lost]\nno:"),
     ("criteria part", "criteria:", "criteria: [lost]\nno:"),

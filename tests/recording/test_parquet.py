@@ -75,6 +75,16 @@ def test_missing_samples_become_nan(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_parquet(tmp_path / "a.parquet")["count"], [np.nan, 4.0])
 
 
+def test_true_and_false_of_another_program_are_numbers(tmp_path: Path) -> None:
+    units = {"time": "s", "venting": "1"}
+    fields = [pa.field(name, pa.bool_(), metadata={"unit": unit}) for name, unit in units.items()]
+    table = pa.table([[False, True], [True, False]], schema=pa.schema(fields))
+    pq.write_table(table, tmp_path / "a.parquet")
+    recording = read_parquet(tmp_path / "a.parquet")
+    assert (recording["time"] - 0.5).tolist() == [-0.5, 0.5]
+    assert recording["venting"].tolist() == [1.0, 0.0]
+
+
 def test_a_table_without_units_is_no_recording(tmp_path: Path) -> None:
     pq.write_table(pa.table({"time": [0.0, 1.0], "speed": [3.0, 2.0]}), tmp_path / "a.parquet")
     with pytest.raises(ValueError, match=r"a\.parquet: not a recording: no unit for time, speed"):

@@ -71,8 +71,10 @@ def over_distance(record: recording.Recording, channel: str) -> Sampled:
         raise ValueError(f"there is no {DISTANCE}")
     distance = np.asarray(record[DISTANCE], dtype=np.float64)
     farthest = np.maximum.accumulate(distance)
-    # Comparisons with missing samples are false.
-    if not np.all(farthest - distance <= _ROLL_BACK):
+    # Comparisons with missing samples, and with what is beyond all numbers, are false.
+    with np.errstate(invalid="ignore"):
+        falls = not np.all(farthest - distance <= _ROLL_BACK)
+    if falls:
         raise ValueError(f"the {DISTANCE} has gaps or falls")
     moving = np.diff(farthest, prepend=-np.inf) > 0.0
     if np.count_nonzero(moving) < _FEWEST:

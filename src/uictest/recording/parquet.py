@@ -72,10 +72,16 @@ def _recording(table: pa.Table) -> Recording:
     schema_metadata = table.schema.metadata or {}
     units = _texts(schema_metadata.get(_UNITS, b"{}"))
     return Recording(
-        channels={name: table.column(name).to_numpy() for name in table.column_names},
+        channels={name: _samples(table.column(name)) for name in table.column_names},
         units={field.name: _unit(field.metadata or {}, units.get(field.name, "")) for field in table.schema},
         metadata=_texts(schema_metadata.get(_METADATA, b"{}")),
     )
+
+
+def _samples(column: pa.ChunkedArray) -> Any:
+    """Return the samples of a channel; what another program wrote as true and false are numbers, too."""
+    samples = column.to_numpy()
+    return samples.astype("f8") if samples.dtype == bool else samples
 
 
 def _unit(metadata: Mapping[bytes, bytes], otherwise: str) -> str:

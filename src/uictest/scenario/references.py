@@ -206,8 +206,8 @@ def _reject_changed_sources(parent: Map, merged: Map) -> None:
     if not isinstance(inherited, Map) or not isinstance(own, Map):
         return
     for name, entry in inherited.entries.items():
-        changed = own.entries[name]
-        if plain(changed.node) != plain(entry.node):
+        changed = own.entries.get(name)  # where none is left, the numbers that need it have no source
+        if changed is not None and plain(changed.node) != plain(entry.node):
             raise single_error(
                 changed.key,
                 f"source {quoted(name)} describes numbers of the part that this one extends",

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest import recording, series
+from uictest.recording.formats import writer_of
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -232,7 +233,7 @@ def test_recorded_stops_give_the_figures_of_the_simulated_ones(
     folder = Path("reports/latest/recordings")
     for name in ("dry", "wet"):
         written = recording.read_parquet(folder / f"small.{name}.parquet")
-        recording.formats.writer_of("csv")(written, Path(f"scenarios/{name}.csv"))
+        writer_of("csv")(written, Path(f"scenarios/{name}.csv"))
     path.write_text(
         SERIES.replace("dry.yaml, repeat: 1", "dry.yaml, recordings: [dry.csv]").replace(
             "wet: wet.yaml", "wet: {scenario: wet.yaml, recordings: [wet.csv], map: uictest}"

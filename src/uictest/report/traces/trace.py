@@ -131,7 +131,8 @@ def deceleration(time: Series, speed: Series) -> Series:
 def slide(speed: Series, wheel_speed: Series) -> Series:
     """Return the slide (v - r omega) / v of a wheelset; NaN at and below `SLIDE_SPEED`."""
     runs = speed > SLIDE_SPEED
-    return np.where(runs, (speed - wheel_speed) / np.where(runs, speed, 1.0), np.nan)
+    with np.errstate(invalid="ignore", over="ignore"):  # a damaged record may hold any number
+        return np.where(runs, (speed - wheel_speed) / np.where(runs, speed, 1.0), np.nan)
 
 
 def _without_slides_at_rest(channels: Mapping[str, Series]) -> dict[str, Series]:
@@ -160,12 +161,13 @@ def _derived(record: recording.Recording) -> dict[str, Series]:
 def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
     shares = (channels[name] for name in channel_names("cleaned_share") if name in channels)
     hidden = () if any(np.any(share > 0.0) for share in shares) else OF_CLEANED_RAIL
-    return {
-        name: (np.asarray(channels[name], dtype=np.float64) - quantity.zero) / quantity.scale
-        for key, quantity in PLOT_QUANTITIES.items()
-        for name in channel_names(key)
-        if name in channels and key not in hidden
-    }
+    with np.errstate(over="ignore"):
+        return {
+            name: (np.asarray(channels[name], dtype=np.float64) - quantity.zero) / quantity.scale
+            for key, quantity in PLOT_QUANTITIES.items()
+            for name in channel_names(key)
+            if name in channels and key not in hidden
+        }
 
 
 def curve_of(time: Series, samples: Series) -> Curve:

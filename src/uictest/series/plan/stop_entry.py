@@ -6,7 +6,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from uictest.scenario import Files
-from uictest.scenario.yaml import Map, Node, Override, Scalar, Sequence as List, quoted, single_error
+from uictest.scenario.yaml import (
+    Map,
+    Node,
+    Override,
+    Scalar,
+    Sequence as List,
+    is_file,
+    quoted,
+    single_error,
+)
 from uictest.series.plan.model import Stops
 from uictest.series.plan.series import Recorded
 
@@ -46,7 +55,7 @@ def recorded_by(node: Node, files: Files) -> Recorded | None:
 def _existing(reference: Node, files: Files) -> Path:
     assert isinstance(reference, Scalar)
     path = files.path_of(reference, "recordings")
-    if not path.is_file():
+    if not is_file(path):
         raise single_error(reference.place, f"no such file: {quoted(reference.text)}", "recordings")
     return path
 
