@@ -47,7 +47,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
-FUSED: dict[Any, Any] = {fma: ctypes.CDLL(None).fma}
+FUSED: dict[Any, Any] = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}
 """The C library's fused operation for ours, which plain Python works out in twenty operations."""
 FUSED[fma].argtypes = [ctypes.c_double] * 3
 FUSED[fma].restype = ctypes.c_double

@@ -12,6 +12,7 @@ from uictest import report
 from uictest.campaign import run_cases
 from uictest.scenario import load
 
+from ..runs.test_acceptance import TURNING
 from .conftest import SHORT_STOPS, Run, Write, junit_testcases, properties
 
 Scenario = Callable[..., Path]
@@ -21,26 +22,6 @@ class Broken:
     def reset(self): pass
     def step(self, inputs): raise ValueError("no idea")
 """
-
-TURNING = """\
-schema: uictest/scenario/1
-name: turning
-initial_speed: 120 km/h
-rail: {condition: wet, friction: 0.09}
-rig: {compensation: thermal}
-criteria:
-  schema: uictest/criteria/1
-  name: own
-  criteria:
-    - id: slides-deeply
-      layer: requirement
-      measure: maximum_slide_above_cutoff
-      wheelsets: any
-      lower: 50 %
-      definition: {low_speed_cutoff: {value: 60 km/h, range: [10 km/h, 60 km/h]}}
-expect: fail
-"""
-"""Its verdict is another one from where the range of its definition ends."""
 
 
 @pytest.fixture
@@ -159,7 +140,8 @@ def test_options_change_every_scenario(run: Run, scenario: Scenario) -> None:
 
 
 def test_a_verdict_that_is_not_settled_fails_where_strictness_is_asked_for(run: Run, write: Write) -> None:
-    write("scenarios/turning.yaml", TURNING)
+    as_requirement = TURNING.replace("layer: validity", "layer: requirement")
+    write("scenarios/turning.yaml", as_requirement.replace("expect: invalid", "expect: fail"))
     assert run().summary == "1 passed"
     strict = run("--uictest-strict", "--uictest-output", "out")
     assert strict.summary == "1 failed"

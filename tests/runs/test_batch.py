@@ -12,6 +12,8 @@ from uictest import runs
 from uictest.evaluation import CaseResult
 from uictest.scenario import load
 
+from .test_acceptance import TURNING
+
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 TELLS_WHERE_IT_RUNS = """\
 import os
@@ -20,28 +22,12 @@ class Own:
     def reset(self): pass
     def step(self, inputs): raise ValueError(f"process {os.getpid()}")
 """
-TURNS = """\
-rail: {condition: wet, friction: 0.09}
-rig: {compensation: thermal}
-criteria:
-  schema: uictest/criteria/1
-  name: own
-  criteria:
-    - id: slides-deeply
-      layer: validity
-      measure: maximum_slide_above_cutoff
-      wheelsets: any
-      lower: 50 %
-      definition: {low_speed_cutoff: {value: 60 km/h, range: [10 km/h, 60 km/h]}}
-expect: invalid
-"""
-"""Its verdict is another one at the other end of the range of its definition."""
 
 
 def result_of(text: str) -> CaseResult:
     """Run the one case of a scenario in the working folder."""
     path = Path("stop.yaml")
-    path.write_text(HEAD + text, "utf-8")
+    path.write_text(text, "utf-8")
     batch = runs.batch_of(load([path]), [], ["run", "stop.yaml"], None)
     [result] = runs.run_batch(batch, runs.Observer()).content.results
     return result
@@ -52,7 +38,7 @@ def test_a_controller_from_outside_runs_in_a_process_of_its_own(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("own.py").write_text(TELLS_WHERE_IT_RUNS, "utf-8")
-    result = result_of("controller: {python: own.py, class: Own}\n")
+    result = result_of(HEAD + "controller: {python: own.py, class: Own}\n")
     told = re.search(r"process (\d+)", result.reason)
     assert told is not None, result.reason
     assert int(told[1]) != os.getpid()
@@ -62,4 +48,4 @@ def test_a_verdict_that_is_not_settled_meets_what_is_expected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert result_of(TURNS).met
+    assert result_of(TURNING).met

@@ -32,9 +32,9 @@ Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
 WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _QUEUED = 256
-"""Cases that are simulated in one queue, where they are many: at its end lanes have nothing left to do."""
+"""Cases that are simulated in one queue, where they are many: at its end lanes idle; chosen."""
 _TURNS = 4
-"""Queues of a thread at least, so that threads end at nearly the same time."""
+"""Queues of a thread at least, so that threads end at nearly the same time; chosen."""
 _QUEUES_AHEAD = 2
 """Queues that wait or are ready beyond those in progress: bounds memory."""
 
