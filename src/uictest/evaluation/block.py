@@ -6,6 +6,7 @@ and those with a measure that is not finite go through it one by one: they are f
 
 from __future__ import annotations
 
+import math
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -52,12 +53,19 @@ class StopBlock:
 
     `measures` and `wheelset_measures` are records, shapes (n,) and (n, 4). `case_at` gives the case at a
     place; `scenario_of` one scenario for the cases at some places, with ensembles where numbers differ.
+    `biases` are those of measures by name, as shares of the value; one that is not among them may be of any
+    size. None: there is none.
     """
 
     measures: NDArray[Any]
     wheelset_measures: NDArray[Any]
     case_at: Callable[[int], scenario.Case]
     scenario_of: Callable[[Places], scenario.Scenario]
+    biases: Mapping[str, float] | None = None
+
+    def bias_of(self, measure: str) -> float:
+        """Return the bias of a measure."""
+        return 0.0 if self.biases is None else self.biases.get(measure, math.inf)
 
     def together(self, places: Places) -> Seen:
         """Return scenario and stop of several cases."""
@@ -89,6 +97,7 @@ class StopBlock:
             rows_at(self.wheelset_measures, places),
             lambda place: self.case_at(int(places[place])),
             lambda own: self.scenario_of(places[own]),
+            self.biases,
         )
 
 
@@ -139,7 +148,9 @@ def _evaluate_together(stops: StopBlock) -> ResultColumns:
     columns = result_columns(stops.measures.size)
     resolved = stops.case_at(0).scenario
     verdicts = [
-        block_verdicts(criterion, stops.together, stops.alone, stops.measures.size)
+        block_verdicts(
+            *(criterion, stops.together, stops.alone, stops.measures.size), stops.bias_of(criterion.measure)
+        )
         for profile in resolved.judged_by
         for criterion in profile.criteria
     ]
@@ -151,6 +162,7 @@ def _evaluate_together(stops: StopBlock) -> ResultColumns:
                 reason_of(outcome, ((each.id, each.reason(place)) for each in deciding))
                 for place in places.tolist()
             ]
+    columns.near_limit[:] = np.any([each.near_limit for each in verdicts], axis=0)
     _put_narrowest_margins(columns, verdicts)
     columns.measures.update(_stop_columns(stops, column_definition(resolved)))
     columns.wheelsets.update(_wheelset_columns(stops))

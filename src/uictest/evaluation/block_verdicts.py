@@ -41,7 +41,8 @@ class BlockVerdicts:
 
     `statuses` are places in :data:`STATUSES`. `margins` are those of
     :func:`~uictest.evaluation.verdict.relative_margin`; `has_margin` says where there is one, since a margin
-    itself may be NaN. `reason` returns the reason of the verdict at a place.
+    itself may be NaN. `near_limit` says where the value lies within the bias from a bound, or none decided.
+    `reason` returns the reason of the verdict at a place.
     """
 
     id: str
@@ -49,6 +50,7 @@ class BlockVerdicts:
     statuses: NDArray[np.int8]
     margins: Numbers
     has_margin: NDArray[np.bool_]
+    near_limit: NDArray[np.bool_]
     reason: Callable[[int], str]
 
 
@@ -57,15 +59,18 @@ def block_verdicts(
     together: Callable[[Places], Seen],
     alone: Callable[[int], Seen],
     count: int,
+    bias: float = 0.0,
 ) -> BlockVerdicts:
     """Return a criterion's verdicts on `count` simulated stops, which all came to a standstill.
 
-    `together` and `alone` give scenario and stop at several places, and at one place.
+    `together` and `alone` give scenario and stop at several places, and at one place. `bias` is that of the
+    values, as a share of them; infinite where it is not known.
     """
     statuses = np.zeros(count, np.int8)
     reasons: dict[int, Callable[[], str]] = {}
     values = np.full((count, WHEELSET_COUNT if MEASURES[criterion.measure].of_wheelsets else 1), np.nan)
     has_value = np.zeros(count, bool)
+    near_limit = np.zeros(count, bool)
     for places, found in by_way(
         lambda places: _values_or_decision(criterion, *together(places)),
         lambda place: _values_or_decision(criterion, *alone(place)),
@@ -77,6 +82,7 @@ def block_verdicts(
                 values[places, wheelset] = numbers
         elif isinstance(found, Decision):
             statuses[places] = STATUSES.index(found.status)
+            near_limit[places] = True
             reasons |= dict.fromkeys(places.tolist(), partial(str, found.reason))
         else:
             statuses[places] = _NOT_APPLICABLE
@@ -95,7 +101,10 @@ def block_verdicts(
         return bounded.reason(place, criterion.unit)
 
     margins, has_margin = bounded.relative_margins
-    return BlockVerdicts(criterion.id, criterion.layer, statuses, margins, has_margin & has_value, reason)
+    near_limit |= has_value & bounded.within(bias)
+    return BlockVerdicts(
+        *(criterion.id, criterion.layer, statuses, margins, has_margin & has_value, near_limit, reason)
+    )
 
 
 def _joined(unmet: Sequence[UnmetCondition], number: int) -> str:
@@ -152,6 +161,12 @@ class BoundedValues:
         margins = self._margins(self.deciding)
         kept = margins > 0.0 if self.bounds.strict else margins >= 0.0
         return np.asarray(np.isfinite(self.deciding) & kept)
+
+    def within(self, share: float) -> NDArray[np.bool_]:
+        """Return whether a change of the deciding value by less than a share of it reaches a bound."""
+        if math.isinf(share):
+            return np.ones(self.deciding.size, bool)
+        return np.abs(self._margins(self.deciding)) < share * np.abs(self.deciding)
 
     @property
     def relative_margins(self) -> tuple[Numbers, NDArray[np.bool_]]:

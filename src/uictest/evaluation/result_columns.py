@@ -23,7 +23,8 @@ class ResultColumns:
 
     `outcomes`, `expectations`, `reasons` and `criteria` (of the narrowest margin) hold texts; `margins`,
     `measures` (column of stops -> shape (n,)) and `wheelsets` (column of wheelsets -> (n, 4)) are NaN where
-    there is no number.
+    there is no number. `near_limit` says where a criterion may have been decided by the bias of its measure;
+    so it may where a case was not judged with others.
     """
 
     outcomes: NDArray[Any]
@@ -32,6 +33,7 @@ class ResultColumns:
     met: NDArray[np.bool_]
     margins: NDArray[np.float64]
     criteria: NDArray[Any]
+    near_limit: NDArray[np.bool_]
     measures: dict[str, NDArray[np.float64]]
     wheelsets: dict[str, NDArray[np.float64]]
 
@@ -55,7 +57,7 @@ class ResultColumns:
 
     def put_block(self, places: Places, columns: ResultColumns) -> None:
         """Set the results of several cases."""
-        for name in ("outcomes", "expectations", "reasons", "met", "margins", "criteria"):
+        for name in ("outcomes", "expectations", "reasons", "met", "margins", "criteria", "near_limit"):
             getattr(self, name)[places] = getattr(columns, name)
         for name in ("measures", "wheelsets"):
             for column, numbers in getattr(columns, name).items():
@@ -81,6 +83,7 @@ def result_columns(count: int) -> ResultColumns:
         met=np.zeros(count, bool),
         margins=np.full(count, np.nan),
         criteria=np.full(count, "", object),
+        near_limit=np.ones(count, bool),
         measures={name: np.full(count, np.nan) for name in STOP_COLUMNS},
         wheelsets={name: np.full((count, WHEELSET_COUNT), np.nan) for name in WHEELSET_COLUMNS},
     )

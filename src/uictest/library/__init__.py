@@ -50,4 +50,9 @@ def references() -> dict[str, str]:
     return citations
 
 
-__all__ = ["FOLDERS", "OTHER_FOLDERS", "content", "names", "references"]
+def table(name: str) -> str:
+    """Return the text of a table that ships as CSV."""
+    return (_HERE / name).read_text("utf-8")
+
+
+__all__ = ["FOLDERS", "OTHER_FOLDERS", "content", "names", "references", "table"]

@@ -117,6 +117,11 @@ from .sweep.result import (
     SweepResult as SweepResult,
     Trend as Trend,
 )
+from .sweep.survey import (
+    SurveyBias as SurveyBias,
+    SurveyStep as SurveyStep,
+    survey_notes as survey_notes,
+)
 from .sweep.tail_text import tail_lines as tail_lines
 from .sweep.tails import (
     DrawCount as DrawCount,

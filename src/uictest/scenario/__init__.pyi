@@ -85,6 +85,7 @@ from .references import Parts as Parts, is_path as is_path
 from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
 from .requirement_list import read_requirement_list as read_requirement_list
 from .resolution import resolve as resolve
+from .sections import SURVEY as SURVEY
 from .validated_file import VALIDATION_RESULT as VALIDATION_RESULT
 from .values import (
     DESCRIPTIVE as DESCRIPTIVE,

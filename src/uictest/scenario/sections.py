@@ -1,9 +1,10 @@
 """The sections of a scenario: brake, rail, rig and simulation."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
 
 from uictest.scenario.parts.brake import BrakeSystem
 from uictest.scenario.parts.caliper import Caliper
@@ -159,12 +160,26 @@ class Rig(Model):
     )
 
 
+SURVEY: Final = "survey"
+"""The time step of a whole sweep whose results are to come fast, with a known bias."""
+
+
+def _no_survey(value: object) -> object:
+    if value == SURVEY:
+        hint = f"uictest sweep ... --set simulation.time_step={SURVEY}, or alone under `grid` of a sweep file"
+        context = {"message": f"{quoted(SURVEY)} is the time step of a whole sweep", "hint": hint}
+        raise PydanticCustomError("survey", "{message}", context)
+    return value
+
+
 class Simulation(Model):
     """How the stop is simulated."""
 
-    time_step: Annotated[Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms")] = Field(
+    time_step: Annotated[
+        Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms"), BeforeValidator(_no_survey)
+    ] = Field(
         default=default("0.5 ms", "time"),
-        description="Base step; a whole number of them makes a controller cycle.",
+        description="Base step; a whole number of them makes a controller cycle. Sweeps take `survey`, too.",
     )
     maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
         default=default("180 s", "time"),

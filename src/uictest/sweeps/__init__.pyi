@@ -24,6 +24,7 @@ from .running.store import (
     ChunkStore as ChunkStore,
     MissingChunksError as MissingChunksError,
 )
+from .running.survey import SURVEY_TABLE as SURVEY_TABLE
 from .running.table import measure_columns as measure_columns
 from .summaries.frontier import (
     FrontierError as FrontierError,

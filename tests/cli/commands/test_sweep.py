@@ -9,6 +9,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
+from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -357,6 +358,29 @@ def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
     lines = Path("reports/study/frontier.csv").read_text().splitlines()
     assert lines[0] == "brake.command,from,to,met_at_from,flips,note"
     assert lines[1].startswith("100 %,0.")
+
+
+def test_a_survey_says_what_it_repeated_and_what_its_step_does(call: Call, study: Path) -> None:
+    result = call("sweep", study, "--set", "simulation.time_step=survey", "--report", "html,md,xlsx")
+    document = json.loads(Path("reports/study/sweep.json").read_text())
+    survey = document["survey"]
+    bias = next(each for each in survey["biases"] if each["measure"] == "braking_distance")
+    assert (survey["time_step"], survey["regular_step"]) == ("1 ms", "0.5 ms")
+    begin = f"survey in steps of 1 ms: {survey['repeated']} of 96 cases, in which"
+    assert f"note: {begin}" in result.out
+    assert "note: bias of the survey step: braking_distance at most" in result.out
+    assert bias["case"] in result.out
+    for name in ("summary.md", "index.html"):
+        assert begin in unescape(Path("reports/study", name).read_text()), name
+    assert call("sweep", study).code == 4  # the chunks of a survey are no others
+    assert "time step: survey before, none now" in call("sweep", study).err
+
+
+def test_survey_is_refused_where_a_verdict_is_given(call: Call, study: Path) -> None:
+    done = call("run", "scenarios", "--set", "simulation.time_step=survey")
+    assert done.code == 4
+    assert "'survey' is the time step of a whole sweep" in done.err
+    assert "uictest sweep ... --set simulation.time_step=survey" in done.err
 
 
 def test_list_and_dry_run_show_ids_and_run_nothing(call: Call, study: Path) -> None:

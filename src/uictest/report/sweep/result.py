@@ -12,6 +12,7 @@ from uictest import evaluation
 from uictest.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
 from uictest.report.sweep.domain import SweepDomain
+from uictest.report.sweep.survey import SurveyStep
 from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 
@@ -195,6 +196,7 @@ class SweepResult:
         quantiles: of measures, with bounds, where the sweep requests them.
         k_dry: where the sweep requests it, a table for each combination of listed values.
         domain_of_validity: how many cases lie outside of what was validated; None where nobody asked.
+        survey: the steps of a survey, None where all cases were simulated in their own.
         notes: sentences that every report shows.
 
     """
@@ -223,6 +225,7 @@ class SweepResult:
     quantiles: tuple[MeasureQuantiles, ...] = ()
     k_dry: tuple[KDry, ...] = ()
     domain_of_validity: SweepDomain | None = None
+    survey: SurveyStep | None = None
     notes: tuple[str, ...]
 
     def subject(self, case_id: str) -> CaseDescription:

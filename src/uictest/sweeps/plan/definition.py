@@ -37,6 +37,7 @@ from uictest.sweeps.plan.base_case import REPEAT_KEYS, SEEDS_IN_SWEEPS, BaseCase
 from uictest.sweeps.plan.group_reader import GroupReader, range_node
 from uictest.sweeps.plan.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
 from uictest.sweeps.plan.plan import Group, ListedGroup, Plan
+from uictest.sweeps.plan.survey import TIME_STEP, requested_survey, require_regular_step
 from uictest.sweeps.plan.tail_requests import reject_unsupported_tails
 
 _SCHEMA_HINT: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
@@ -67,10 +68,16 @@ def load_sweep(
     _reject_other_schema(tree)
     _reject_ranges_in_grid(tree)
     file: SweepFile = validated(SweepFile, plain(tree), tree)
-    written, tree = tree, _without_keys(tree, {each.key for each in parsed})
+    survey = requested_survey(tree, parsed)
+    if survey is not None:
+        parsed = tuple(each for each in parsed if each.key != TIME_STEP)
+    own_keys = {each.key for each in parsed} | ({TIME_STEP} if survey else set())
+    written, tree = tree, _without_keys(tree, own_keys)
     fixed = [each for each in parsed if len(each.values) == 1]
     roots = Roots.of([path], trusted)
     base = read_base_case(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
+    if survey is not None:
+        require_regular_step(base, survey)
     reader = _Reader(base, tree, file)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
     plan = Plan(
@@ -83,6 +90,7 @@ def load_sweep(
         inputs=_inputs(base, (tree.place.document, *reader.group_reader.documents)),
         quantiles=file.quantile_requests,
         k_dry=file.k_dry,
+        survey=survey is not None,
         cases_sha256=_sha256_of_cases(written),
     )
     reject_unsupported_tails(plan, tree)

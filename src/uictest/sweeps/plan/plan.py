@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from uictest.scenario import Case
+from uictest.scenario import Case, Scenario
 from uictest.sweeps.plan.column import Column, ParameterValue, drawn_column, listed_column
 from uictest.sweeps.plan.model import Distribution, Method
+from uictest.sweeps.plan.scenario_values import with_values
 from uictest.sweeps.plan.tail_model import KDryRequest, QuantileRequest
 
 if TYPE_CHECKING:
@@ -125,6 +126,8 @@ class Plan:
     """SHA-256 of every file read, by the name shown to users."""
     quantiles: tuple[QuantileRequest, ...] = ()
     k_dry: KDryRequest | None = None
+    survey: bool = False
+    """Whether its cases are simulated in survey steps, except where a verdict might hang on it."""
     cases_sha256: str = ""
     """SHA-256 of what the sweep file says of its cases, which `quantiles` and `k_dry` do not change."""
 
@@ -186,6 +189,25 @@ def random_sample(plan: Plan) -> SampledGroup | None:
     """Return the sample of independent draws that quantiles can be bounded from, None where there is none."""
     last = plan.groups[-1]
     return last if isinstance(last, SampledGroup) and last.method == "random" else None
+
+
+def scenarios_with_each(plan: Plan, key: str) -> Iterator[Scenario]:
+    """Yield the base's scenario with each value that sets what stands at `key`; itself where none does."""
+    setting = [each for each in plan.keys if f"{key}.".startswith(f"{each}.")]
+    for each in setting:
+        for value in _values(plan, each):
+            yield with_values(plan.base.scenario, {each: value.content})
+    if not setting:
+        yield plan.base.scenario
+
+
+def _values(plan: Plan, key: str) -> Iterator[ParameterValue]:
+    group = next(group for group in plan.groups if key in group.keys)
+    place = group.keys.index(key)
+    if isinstance(group, ListedGroup):
+        yield from (row[place] for row in group.rows)
+    else:
+        yield from group.draws[place].choices
 
 
 def _is_numeric(values: Sequence[ParameterValue]) -> bool:

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
-from uictest.scenario import CONDITION, Scenario
+from uictest.scenario import CONDITION
 from uictest.scenario.yaml import Map, ScenarioErrors, diagnose, quoted
-from uictest.sweeps.plan.column import ParameterValue
-from uictest.sweeps.plan.plan import ListedGroup, Plan, SampledGroup, random_sample
-from uictest.sweeps.plan.scenario_values import with_values
+from uictest.sweeps.plan.plan import Plan, SampledGroup, random_sample, scenarios_with_each
 
 DRY: Final = "dry"
 """Name of the rail condition that K_dry is defined for."""
@@ -47,22 +45,4 @@ def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
 
 def _conditions(plan: Plan) -> Iterator[str]:
     """Yield the names of the rail conditions that the cases have."""
-    base = plan.base.scenario
-    scenarios = [scenario for key in plan.keys for scenario in _with_condition(plan, key)]
-    yield from (scenario.rail.condition.name for scenario in scenarios or [base])
-
-
-def _with_condition(plan: Plan, key: str) -> Iterator[Scenario]:
-    """Yield the base with each value of a key that sets the condition."""
-    if f"{CONDITION}.".startswith(f"{key}."):
-        for value in _values(plan, key):
-            yield with_values(plan.base.scenario, {key: value.content})
-
-
-def _values(plan: Plan, key: str) -> Iterator[ParameterValue]:
-    group = next(group for group in plan.groups if key in group.keys)
-    place = group.keys.index(key)
-    if isinstance(group, ListedGroup):
-        yield from (row[place] for row in group.rows)
-    else:
-        yield from group.draws[place].choices
+    yield from (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))

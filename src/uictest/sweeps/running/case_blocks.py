@@ -104,6 +104,12 @@ class BlockAssembler:
         settings, ids = self._plan.settings(indices), self._plan.ids(indices)
         return self.of_settings(indices, ids, settings)
 
+    def again(self, block: CaseBlock, places: Places) -> CaseBlock:
+        """Return the records of the cases at some places of a block that another assembler made."""
+        ids = [block.ids[place] for place in places.tolist()]
+        settings = {key: column.take(places) for key, column in block.settings.items()}
+        return self.of_settings(block.indices[places], ids, settings)
+
     def of_settings(self, indices: NDArray[np.int64], ids: list[str], settings: Settings) -> CaseBlock:
         """Return the records of cases that are given by their ids and values."""
         variants = ScenarioVariants(self._base.scenario, settings, indices.size)

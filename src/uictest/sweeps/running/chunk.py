@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +16,10 @@ from uictest.campaign import ThreadedMap
 from uictest.ensemble import Places, rows_at
 from uictest.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, joined
 from uictest.sweeps.plan.plan import Plan
+from uictest.sweeps.plan.survey import in_survey_steps
 from uictest.sweeps.running.case_blocks import BlockAssembler, CaseBlock
 from uictest.sweeps.running.case_selection import CaseSelection
+from uictest.sweeps.running.survey import biases_by_measure
 from uictest.sweeps.running.table import REPEATED_TEXTS, rows
 
 if TYPE_CHECKING:
@@ -47,6 +49,10 @@ class ChunkRunner:
     simulate: Simulate
     plan: Plan
     run_block: RunBlock
+    biases: Mapping[str, float] | None = None
+    """Of measures, in a survey: those of the step that the cases are simulated in."""
+    regular: ChunkRunner | None = None
+    """In a survey: simulates in regular steps what lies within its bias of a limit."""
 
     def run(self, indices: NDArray[np.int64]) -> bytes:
         """Return the rows of the cases with the given indices as a Parquet file."""
@@ -66,7 +72,18 @@ class ChunkRunner:
         rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
 
     def results(self, block: CaseBlock) -> ResultColumns:
-        """Return the results of a block; an error in a case is its result."""
+        """Return the results of a block; an error in a case is its result.
+
+        Those of a survey that a bias may have decided are of regular steps; `near_limit` says which.
+        """
+        columns = self._results_in_own_steps(block)
+        if self.regular is not None and columns.near_limit.any():
+            places = np.flatnonzero(columns.near_limit)
+            columns.put_block(places, self.regular.results(self.regular.assembler.again(block, places)))
+            columns.near_limit[places] = True
+        return columns
+
+    def _results_in_own_steps(self, block: CaseBlock) -> ResultColumns:
         places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
         judged: Sequence[tuple[Places, ResultColumns]] = ()
         if places.size:
@@ -101,9 +118,10 @@ class ChunkRunner:
         """Find the case that caused the error of the block."""
         if len(block.ids) == 1:
             block.rejections[0] = f"{type(error).__name__}: {error}"
-            return self.results(block)
+            return self._results_in_own_steps(block)
         alone = [np.array([place]) for place in range(len(block.ids))]
-        return joined([(place, self.results(block.take(place))) for place in alone], len(block.ids))
+        parts = [(place, self._results_in_own_steps(block.take(place))) for place in alone]
+        return joined(parts, len(block.ids))
 
     def _judged(
         self, block: CaseBlock, places: Places, measures: Measures
@@ -126,12 +144,17 @@ class ChunkRunner:
             wheelset_measures,
             lambda place: self.assembler.case(block, int(places[place])),
             lambda own: block.judged_as.together(places[own]),
+            self.biases,
         )
 
 
 def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
     """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
-    return ChunkRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
+    regular = ChunkRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
+    if not plan.survey:
+        return regular
+    assembler = BlockAssembler(in_survey_steps(plan))
+    return replace(regular, assembler=assembler, biases=biases_by_measure(), regular=regular)
 
 
 def run_on_threads(

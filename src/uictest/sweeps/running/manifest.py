@@ -11,9 +11,12 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, Final
 
+from uictest import library
 from uictest.evaluation import EffectiveParts
 from uictest.report import SWEEP_MANIFEST_SCHEMA, named_parts
+from uictest.scenario import SURVEY
 from uictest.sweeps.running.case_selection import CaseSelection
+from uictest.sweeps.running.survey import SURVEY_TABLE
 
 SCHEMA: Final = SWEEP_MANIFEST_SCHEMA
 SOURCES: Final = (
@@ -59,9 +62,15 @@ def sweep_manifest(
         "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
         "cases_sha256": plan.cases_sha256,
         "inputs": {_relative_to(folder, name): digest for name, digest in plan.inputs.items()},
+        **(_of_survey() if plan.survey else {}),
         "versions": _versions(),
         "program": program_digest(),
     }
+
+
+def _of_survey() -> dict[str, Any]:
+    biases = hashlib.sha256(library.table(SURVEY_TABLE).encode()).hexdigest()
+    return {"time_step": SURVEY, "survey_biases_sha256": biases}
 
 
 def manifest_differences(

@@ -5,16 +5,22 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from uictest.evaluation import ResultColumns
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.sweeps.plan.plan import Plan
+from uictest.sweeps.plan.survey import REGULAR_STEP, SURVEY_STEP
 from uictest.sweeps.running.case_blocks import CaseBlock
+from uictest.units import SIZES
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 WHEELSETS: Final = 4
 _OWN: Final = ("expect", "outcome", "reason")
+TIME_STEP_COLUMN: Final = "time_step_ms"
+"""Column of a survey: the step that the case was simulated in in the end."""
 REPEATED_TEXTS: Final = (*_OWN, "narrowest_criterion")
 """Columns whose texts recur from case to case; to look for numbers that do takes half of writing."""
 
@@ -44,11 +50,11 @@ def wheelset_columns(name: str) -> tuple[str, ...]:
 
 def row_schema(plan: Plan) -> pa.Schema:
     """Return names and types of the columns, in order."""
-    return _schema(plan.keys, plan.numeric_keys)
+    return _schema(plan.keys, plan.numeric_keys, plan.survey)
 
 
 @cache
-def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...]) -> pa.Schema:
+def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) -> pa.Schema:
     import pyarrow as pa
 
     text, number = pa.string(), pa.float64()
@@ -60,6 +66,7 @@ def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...]) -> pa.Schema:
             *((number_column(key), number) for key in numeric_keys),
             *((name, text) for name in _OWN),
             ("met", pa.bool_()),
+            *([(TIME_STEP_COLUMN, number)] if survey else []),
             ("narrowest_margin", number),
             ("narrowest_criterion", text),
             *((name, number) for name in measure_columns()),
@@ -79,11 +86,22 @@ def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
     columns |= {"expect": results.expectations, "outcome": results.outcomes, "reason": results.reasons}
     columns |= {"met": results.met, "narrowest_margin": results.margins}
     columns["narrowest_criterion"] = results.criteria
+    if plan.survey:
+        steps = np.where(results.near_limit, REGULAR_STEP, SURVEY_STEP)
+        columns[TIME_STEP_COLUMN] = steps / SIZES["ms"]
     columns |= results.measures
     for name, numbers in results.wheelsets.items():
         columns |= zip(wheelset_columns(name), numbers.T, strict=True)
     schema = row_schema(plan)
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
+
+
+def repeated_cases(table: pa.Table) -> int:
+    """Return how many cases of a survey were simulated in regular steps in the end; else none."""
+    if TIME_STEP_COLUMN not in table.column_names:
+        return 0
+    steps = table.column(TIME_STEP_COLUMN).to_numpy()
+    return int(np.count_nonzero(steps == REGULAR_STEP / SIZES["ms"]))
 
 
 def _numbers() -> range:

@@ -26,8 +26,7 @@ from uictest.sweeps.plan.decimal_quantity import (
 )
 from uictest.sweeps.plan.plan import ListedGroup, Plan
 from uictest.sweeps.plan.scenario_values import is_free
-from uictest.sweeps.running.case_blocks import BlockAssembler
-from uictest.sweeps.running.chunk import ChunkRunner
+from uictest.sweeps.running.chunk import ChunkRunner, chunk_runner
 from uictest.units import KINDS
 
 UNKNOWN: Final = -1
@@ -190,7 +189,7 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
 
     `runner` is that of another plan of the same sweep.
     """
-    runner = replace(runner, assembler=BlockAssembler(plan), plan=plan)
+    runner = chunk_runner(plan, runner.run_block)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
         return [bool(met) for met in runner.results(runner.assembler.block(block)).met]

@@ -15,10 +15,12 @@ from uictest.report import (
     MET,
     MeasureHistogram,
     SobolSensitivity,
+    SurveyStep,
     SweepDomain,
     SweepResult,
     counted,
     domain_notes,
+    survey_notes,
 )
 from uictest.scenario import named_requirements
 from uictest.sweeps.plan.nominal import drawn_ranges
@@ -26,6 +28,8 @@ from uictest.sweeps.plan.plan import Plan, saltelli_sample
 from uictest.sweeps.plan.spacing import logarithmic_keys
 from uictest.sweeps.running.case_selection import CaseSelection
 from uictest.sweeps.running.store import ChunkStore
+from uictest.sweeps.running.survey import survey_step
+from uictest.sweeps.running.table import repeated_cases
 from uictest.sweeps.summaries.domain import DomainTally
 from uictest.sweeps.summaries.frontier import UNKNOWN, Verdicts
 from uictest.sweeps.summaries.histograms import HistogramCounts, reported_measures
@@ -87,6 +91,7 @@ def summarize(
         for table in store.tables(range(selection.chunks)):
             write(table if domain is None else domain.with_column(table))
             sums.add(table)
+    survey = survey_step(selection.plan, sums.repeated, measures)
     of_validity = None if domain is None else domain.result()
     sensitivities, notes = _sensitivities(selection.plan, sums.sampled_columns())
     result = _result(
@@ -94,7 +99,9 @@ def summarize(
         distributions=_histograms(sums, selection, store),
         sensitivities=sensitivities,
         domain=of_validity,
+        survey=survey,
         notes=(
+            *survey_notes(survey, sums.tally.cases),
             *domain_notes(of_validity, sums.tally.cases),
             *_requirement_notes(selection.plan),
             *_not_judged_notes(sums.tally.outcomes),
@@ -125,12 +132,15 @@ class _Sums:
         # Of a selection of cases nothing is known of the others, so that ranks have no meaning.
         self.tails = TailDraws(plan) if selection.selected is None else None
         self.verdicts = np.full(plan.size, UNKNOWN, np.int8)
+        self.repeated = 0
+        """Cases of a survey that were repeated in regular steps."""
         self._is_sample = saltelli_sample(plan) is not None and selection.selected is None
         self._columns = {name: np.full(plan.size, np.nan) for name in (measures if self._is_sample else ())}
 
     def add(self, table: pa.Table) -> None:
         """Add the rows of a chunk."""
         self.tally.add(table)
+        self.repeated += repeated_cases(table)
         self.worst.add(table)
         for sweep_map in self.maps:
             sweep_map.add(table)
@@ -161,6 +171,7 @@ def _result(
     distributions: tuple[MeasureHistogram, ...],
     sensitivities: tuple[SobolSensitivity, ...],
     domain: SweepDomain | None,
+    survey: SurveyStep | None,
     notes: tuple[str, ...],
 ) -> SweepResult:
     tally, plan = sums.tally, sums.tally.plan
@@ -187,6 +198,7 @@ def _result(
         quantiles=tuple(sums.tails.quantiles()) if sums.tails else (),
         k_dry=tuple(sums.tails.k_dry()) if sums.tails else (),
         domain_of_validity=domain,
+        survey=survey,
         notes=notes,
     )
 

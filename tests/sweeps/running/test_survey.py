@@ -1,0 +1,162 @@
+"""Sweeps in survey steps: fast where the verdict is clear, in regular steps where a bias could decide it."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from uictest import rig
+from uictest.scenario import ScenarioErrors, load as load_scenarios
+from uictest.sweeps import CaseSelection, ChunkRunner, Plan, chunk_runner, sweep_manifest
+from uictest.sweeps.plan.survey import in_survey_steps
+from uictest.sweeps.running.case_blocks import BlockAssembler
+from uictest.sweeps.running.survey import biases_by_measure, survey_biases, survey_step
+
+from ..conftest import GRID, SCENARIO, Load, formula
+
+SURVEY = "simulation.time_step=survey"
+IN_FILE = "simulation.time_step: [survey]\n"
+NO_BIAS = dict.fromkeys(biases_by_measure(), 0.0)
+
+
+def rows(content: bytes) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
+    return found
+
+
+@pytest.fixture
+def survey() -> Callable[..., ChunkRunner]:
+    """A runner of a survey whose stops are the formula, with the biases that are given."""
+
+    def runner(plan: Plan, **biases: float) -> ChunkRunner:
+        regular = ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+        assembler = BlockAssembler(in_survey_steps(plan))
+        return replace(regular, assembler=assembler, biases={**NO_BIAS, **biases}, regular=regular)
+
+    return runner
+
+
+@pytest.mark.parametrize(("text", "overrides"), [(GRID, [SURVEY]), (f"{GRID}  {IN_FILE}", [])])
+def test_the_survey_step_is_asked_for_alone_and_varies_nothing(
+    load: Load, text: str, overrides: list[str]
+) -> None:
+    plan = load(text, *overrides)
+    assert plan.survey
+    assert plan.keys == ("rail.friction", "brake.command")
+    assert plan.base.scenario.simulation.time_step == 0.0005
+    assert in_survey_steps(plan).base.scenario.simulation.time_step == 0.001
+
+
+def test_the_command_line_takes_the_survey_of_the_file_back(load: Load) -> None:
+    plan = load(f"{GRID}  {IN_FILE}", "simulation.time_step=0.25 ms")
+    assert not plan.survey
+    assert plan.base.scenario.simulation.time_step == 0.00025
+
+
+@pytest.mark.parametrize("values", ["survey,0.5 ms", "0.5 ms,survey"])
+def test_survey_is_no_value_among_others(load: Load, values: str) -> None:
+    with pytest.raises(ScenarioErrors, match="'survey' is the time step of a whole sweep"):
+        load(GRID, f"simulation.time_step={values}")
+
+
+def test_a_scenario_has_no_survey_step(tmp_path: Path) -> None:
+    path = tmp_path / "stop.yaml"
+    path.write_text(f"{SCENARIO}simulation: {{time_step: survey}}\n")
+    with pytest.raises(ScenarioErrors) as caught:
+        load_scenarios([path])
+    [error] = caught.value.diagnostics
+    assert (error.key, error.line) == ("simulation.time_step", 5)
+    assert "uictest sweep ... --set simulation.time_step=survey" in error.hint
+
+
+def test_the_bias_is_not_known_beside_another_step(load: Load) -> None:
+    scenario = f"{SCENARIO}simulation: {{time_step: 0.25 ms}}\n"
+    load()
+    Path("fine.yaml").write_text(scenario)
+    with pytest.raises(ScenarioErrors, match=r"known beside 0\.5 ms; the scenario is run in 0\.25 ms"):
+        load(GRID, SURVEY, scenario="fine.yaml")
+
+
+def test_only_cases_within_their_bias_of_a_limit_are_repeated(
+    load: Load, survey: Callable[..., ChunkRunner]
+) -> None:
+    """The formula locks a wheelset for 5 (command - 9 friction) s; at most 1 s is accepted."""
+    plan = load(GRID, SURVEY, "criteria=uictest-stop")
+    found = rows(survey(plan, longest_lock=0.4).run(np.arange(plan.size)))
+    locks = [5.0 * (row["values.brake.command"] - 9.0 * row["values.rail.friction"]) for row in found]
+    near = [abs(lock - 1.0) < 0.4 * abs(lock) for lock in locks]
+    assert [row["time_step_ms"] for row in found] == [0.5 if each else 1.0 for each in near]
+    assert 0 < sum(near) < len(near)
+
+
+def test_without_a_bias_nothing_is_repeated(load: Load, survey: Callable[..., ChunkRunner]) -> None:
+    plan = load(GRID, SURVEY)
+    assert {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))} == {1.0}
+
+
+def test_a_measure_of_unknown_bias_is_always_repeated(load: Load, survey: Callable[..., ChunkRunner]) -> None:
+    plan = load(GRID, SURVEY, "criteria=uictest-stop")
+    known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
+    runner = replace(survey(plan), biases=known)
+    assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
+
+
+def test_what_the_survey_step_cannot_simulate_is_repeated(
+    load: Load, survey: Callable[..., ChunkRunner]
+) -> None:
+    plan = load("grid: {controller.cycle_time: [10 ms, 2.5 ms]}\n", SURVEY)
+    found = rows(survey(plan).run(np.arange(2)))
+    assert [row["time_step_ms"] for row in found] == [1.0, 0.5]
+    assert "error" not in {row["outcome"] for row in found}
+
+
+def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer_ones(load: Load) -> None:
+    text = "grid: {rail.friction: [0.05, 0.08], brake.command: [80 %, 100 %], criteria: [uictest-stop]}\n"
+    beside = {
+        step: rows(chunk_runner(load(text, f"simulation.time_step={step}"), rig.run_block).run(np.arange(4)))
+        for step in ("0.5 ms", "1 ms")
+    }
+    energies = sorted(max(row[f"contact_energy_kj_{k}"] for k in range(1, 5)) for row in beside["1 ms"])
+    share = 1500.0 / (0.5 * (energies[1] + energies[2])) - 1.0  # half of the stops lie within it of 1500 kJ
+    runner = replace(
+        chunk_runner(load(text, SURVEY), rig.run_block), biases=NO_BIAS | {"contact_energy": share}
+    )
+    found = rows(runner.run(np.arange(4)))
+    assert {row["time_step_ms"] for row in found} == {0.5, 1.0}
+    for place, row in enumerate(found):
+        step = "0.5 ms" if row.pop("time_step_ms") == 0.5 else "1 ms"
+        assert row == beside[step][place]
+    assert beside["0.5 ms"] != beside["1 ms"]
+
+
+def test_a_survey_and_a_regular_sweep_have_different_manifests(load: Load) -> None:
+    def manifest(*overrides: str) -> dict[str, Any]:
+        selection = CaseSelection(load(GRID, *overrides))
+        return sweep_manifest(selection, expression=None, overrides=(), seed=None)
+
+    assert "time_step" not in manifest()
+    assert manifest(SURVEY)["time_step"] == "survey"
+    assert len(manifest(SURVEY)["survey_biases_sha256"]) == 64
+
+
+def test_the_bias_of_every_criterion_of_the_library_is_known(load: Load) -> None:
+    plan = load(GRID, SURVEY, "criteria=[uic-541-05-appendix-b,uictest-rig,uictest-stop]")
+    survey = survey_step(plan, 2, ["valve_actuations"])
+    assert survey is not None
+    judged = {each.measure for profile in plan.base.scenario.judged_by for each in profile.criteria}
+    assert judged | {"valve_actuations"} == {each.measure for each in survey.biases}
+    assert (survey.time_step, survey.regular_step, survey.repeated) == ("1 ms", "0.5 ms", 2)
+    assert survey_step(load(), 0, []) is None
+
+
+def test_the_bias_is_the_largest_of_any_shipped_case() -> None:
+    known = survey_biases()
+    assert known["standstill"].bias == 0.0
+    assert 0.0 < known["braking_distance"].bias < known["braking_distance"].of_single_stops
