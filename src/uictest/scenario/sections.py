@@ -179,7 +179,7 @@ class Simulation(Model):
         Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms"), BeforeValidator(_no_survey)
     ] = Field(
         default=default("0.5 ms", "time"),
-        description="Base step; a whole number of them makes a controller cycle. Sweeps take `survey`, too.",
+        description="Base step; a whole number of them makes a controller cycle.",
     )
     maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
         default=default("180 s", "time"),
