@@ -17,7 +17,7 @@ import numpy as np
 from machine import processor
 from numpy.typing import NDArray
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS

@@ -26,8 +26,8 @@ from timing import Clock, Comparison, side_by_side
 
 import uictest
 from uictest.controllers import CONTROLLERS, ControllerError
+from uictest.plans.scenario import Scenario, load
 from uictest.rig import BlockInputs, StopInputs, Workers, assemble, run_block, run_in_process
-from uictest.scenario import Scenario, load
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

@@ -23,9 +23,10 @@ import numpy as np
 from growth import SCENARIO
 
 from uictest import rig
-from uictest.sweeps import ChunkRunner, Plan, chunk_runner, load_sweep
-from uictest.sweeps.running.chunk import parquet_bytes
-from uictest.sweeps.running.table import rows
+from uictest.plans.sweeps import Plan, load_sweep
+from uictest.running.chunked import ChunkRunner, chunk_runner
+from uictest.running.chunked.chunk import parquet_bytes
+from uictest.running.chunked.table import rows
 
 SIMULATED = 256
 """Cases whose measures are repeated."""

@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 from stops import SCENARIOS
 
+from uictest.core.statistics import mean_interval
+from uictest.plans.scenario import load
 from uictest.rig import StopInputs, assemble, run_in_lanes
 from uictest.rig.model import slip_search, step
-from uictest.scenario import load
-from uictest.statistics import mean_interval
 
 BOUNDS = {"distance, %": 0.05, "air, %": 0.3, "vents": 0.1}
 """Half widths within which the mean difference must lie; chosen before a stop was run."""

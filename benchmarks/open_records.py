@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from stops import Stop
 
-from uictest.physics import arithmetic
+from uictest.core.physics import arithmetic
 from uictest.rig.backends.compiled import translate, with_controllers
 from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle

@@ -20,7 +20,7 @@ from open_records import opened, rolling, step_in, step_on_floats
 from reduced_model import integrated_seconds
 from stops import Stop, shipped
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.native import compiled_stop

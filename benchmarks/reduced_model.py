@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from open_records import opened, rounded_twice
 from stops import Stop
 
-from uictest.physics import arithmetic
-from uictest.physics.disc_brake import torque
-from uictest.physics.flow import coldness, mass_flow
-from uictest.physics.hysteresis import line
-from uictest.physics.polach import creep_force
-from uictest.physics.tank import air_changes, enthalpy
-from uictest.physics.wheelset import SLOWEST_CREEP
+from uictest.core.physics import arithmetic
+from uictest.core.physics.disc_brake import torque
+from uictest.core.physics.flow import coldness, mass_flow
+from uictest.core.physics.hysteresis import line
+from uictest.core.physics.polach import creep_force
+from uictest.core.physics.tank import air_changes, enthalpy
+from uictest.core.physics.wheelset import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
 from uictest.rig.model.friction_law import FRICTIONS
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from uictest.plans.scenario import load
 from uictest.rig import StopInputs, assemble
-from uictest.scenario import load
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 TIMED = ("dry-120", "slide-80[compensation=full]", "low-adhesion-80")

@@ -20,8 +20,9 @@ import machine
 import numpy as np
 
 from uictest import rig
-from uictest.statistics import draws_needed
-from uictest.sweeps import chunk_runner, load_sweep
+from uictest.core.statistics import draws_needed
+from uictest.plans.sweeps import load_sweep
+from uictest.running.chunked import chunk_runner
 
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
 SWEEP = Path(__file__).parent.parent / "scenarios" / "dry-120-k-dry.sweep.yaml"

@@ -3,8 +3,8 @@
 from types import SimpleNamespace
 
 from uictest.controllers import CONTROLLERS, Config, Inputs, Outputs
-from uictest.physics import HOLD, VENT
-from uictest.record import fields_of
+from uictest.core.physics import HOLD, VENT
+from uictest.core.record import fields_of
 
 _THRESHOLD = CONTROLLERS["threshold"]
 

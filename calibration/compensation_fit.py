@@ -8,8 +8,8 @@ position R, full command, seed 0) differs by less than 0.5 % between the two, wi
 from pathlib import Path
 
 from uictest import rig
-from uictest.scenario import Case, Quantity, load, rig_as_built
-from uictest.units import in_unit
+from uictest.core.units import in_unit
+from uictest.plans.scenario import Case, Quantity, load, rig_as_built
 
 SCENARIO = Path(__file__).parent.parent / "scenarios" / "dry-120.yaml"
 LADDER = (

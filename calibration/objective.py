@@ -8,12 +8,12 @@ import yaml
 from numpy.typing import NDArray
 from parameters import Fields, fields, values
 
+from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.friction_law import FRICTIONS
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import load
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {

@@ -28,22 +28,39 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "src/uictest"
-_OTHER_TESTS = {
-    "controllers": ("rig",),
-    "ensemble": ("evaluation",),
-    "faults": ("rig",),
-    "files": ("history", "user_cache"),
+_TESTS = {
+    "analysis": ("comparison", "validation", "sweeps/summaries", "cli/commands/test_validate.py"),
+    "api": ("api", "stepping", "pytest_plugin", "rig_fmu"),
+    "controllers": ("controllers", "rig"),
+    "core": (
+        *(
+            "physics",
+            "lanes",
+            "measures",
+            "series_measures",
+            "recording",
+            "statistics",
+            "files",
+            "user_cache",
+        ),
+        *("test_ensemble.py", "test_record.py", "test_units.py", "rig", "evaluation", "history"),
+    ),
     "gym": ("stepping",),
-    "library": ("scenario",),
-    "measures": ("rig", "evaluation"),
-    "physics": ("rig",),
-    "record": ("rig",),
-    "runs": ("api",),
-    "series_measures": ("series",),
-    "statistics": ("series_measures", "comparison", "sweeps"),
-    "validation": ("cli/commands/test_validate.py",),
+    "judging": ("evaluation", "series"),
+    "plans": ("scenario", "series", "sweeps/plan", "validation", "faults", "library", "templates", "rig"),
+    "recorded": ("field_data", "fitting"),
+    "rig": ("rig", "identification"),
+    "running": ("campaign", "sweeps/running"),
+    "runs": ("runs", "history", "api"),
+    "selftest": ("selftest", "conformance"),
 }
-"""Room -> what else its tests are found in, nearest first, besides the folder or file called as the room."""
+"""Room -> where its tests are, nearest first, if not only in the folder called as the room."""
+_FOLDERS = {
+    "analysis/summaries": "sweeps/summaries",
+    "plans/sweeps": "sweeps/plan",
+    "running/chunked": "sweeps/running",
+}
+"""Folder of a room -> that of its tests, where it is not called as the folder."""
 _ONE_SOURCE = ("test_compiled.py", "test_lanes.py", "test_native.py")
 """Tests that hold processors against each other: they run one source, so a change of it shows in none."""
 _OTHER_OPERATOR: dict[type[ast.AST], type[ast.AST]] = {
@@ -170,12 +187,7 @@ def _files_of(room: str) -> list[Path]:
 
 def tests_of(room: str) -> list[str]:
     """Return the folders and files with the tests of a room, nearest first."""
-    own = (
-        f"tests/{room}",
-        f"tests/test_{room}.py",
-        *(f"tests/{each}" for each in _OTHER_TESTS.get(room, ())),
-    )
-    return [path for path in own if (REPOSITORY / path).exists()]
+    return [path for each in _TESTS.get(room, (room,)) if (REPOSITORY / (path := f"tests/{each}")).exists()]
 
 
 def chosen_places(names: Sequence[str], count: int, seed: int) -> list[Place]:
@@ -212,8 +224,13 @@ def named_places(names: Sequence[str]) -> list[Place]:
 def test_stages(place: Place, whole: bool) -> list[list[str]]:
     """Return what is given to pytest, stage by stage: the module's own tests first."""
     module = Path(place.file).relative_to("src/uictest")
-    own = Path("tests", module.parent, f"test_{module.stem}.py")
-    stages = [[str(own)]] if (REPOSITORY / own).exists() else []
+    room, _, below = module.parent.as_posix().partition("/")
+    for prefix, folder in _FOLDERS.items():
+        if f"{room}/{below}".startswith(prefix):
+            below = folder
+    own = (Path("tests", folder) for folder in (below, room))
+    nearest = (path / f"test_{module.stem}.py" for path in own)
+    stages = [[str(path)] for path in nearest if (REPOSITORY / path).exists()]
     stages += [[each] for each in tests_of(Path(module.parts[0]).stem)]
     return stages + ([["tests"]] if whole else [])
 

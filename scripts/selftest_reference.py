@@ -6,7 +6,8 @@ Run it after a change that is meant to change results, and for every release. Th
 is what users will see: say why in the changelog.
 """
 
-from uictest import files, selftest
+from uictest import selftest
+from uictest.core import files
 
 files.write_to(selftest.REFERENCE, selftest.computed_reference())
 print(f"{selftest.REFERENCE.name}: written")

@@ -20,13 +20,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import library
-from uictest.measures import MEASURES, STOP_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES, Measure
+from uictest.core.measures import MEASURES, STOP_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES, Measure
+from uictest.core.statistics import mean_interval
+from uictest.core.units import in_unit
+from uictest.plans import library
+from uictest.plans.scenario import Case, load
 from uictest.rig import assemble, run_in_lanes
-from uictest.scenario import Case, load
-from uictest.statistics import mean_interval
-from uictest.sweeps import SURVEY_TABLE
-from uictest.units import in_unit
+from uictest.running.chunked import SURVEY_TABLE
 
 ROOT: Final = Path(__file__).parents[1]
 STOPS: Final = 512

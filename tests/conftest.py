@@ -13,11 +13,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import pytest
 from hypothesis import settings
 
-from uictest import rig, scenario
+from uictest import rig
 from uictest.controllers import CONTROLLERS
-from uictest.physics import FILL, VENT, fma
-from uictest.record import fields_of
-from uictest.recording.formats import Dialect, isolation, reader
+from uictest.core.physics import FILL, VENT, fma
+from uictest.core.record import fields_of
+from uictest.core.recording.formats import Dialect, isolation, reader
+from uictest.plans import scenario
 
 _LONGEST = (
     "rig/backends/test_lanes.py",

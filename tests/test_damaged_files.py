@@ -32,19 +32,21 @@ import typer.main
 import yaml
 from hypothesis import HealthCheck, Phase, given, settings, strategies as st
 
-from uictest import comparison, report, scenario, validation
+from uictest import report
+from uictest.analysis import comparison, validation
 from uictest.cli.entry import execute
 from uictest.cli.exit_codes import ExitCode
 from uictest.controllers import Config, ControllerError
 from uictest.controllers.adapters.fmu import file as fmu_file, instance as fmu_instance, slave as fmu_slave
-from uictest.field_data.defect import DefectKind
-from uictest.recording import Recording
-from uictest.recording.formats import (
+from uictest.core.recording import Recording
+from uictest.core.recording.formats import (
     FORMATS,
     UnreadableError,
     read_contents,
     writer_of,
 )
+from uictest.plans import scenario, validation as validation_plans
+from uictest.recorded.field_data.defect import DefectKind
 from uictest.rig import bench
 
 SOURCE = Path(__file__).parents[1]
@@ -334,7 +336,7 @@ KINDS = (
             f"{name} part",
             "part.yaml",
             "yaml",
-            (f"src/uictest/library/{folder}/*.yaml",),
+            (f"src/uictest/plans/library/{folder}/*.yaml",),
             command("check", "-v", f"uses-{name}.yaml"),
         )
         for name, (folder, _) in PARTS.items()
@@ -350,14 +352,14 @@ KINDS = (
         "bench recipe",
         "x.yaml",
         "yaml",
-        ("src/uictest/library/benches/*.yaml",),
+        ("src/uictest/plans/library/benches/*.yaml",),
         function(bench.load_bench),
     ),
     Kind(
         "channel map",
         "x.yaml",
         "yaml",
-        ("src/uictest/library/channel_maps/*.yaml", "map.yaml"),
+        ("src/uictest/plans/library/channel_maps/*.yaml", "map.yaml"),
         command("evaluate", "-v", "--list", "stop.csv", "--map", "{}"),
     ),
     Kind(
@@ -365,7 +367,7 @@ KINDS = (
         "x.validation.yaml",
         "yaml",
         ("plan.validation.yaml",),
-        function(validation.load_validation),
+        function(validation_plans.load_validation),
     ),
     Kind(
         "requirements in YAML",

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.ensemble import EnsembleOfRecords, Places, alike, by_way, ensemble, ensembles_of
+from uictest.core.ensemble import EnsembleOfRecords, Places, alike, by_way, ensemble, ensembles_of
 
 finite = st.floats(-1e9, 1e9)
 

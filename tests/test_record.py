@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from uictest.record import Record, fields_of, from_scenario, layout_of, scenario_values
+from uictest.core.record import Record, fields_of, from_scenario, layout_of, scenario_values
 
 
 class Frame(Record):

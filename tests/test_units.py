@@ -1,7 +1,15 @@
 import pytest
 
-from uictest.physics import REFERENCE_DENSITY
-from uictest.units import KINDS, SIZES, in_unit, normal_volume, recorded_unit_size, to_12_digits, value_text
+from uictest.core.physics import REFERENCE_DENSITY
+from uictest.core.units import (
+    KINDS,
+    SIZES,
+    in_unit,
+    normal_volume,
+    recorded_unit_size,
+    to_12_digits,
+    value_text,
+)
 
 
 def test_one_normal_litre_of_air_weighs_1_185_g() -> None:

@@ -11,27 +11,27 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from uictest.faults import FAULT_KINDS, FaultKind
-from uictest.measures import MEASURES
-from uictest.scenario.model import Scenario
-from uictest.scenario.parts.brake import BrakeSystem
-from uictest.scenario.parts.caliper import Caliper
-from uictest.scenario.parts.compensation import Compensation
-from uictest.scenario.parts.controller import CONTROLLER_MODELS
-from uictest.scenario.parts.criteria import Criterion
-from uictest.scenario.parts.measures import MeasureDefinitions
-from uictest.scenario.parts.pad import Pad
-from uictest.scenario.parts.rail import RailCondition
-from uictest.scenario.parts.sensors import Sensors
-from uictest.scenario.parts.vehicle import Vehicle
-from uictest.scenario.yaml.model import Part, PartReference
-from uictest.scenario.yaml.quantities import Quantity
-from uictest.scenario.yaml.quantity_field import QuantityField
-from uictest.series import SeriesFile
-from uictest.series_measures import SERIES_MEASURES
-from uictest.sweeps.plan.model import Distribution, Sample
-from uictest.sweeps.plan.tail_model import KDryRequest, QuantileRequest
-from uictest.units import KINDS
+from uictest.core.measures import MEASURES
+from uictest.core.series_measures import SERIES_MEASURES
+from uictest.core.units import KINDS
+from uictest.plans.faults import FAULT_KINDS, FaultKind
+from uictest.plans.scenario.model import Scenario
+from uictest.plans.scenario.parts.brake import BrakeSystem
+from uictest.plans.scenario.parts.caliper import Caliper
+from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.controller import CONTROLLER_MODELS
+from uictest.plans.scenario.parts.criteria import Criterion
+from uictest.plans.scenario.parts.measures import MeasureDefinitions
+from uictest.plans.scenario.parts.pad import Pad
+from uictest.plans.scenario.parts.rail import RailCondition
+from uictest.plans.scenario.parts.sensors import Sensors
+from uictest.plans.scenario.parts.vehicle import Vehicle
+from uictest.plans.scenario.yaml.model import Part, PartReference
+from uictest.plans.scenario.yaml.quantities import Quantity
+from uictest.plans.scenario.yaml.quantity_field import QuantityField
+from uictest.plans.series import SeriesFile
+from uictest.plans.sweeps.model import Distribution, Sample
+from uictest.plans.sweeps.tail_model import KDryRequest, QuantileRequest
 
 HEADINGS = ("key", "written as", "default", "range", "meaning")
 PARTS: dict[str, type[BaseModel]] = {

@@ -11,7 +11,7 @@ from collections import defaultdict
 from pathlib import Path
 from statistics import median
 
-from uictest.statistics import proportion_interval
+from uictest.core.statistics import proportion_interval
 
 Row = dict[str, str]
 LOCKED = 1.0

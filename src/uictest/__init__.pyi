@@ -11,9 +11,9 @@ from .api import (
     sweep as sweep,
     validate as validate,
 )
-from .evaluation import CaseResult as CaseResult
-from .recording import Recording as Recording
-from .scenario import Case as Case, ScenarioErrors as ScenarioErrors
-from .stepping import Rig as Rig
+from .api.stepping import Rig as Rig
+from .core.recording import Recording as Recording
+from .judging.evaluation import CaseResult as CaseResult
+from .plans.scenario import Case as Case, ScenarioErrors as ScenarioErrors
 
 __version__: str

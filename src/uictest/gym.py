@@ -20,9 +20,9 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from uictest.api.stepping import Rig, RigState
 from uictest.controllers import Inputs
 from uictest.rig import assemble
-from uictest.stepping import Rig, RigState
 
 Observation = NDArray[np.float64]
 Reward = Callable[[RigState, RigState], float]

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.api.assignments import override_texts
-from uictest.scenario.yaml import parse_overrides, plain
+from uictest.plans.scenario.yaml import parse_overrides, plain
 
 
 def read(assignments: dict[str, Any]) -> dict[str, Any]:

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import uictest
-from uictest import evaluation
-from uictest.files import latest_run
-from uictest.recording import write_parquet
-from uictest.recording.formats import writer_of
+from uictest.core.files import latest_run
+from uictest.core.recording import write_parquet
+from uictest.core.recording.formats import writer_of
+from uictest.judging import evaluation
 
 Write = Callable[..., Path]
 Command = Callable[..., int]

@@ -24,7 +24,7 @@ def test_the_public_names_are_these() -> None:
     assert sorted(uictest.__all__) == [*names.split(), *others.split()]
 
 
-@pytest.mark.parametrize("first", ["uictest.sweeps", "uictest.cli.entry", "uictest.runs"])
+@pytest.mark.parametrize("first", ["uictest.running.chunked", "uictest.cli.entry", "uictest.runs"])
 def test_no_room_takes_the_place_of_a_function(first: str) -> None:
     program = f"import {first}, uictest; assert all(callable(getattr(uictest, n)) for n in uictest.__all__)"
     subprocess.run([sys.executable, "-c", program], check=True)

@@ -14,8 +14,9 @@ import pandas as pd
 import pytest
 
 import uictest
-from uictest import measures, report
+from uictest import report
 from uictest.api.frames import column_units
+from uictest.core import measures
 
 Write = Callable[..., Path]
 HOSTILE = "<script>alert(1)</script> & \x1b[31m"

@@ -13,10 +13,12 @@ from typing import Any
 import pytest
 
 import uictest
-from uictest import campaign, evaluation, recording
-from uictest.campaign import batch
-from uictest.files import latest_run
+from uictest.core import recording
+from uictest.core.files import latest_run
+from uictest.judging import evaluation
 from uictest.report import read_run
+from uictest.running import campaign
+from uictest.running.campaign import batch
 
 Write = Callable[..., Path]
 Command = Callable[..., int]

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import uictest
-from uictest.sweeps import ChunkStore
+from uictest.running.chunked import ChunkStore
 
 Write = Callable[..., Path]
 Command = Callable[..., int]

@@ -96,7 +96,7 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
     """Lanes are built with -ffast-math, and the poles of the cylinder dynamics magnify what that rounds."""
     from c_library import CLanes
 
-    from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+    from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 
     stop = short_stop("dry-120")
     parameters, own, rail, *_ = stop
@@ -116,8 +116,8 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
 def test_strict_lanes_have_the_bits_of_ours() -> None:
     from c_library import CLanes
 
-    from uictest.lanes import fuses, register_width
-    from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+    from uictest.core.lanes import fuses, register_width
+    from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
     from uictest.rig import run_in_lanes
 
     if not fuses():

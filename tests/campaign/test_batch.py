@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from uictest.campaign import BatchResult, CaseRun, RecordingRequest, batch, run_cases
-from uictest.evaluation import CaseResult, error_result
+from uictest.judging.evaluation import CaseResult, error_result
+from uictest.running.campaign import BatchResult, CaseRun, RecordingRequest, batch, run_cases
 
 MakeCase = Callable[..., Any]
 Examine = Callable[[Any, RecordingRequest], CaseRun]

@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-import uictest.evaluation
+import uictest.judging.evaluation
 import uictest.rig
-from uictest.campaign import RecordingRequest, run_case
 from uictest.controllers import ControllerError
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
+from uictest.running.campaign import RecordingRequest, run_case
 
 MakeCase = Callable[..., Any]
 
@@ -45,7 +45,7 @@ def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
     def make(outcome: str) -> Rig:
         rig = Rig(outcome)
         monkeypatch.setattr(uictest.rig, "simulate", rig.simulate)
-        monkeypatch.setattr(uictest.evaluation, "evaluate_simulated", rig.evaluate)
+        monkeypatch.setattr(uictest.judging.evaluation, "evaluate_simulated", rig.evaluate)
         return rig
 
     return make

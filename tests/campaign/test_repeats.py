@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest import rig, scenario
-from uictest.campaign import CaseRun, RecordingRequest, run_case, run_cases
-from uictest.evaluation import CaseResult, json_form, result_document, to_json
+from uictest import rig
+from uictest.judging.evaluation import CaseResult, json_form, result_document, to_json
+from uictest.plans import scenario
+from uictest.running.campaign import CaseRun, RecordingRequest, run_case, run_cases
 
 STOP = """
 schema: uictest/scenario/1

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import uictest.rig
-from uictest.campaign import replay
+from uictest.running.campaign import replay
 
 MakeCase = Callable[..., Any]
 

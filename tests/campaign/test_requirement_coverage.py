@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.campaign import CoveredRequirement, Verifier, requirement_coverage
-from uictest.scenario import Case, load, named_requirements
-from uictest.series import load_series
+from uictest.plans.scenario import Case, load, named_requirements
+from uictest.plans.series import load_series
+from uictest.running.campaign import CoveredRequirement, Verifier, requirement_coverage
 
 PROFILE = """\
 criteria:

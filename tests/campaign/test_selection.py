@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from uictest.campaign import ExpressionError, by_expression, by_id, by_tag
+from uictest.running.campaign import ExpressionError, by_expression, by_id, by_tag
 
 MakeCase = Callable[..., Any]
 

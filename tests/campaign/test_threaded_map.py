@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from uictest.campaign import ThreadedMap, map_on_threads
+from uictest.running.campaign import ThreadedMap, map_on_threads
 
 
 def late_first(number: int) -> int:

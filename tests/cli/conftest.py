@@ -14,10 +14,10 @@ from typing import Any
 import pytest
 
 from uictest import rig
-from uictest.campaign import CaseRun, RecordingRequest, batch
 from uictest.cli.entry import execute
-from uictest.evaluation import CaseResult, error_result
-from uictest.measures import STOP_COLUMNS
+from uictest.core.measures import STOP_COLUMNS
+from uictest.judging.evaluation import CaseResult, error_result
+from uictest.running.campaign import CaseRun, RecordingRequest, batch
 
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""

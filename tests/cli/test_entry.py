@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from uictest import rig
-from uictest.scenario import load
+from uictest.plans.scenario import load
 
 from .conftest import HANGING, Start
 
@@ -25,14 +25,19 @@ Write = Callable[..., Path]
 _LARGE = ("numba", "rich", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly")
 _RUNS = (
     "uictest.rig.simulation",
-    "uictest.evaluation.result",
+    "uictest.judging.evaluation.result",
     "uictest.report.page",
-    "uictest.series.result",
+    "uictest.judging.series.result",
 )
-_RARE = ("uictest.rig.backends.lanes", "uictest.identification", "uictest.series.result", "uictest.sweeps")
+_RARE = (
+    "uictest.rig.backends.lanes",
+    "uictest.rig.identification",
+    "uictest.judging.series.result",
+    *("uictest.plans.sweeps", "uictest.running.chunked", "uictest.analysis.summaries"),
+)
 _FORBIDDEN = {
     ("--help",): (*_LARGE, "numpy", "pydantic", "yaml"),
-    ("check",): (*_LARGE, *_RUNS, "numpy", "uictest.sweeps.plan", "uictest.series.plan"),
+    ("check",): (*_LARGE, *_RUNS, "numpy", "uictest.plans.sweeps.plan", "uictest.plans.series.model"),
     ("check", str(Path(__file__).parents[2] / "scenarios")): (*_LARGE, *_RUNS, "numpy"),
     ("list",): (*_LARGE, *_RUNS, "numpy"),
     ("run",): (*_LARGE, *_RARE),
@@ -60,7 +65,7 @@ def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[
 
 def test_the_child_of_a_controller_imports_nothing_of_scenarios() -> None:
     program = "import sys, uictest.rig.external.child as _; print([*filter(sys.modules.get, sys.argv[1:])])"
-    forbidden = (*_LARGE, "pydantic", "yaml", "uictest.scenario.model", "uictest.rig.assembly")
+    forbidden = (*_LARGE, "pydantic", "yaml", "uictest.plans.scenario.model", "uictest.rig.assembly")
     command = [sys.executable, "-c", program, *forbidden]
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "[]\n"
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from uictest.cli.exit_codes import ExitCode, of_run
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 from uictest.runs import Published
 

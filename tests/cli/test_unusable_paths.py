@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.recording import Recording, write_parquet
+from uictest.core.recording import Recording, write_parquet
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

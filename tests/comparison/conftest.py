@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.recording import Recording
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
 from uictest.report import CaseDescription, RunContent, RunManifest
 
 FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {

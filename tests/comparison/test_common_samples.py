@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uictest.comparison.channel_difference import channel_difference
-from uictest.comparison.common_samples import Sampled, common_samples, over_distance
-from uictest.comparison.overlay import sampling_remarks
-from uictest.comparison.overlay_curves import curves_over_time, over_common_distance
-from uictest.recording import Recording
+from uictest.analysis.comparison.channel_difference import channel_difference
+from uictest.analysis.comparison.common_samples import Sampled, common_samples, over_distance
+from uictest.analysis.comparison.overlay import sampling_remarks
+from uictest.analysis.comparison.overlay_curves import curves_over_time, over_common_distance
+from uictest.core.recording import Recording
 
 MakeRecording = Callable[..., Recording]
 

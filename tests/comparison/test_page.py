@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest import comparison
-from uictest.comparison.shown_differences import in_page_units, quantity_title
-from uictest.recording import Recording, write_parquet
+from uictest.analysis import comparison
+from uictest.analysis.comparison.shown_differences import in_page_units, quantity_title
+from uictest.core.recording import Recording, write_parquet
 from uictest.report import Difference, RunContent
 
 MakeRecording = Callable[..., Recording]

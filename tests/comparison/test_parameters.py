@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from uictest.comparison import (
+from uictest.analysis.comparison import (
     ParameterChange,
     ParameterOfRun,
     Tolerances,
@@ -14,8 +14,8 @@ from uictest.comparison import (
     comparison_html,
     comparison_lines,
 )
-from uictest.comparison.parameters import change_text
-from uictest.evaluation import EffectivePart, Parameter
+from uictest.analysis.comparison.parameters import change_text
+from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import RunContent
 
 MakeRun = Callable[..., RunContent]

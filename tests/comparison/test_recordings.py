@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.comparison import Tolerances, compare_recordings
-from uictest.comparison.overlay import DRAWN
-from uictest.recording import Recording
+from uictest.analysis.comparison import Tolerances, compare_recordings
+from uictest.analysis.comparison.overlay import DRAWN
+from uictest.core.recording import Recording
 
 MakeRecording = Callable[..., Recording]
 DEFAULT = Tolerances()

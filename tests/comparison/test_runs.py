@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.comparison import Tolerances, compare_runs
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.analysis.comparison import Tolerances, compare_runs
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report import RunContent
 
 MakeRun = Callable[..., RunContent]

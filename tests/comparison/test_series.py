@@ -8,8 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest import series
-from uictest.comparison import (
+from uictest.analysis.comparison import (
     Baseline,
     Comparison,
     PairedComparison,
@@ -20,10 +19,11 @@ from uictest.comparison import (
     compare_variants,
     comparison_lines,
 )
-from uictest.evaluation import CaseResult, Verdict
+from uictest.core.series_measures import SeriesValue, mean_of
+from uictest.judging import series
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, junit_xml, missing_annotations, missing_lines
 from uictest.report.document import baseline_form, read_baseline_comparison
-from uictest.series_measures import SeriesValue, mean_of
 
 MakeCase = Callable[..., CaseResult]
 MakeSeries = Callable[..., series.SeriesResult]

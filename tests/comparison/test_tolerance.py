@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.comparison import Tolerance, Tolerances
+from uictest.analysis.comparison import Tolerance, Tolerances
 
 
 @pytest.mark.parametrize(

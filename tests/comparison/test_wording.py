@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.comparison import (
+from uictest.analysis.comparison import (
     Tolerances,
     compare_recordings,
     compare_runs,
@@ -16,7 +16,7 @@ from uictest.comparison import (
     comparison_lines,
     verdict_line,
 )
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.report import RunContent
 
 MakeRun = Callable[..., RunContent]

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest import conformance, templates
-from uictest.scenario import load_controller
+from uictest.plans import templates
+from uictest.plans.scenario import load_controller
+from uictest.selftest import conformance
 
 Examine = Callable[..., conformance.Examination]
 

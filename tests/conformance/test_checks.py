@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from uictest import conformance
-from uictest.conformance import checks
 from uictest.controllers import OUTPUTS
-from uictest.scenario import load_part
+from uictest.plans.scenario import load_part
+from uictest.selftest import conformance
+from uictest.selftest.conformance import checks
 
 Examine = Callable[..., conformance.Examination]
 STEP = '        """Answer one controller cycle."""\n'

@@ -9,13 +9,13 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from uictest import conformance
-from uictest.conformance import situations
-from uictest.conformance.bench import Answers, Bench
-from uictest.conformance.checks import Observation
-from uictest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, Situation
 from uictest.controllers import OUTPUTS
 from uictest.rig import Driven
+from uictest.selftest import conformance
+from uictest.selftest.conformance import situations
+from uictest.selftest.conformance.bench import Answers, Bench
+from uictest.selftest.conformance.checks import Observation
+from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, Situation
 
 CYCLE = 0.05
 NEVER = float("inf")

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from uictest.controllers import CONTROLLERS, Controller
-from uictest.record import fields_of
-from uictest.scenario import load_part
+from uictest.core.record import fields_of
+from uictest.plans.scenario import load_part
 
 CYCLE = 0.01
 

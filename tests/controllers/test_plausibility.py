@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from uictest.physics import FILL, VENT
-from uictest.scenario import load_part
+from uictest.core.physics import FILL, VENT
+from uictest.plans.scenario import load_part
 
 Benches = Callable[..., Any]
 CYCLE = 0.01

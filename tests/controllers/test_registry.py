@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from uictest.controllers import CONTROLLERS, built_in, registry
-from uictest.physics import VENT
+from uictest.core.physics import VENT
+from uictest.plans.scenario import ScenarioErrors, load
+from uictest.plans.scenario.parts.controller import CONTROLLER_MODELS, _model
 from uictest.rig import assemble
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.plain import plain_stop
-from uictest.scenario import ScenarioErrors, load
-from uictest.scenario.parts.controller import CONTROLLER_MODELS, _model
 
 MODULE = '''
 from uictest.controllers import ControlledWheelset, Controller, ControllerParameters, TrainMemory
 from uictest.controllers.contract import share
-from uictest.physics import VENT
+from uictest.core.physics import VENT
 
 
 class Parameters(ControllerParameters):

@@ -15,17 +15,17 @@ from unittest.mock import patch
 import pytest
 import yaml
 
-from uictest import scenario
 from uictest.cli.entry import execute
-from uictest.field_data import load_map
+from uictest.plans import scenario
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario.references import KIND_OF_FOLDER
+from uictest.plans.scenario.yaml import plain, read_file, validated
+from uictest.plans.series import load_series
+from uictest.plans.sweeps import load_sweep
+from uictest.plans.validation import ValidationFile
+from uictest.recorded.field_data import load_map
 from uictest.rig.bench.loading import load_bench
-from uictest.scenario import ScenarioErrors
-from uictest.scenario.references import KIND_OF_FOLDER
-from uictest.scenario.yaml import plain, read_file, validated
-from uictest.series import load_series
 from uictest.studies import STUDIES
-from uictest.sweeps import load_sweep
-from uictest.validation import ValidationFile
 
 REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")

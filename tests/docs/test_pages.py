@@ -6,8 +6,8 @@ import dataclasses
 import re
 from pathlib import Path
 
-from uictest.evaluation import CaseResult, Verdict
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 
 REPOSITORY = Path(__file__).parents[2]

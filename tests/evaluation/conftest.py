@@ -10,8 +10,8 @@ import pytest
 import yaml
 from hypothesis import settings
 
-from uictest.scenario.parts.criteria import Criteria, Criterion
-from uictest.scenario.parts.measures import MeasureDefinitions
+from uictest.plans.scenario.parts.criteria import Criteria, Criterion
+from uictest.plans.scenario.parts.measures import MeasureDefinitions
 
 from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
 
@@ -31,7 +31,7 @@ def _profile(*criteria: Criterion) -> Criteria:
 
 
 def _written(name: str, folder: str = "criteria") -> Any:
-    file = resources.files("uictest.library") / folder / f"{name}.yaml"
+    file = resources.files("uictest.plans.library") / folder / f"{name}.yaml"
     return yaml.safe_load(file.read_text("utf-8"))
 
 

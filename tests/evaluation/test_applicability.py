@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from uictest import evaluation, scenario
+from uictest.plans import scenario, scenario as scenarios
 
-CONDITIONS = evaluation.TestConditions("soap", "active", "R", 1.0, 0.0, "one-caliper")
+CONDITIONS = scenarios.TestConditions("soap", "active", "R", 1.0, 0.0, "one-caliper")
 
 
 @pytest.mark.parametrize(
@@ -22,4 +22,4 @@ def test_a_criterion_names_the_rails_it_is_for_or_not_for(
     required: dict[str, tuple[str, ...]], unmet: list[str]
 ) -> None:
     applies = scenario.Applicability(**required)
-    assert [str(each) for each in evaluation.unmet_conditions(applies, CONDITIONS, None)] == unmet
+    assert [str(each) for each in scenarios.unmet_conditions(applies, CONDITIONS, None)] == unmet

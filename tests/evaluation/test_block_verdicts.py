@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, strategies as st
 
-from uictest.evaluation.block_verdicts import BoundedValues
-from uictest.evaluation.bounds import Bounds, deciding
-from uictest.evaluation.decision import why_decided
-from uictest.evaluation.verdict import Verdict, relative_margin
+from uictest.judging.evaluation.block_verdicts import BoundedValues
+from uictest.judging.evaluation.bounds import Bounds, deciding
+from uictest.judging.evaluation.decision import why_decided
+from uictest.judging.evaluation.verdict import Verdict, relative_margin
 
 bound = st.none() | st.sampled_from([0.0, -1.0, 2.5]) | st.floats(-1e6, 1e6)
 value = st.sampled_from([0.0, -0.0, -1.0, 2.5, math.nan, math.inf, -math.inf]) | st.floats(-1e7, 1e7)

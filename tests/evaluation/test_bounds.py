@@ -3,7 +3,7 @@ import math
 import pytest
 from hypothesis import assume, given, strategies as st
 
-from uictest.evaluation.bounds import Bounds, deciding
+from uictest.judging.evaluation.bounds import Bounds, deciding
 
 any_number = st.floats(allow_nan=True, allow_infinity=True)
 number = st.floats(-1e9, 1e9)

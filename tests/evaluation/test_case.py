@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, error_result, evaluate, evaluate_simulated
+from uictest.judging.evaluation import CaseResult, error_result, evaluate, evaluate_simulated
 
 G = 9.80665
 
@@ -91,7 +91,7 @@ def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     shipped, scenario, case, stop, wheelsets, monkeypatch, misfit, statuses, outcome
 ) -> None:
     """What is not known leaves the outcome alone; without any other criterion there is no judgement."""
-    monkeypatch.setattr("uictest.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
+    monkeypatch.setattr("uictest.plans.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
     stopped = stop(compensation_misfit=misfit)
     result = evaluate(
         case(scenario(shipped("uictest-stop"), shipped("uictest-rig"))), stopped, wheelsets(0.0)

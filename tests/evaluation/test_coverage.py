@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.evaluation import Coverage, MissingData, evaluate, judge
+from uictest.judging.evaluation import Coverage, MissingData, evaluate, judge
 
 KMH = 1 / 3.6
 ENDED = "the simulation ended after 60 s at 43.2 km/h; raise `simulation.maximum_duration`"

@@ -6,8 +6,8 @@ import jsonschema
 import pytest
 from pydantic import ValidationError
 
-from uictest.scenario.parts.criteria import Criteria
-from uictest.scenario.yaml.model import quantities_in
+from uictest.plans.scenario.parts.criteria import Criteria
+from uictest.plans.scenario.yaml.model import quantities_in
 
 SHIPPED = ("uic-541-05-appendix-b", "uictest-stop")
 

@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-from uictest.evaluation import (
+from uictest.core.measures import STOP_COLUMNS
+from uictest.judging.evaluation import (
     EffectivePart,
     Parameter,
     cases_document,
@@ -16,7 +17,6 @@ from uictest.evaluation import (
     results_of,
     to_json,
 )
-from uictest.measures import STOP_COLUMNS
 
 CASE = [
     *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
@@ -223,6 +223,6 @@ def test_another_document_is_refused(document, message: str) -> None:
 
 def test_importing_the_room_imports_nothing_heavy() -> None:
     heavy = ("pandas", "pyarrow", "numba", "scipy", "pydantic", "numpy")
-    code = f"import sys, uictest.evaluation; print([m for m in {heavy} if m in sys.modules])"
+    code = f"import sys, uictest.judging.evaluation; print([m for m in {heavy} if m in sys.modules])"
     found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
     assert found.strip() == "[]"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import EffectivePart, Parameter, parts_document
-from uictest.evaluation.effective_parts import EffectiveParts
-from uictest.scenario import Case, load
+from uictest.judging.evaluation import EffectivePart, Parameter, parts_document
+from uictest.judging.evaluation.effective_parts import EffectiveParts
+from uictest.plans.scenario import Case, load
 
 Cases = Callable[..., list[Case]]
 Parts = dict[str, EffectivePart]
@@ -111,7 +111,7 @@ def test_criteria_that_were_left_out_or_added_are_told(cases: Cases) -> None:
 
 
 def test_every_number_of_every_part_is_there(cases: Cases) -> None:
-    from uictest.scenario.part_keys import PART_KEYS
+    from uictest.plans.scenario.part_keys import PART_KEYS
 
     (case,) = cases("")
     parts = of(case)

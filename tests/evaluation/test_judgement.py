@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.evaluation import AppliedDefinition, judge
+from uictest.judging.evaluation import AppliedDefinition, judge
 
 G = 9.80665
 KMH = 1 / 3.6

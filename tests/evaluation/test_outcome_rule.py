@@ -6,16 +6,16 @@ from statistics import median
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.evaluation.bounds import Bounds
-from uictest.evaluation.decision import Decision
-from uictest.evaluation.outcome_rule import (
+from uictest.judging.evaluation.bounds import Bounds
+from uictest.judging.evaluation.decision import Decision
+from uictest.judging.evaluation.outcome_rule import (
     OutcomeRule,
     decision_over_stops,
     outcome_over_stops,
     over_stops,
     seeds_text,
 )
-from uictest.evaluation.repeats import RepeatedStop
+from uictest.judging.evaluation.repeats import RepeatedStop
 
 ALL, MEDIAN = OutcomeRule("all"), OutcomeRule("median")
 LETTERS = {"p": "pass", "f": "fail", "i": "invalid", "u": "inconclusive", "s": "skipped", "e": "error"}

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.evaluation import (
+from uictest.judging.evaluation import (
     READINGS,
     Coverage,
     MissingData,

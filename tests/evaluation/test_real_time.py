@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from uictest.controllers import ResponseTimes
-from uictest.evaluation import (
+from uictest.judging.evaluation import (
     CaseResult,
     cases_document,
     evaluate_simulated,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from uictest.evaluation import SimulatedRepeat, error_result, evaluate, evaluate_repeats
-from uictest.scenario import ShareOfStops
+from uictest.judging.evaluation import SimulatedRepeat, error_result, evaluate, evaluate_repeats
+from uictest.plans.scenario import ShareOfStops
 
 ALL, MEDIAN = "all", "median"
 

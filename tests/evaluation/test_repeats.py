@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.evaluation import (
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging.evaluation import (
     CaseResult,
     OverStops,
     RepeatedStop,
@@ -20,7 +21,6 @@ from uictest.evaluation import (
     spread_of,
     to_json,
 )
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
 numbers = st.floats(-1e6, 1e6)
 

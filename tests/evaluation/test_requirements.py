@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import SimulatedRepeat, applies_to, error_result, evaluate, evaluate_repeats
-from uictest.scenario import Case, load
+from uictest.judging.evaluation import SimulatedRepeat, error_result, evaluate, evaluate_repeats
+from uictest.plans.scenario import Case, applies_to, load
 
 TEXT = """\
 schema: uictest/scenario/1

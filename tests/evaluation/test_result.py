@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import (
+from uictest.judging.evaluation import (
     CaseResult,
     Sensitivity,
     Verdict,
@@ -17,8 +17,8 @@ from uictest.evaluation import (
     result_document,
     results_of,
 )
-from uictest.evaluation.result import outcome_of
-from uictest.evaluation.verdict import relative_margin
+from uictest.judging.evaluation.result import outcome_of
+from uictest.judging.evaluation.verdict import relative_margin
 
 FLIPPING = Sensitivity(
     "cut-off", "km/h", 20.0, 40.0, (VerdictInterval(20, 30, "pass"), VerdictInterval(30, 40, "fail"))

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.evaluation import judge
-from uictest.evaluation.bounds import bounds_of
-from uictest.evaluation.coverage import ObservedStop
-from uictest.evaluation.decision import Decision, decide
-from uictest.evaluation.sensitivity import sensitivity
+from uictest.judging.evaluation import judge
+from uictest.judging.evaluation.bounds import bounds_of
+from uictest.judging.evaluation.coverage import ObservedStop
+from uictest.judging.evaluation.decision import Decision, decide
+from uictest.judging.evaluation.sensitivity import sensitivity
 
 G = 9.80665
 KMH = 1 / 3.6

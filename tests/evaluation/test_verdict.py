@@ -4,7 +4,7 @@ from typing import Any
 import pytest
 from pydantic import ConfigDict, TypeAdapter
 
-from uictest.evaluation import (
+from uictest.judging.evaluation import (
     AppliedDefinition,
     Sensitivity,
     Verdict,

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from uictest.evaluation.effective_parts import EffectiveParts
-from uictest.scenario import load
+from uictest.judging.evaluation.effective_parts import EffectiveParts
+from uictest.plans.scenario import load
 
 
 def test_own_values_are_listed_with_their_marks_and_nothing_else_is(tmp_path: Path) -> None:

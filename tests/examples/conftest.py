@@ -16,15 +16,15 @@ import pytest
 import uictest
 from uictest import rig
 from uictest.controllers import CONTROLLERS, DEFAULT
-from uictest.scenario import Case, load
-from uictest.scenario.parts.external_controller import (
+from uictest.plans.scenario import Case, load
+from uictest.plans.scenario.parts.external_controller import (
     ExternalController,
     FmuController,
     LibraryController,
     SocketController,
 )
-from uictest.scenario.parts.program_file import ProgramFile
-from uictest.scenario.yaml import Document
+from uictest.plans.scenario.parts.program_file import ProgramFile
+from uictest.plans.scenario.yaml import Document
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"

@@ -13,9 +13,9 @@ import pytest
 
 from uictest import rig
 from uictest.cli.entry import execute
-from uictest.scenario import load
-from uictest.scenario.yaml import plain, read_file
-from uictest.sweeps import load_sweep
+from uictest.plans.scenario import load
+from uictest.plans.scenario.yaml import plain, read_file
+from uictest.plans.sweeps import load_sweep
 
 REPOSITORY = Path(__file__).parents[2]
 PI = REPOSITORY / "examples" / "pi"

@@ -9,7 +9,7 @@ import pytest
 
 from uictest import rig
 from uictest.controllers import ControllerError
-from uictest.scenario import Case, load
+from uictest.plans.scenario import Case, load
 
 from .conftest import EXAMPLES, Serve, bits, listening
 

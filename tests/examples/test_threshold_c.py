@@ -25,9 +25,9 @@ from uictest.controllers import (
 )
 from uictest.controllers.adapters.instance import STEP
 from uictest.controllers.built_in import threshold
-from uictest.physics import FILL, VENT
+from uictest.core.physics import FILL, VENT
+from uictest.plans.scenario import Case, load
 from uictest.rig.external.in_process import run_in_process
-from uictest.scenario import Case, load
 
 from .conftest import EXAMPLES, Serve, WithController, bits, listening
 

@@ -11,12 +11,14 @@ from pathlib import Path
 import pytest
 import yaml
 
-from uictest import campaign, scenario, series
 from uictest.controllers import CONTROLLERS, DEFAULT
+from uictest.judging import series
+from uictest.plans import scenario, series as series_plans
+from uictest.running import campaign
 
 ROOT = Path(__file__).parents[2]
 WSPS = ("controller=threshold", "controller=threshold-c", "controller=slip-band", "wsp=bypassed")
-Load = Callable[[str], dict[str, series.Series]]
+Load = Callable[[str], dict[str, series_plans.Series]]
 
 
 @pytest.fixture
@@ -26,13 +28,13 @@ def load(threshold_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     shutil.copytree(threshold_library.parent, tmp_path / "threshold-c")
     monkeypatch.chdir(tmp_path)
 
-    def read(name: str) -> dict[str, series.Series]:
-        return dict(zip(WSPS, series.load_series(Path("wsp", name)), strict=True))
+    def read(name: str) -> dict[str, series_plans.Series]:
+        return dict(zip(WSPS, series_plans.load_series(Path("wsp", name)), strict=True))
 
     return read
 
 
-def judged(planned: series.Series) -> series.SeriesResult:
+def judged(planned: series_plans.Series) -> series.SeriesResult:
     done = campaign.run_cases(planned.cases, jobs=len(os.sched_getaffinity(0)))
     cases = [
         series.SeriesCase(stop.role, round(stop.speed * 3.6, 6), result)
@@ -95,7 +97,7 @@ def test_the_order_on_a_few_stops(load: Load) -> None:
     assert "adhesion-utilisation" not in missed(bypassed)  # judged on a rail that sliding cleans
 
 
-def _small(planned: series.Series) -> series.Series:
+def _small(planned: series_plans.Series) -> series_plans.Series:
     stops = [
         stop
         for stop in planned.stops

@@ -4,9 +4,9 @@ from dataclasses import astuple
 
 import pytest
 
-from uictest.faults import FAULT_KINDS, SPEED_SENSOR, Effects, FaultKind
-from uictest.scenario.yaml import parse_quantity
-from uictest.units import KINDS
+from uictest.core.units import KINDS
+from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR, Effects, FaultKind
+from uictest.plans.scenario.yaml import parse_quantity
 
 ROWS = list(FAULT_KINDS.values())
 NAMES = ["-".join(key) for key in FAULT_KINDS]

@@ -7,8 +7,8 @@ from dataclasses import asdict
 
 import pytest
 
-from uictest.faults import FAULT_KINDS, Effects, FaultKind
-from uictest.scenario.yaml import parse_quantity
+from uictest.plans.faults import FAULT_KINDS, Effects, FaultKind
+from uictest.plans.scenario.yaml import parse_quantity
 
 NOTHING = {
     "speed_valid": 1.0,

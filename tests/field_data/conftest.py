@@ -11,11 +11,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult
-from uictest.field_data import Preparation, RawChannel, RecordedStop, judge_recording, prepare, stated_case
-from uictest.recording import TIME, Recording
+from uictest.core.recording import TIME, Recording
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import Case
+from uictest.recorded.field_data import (
+    Preparation,
+    RawChannel,
+    RecordedStop,
+    judge_recording,
+    prepare,
+    stated_case,
+)
 from uictest.rig import SimulatedStop, simulate
-from uictest.scenario import Case
 
 STATEMENTS = (
     "rail.condition=wet",

@@ -5,7 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.field_data import (
+from uictest.core.recording.contents import Contents, Group
+from uictest.plans.scenario import ScenarioErrors
+from uictest.recorded.field_data import (
     MapError,
     channel_rows,
     fitting_preset,
@@ -14,9 +16,7 @@ from uictest.field_data import (
     proposed_map,
     select_channels,
 )
-from uictest.field_data.channels import CHANNEL_UNITS
-from uictest.recording.contents import Contents, Group
-from uictest.scenario import ScenarioErrors
+from uictest.recorded.field_data.channels import CHANNEL_UNITS
 
 HEAD = "schema: uictest/channel-map/1\nname: mine\n"
 TIME = np.array([0.0, 1.0, 2.0])

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.field_data import stated_case
-from uictest.scenario import ScenarioErrors
+from uictest.plans.scenario import ScenarioErrors
+from uictest.recorded.field_data import stated_case
 
 
 def test_what_is_stated_becomes_a_case() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import UnusableError, unusable_result
+from uictest.recorded.field_data import UnusableError, unusable_result
 
 from .conftest import judge_stop
 

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from uictest.field_data import recorded_description, stated_case
+from uictest.plans.scenario import Case
+from uictest.recorded.field_data import recorded_description, stated_case
 from uictest.report import subjects_form
 from uictest.report.document import read_subjects
-from uictest.scenario import Case
 
 
 def test_a_recorded_stop_is_headed_by_its_file_and_by_what_was_read_and_derived(

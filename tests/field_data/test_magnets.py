@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from uictest.field_data import RawChannel
-from uictest.field_data.magnets import with_valve_commands
+from uictest.recorded.field_data import RawChannel
+from uictest.recorded.field_data.magnets import with_valve_commands
 
 TIME = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
 NAN = float("nan")
@@ -48,7 +48,7 @@ def test_magnets_with_times_of_their_own_are_no_command() -> None:
 def test_magnets_of_a_stop_count_the_actuations_of_its_valves(
     channels: dict[str, Any], case: Any, prepared: Any
 ) -> None:
-    from uictest.field_data.observation import observe
+    from uictest.recorded.field_data.observation import observe
 
     commands = [f"valve_command_{n}" for n in (1, 2, 3, 4)]
     magnets = {name: channel for name, channel in channels.items() if name not in commands}

@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import evaluate
-from uictest.field_data import judge_recording, load_map, prepare, select_channels, stated_case
-from uictest.field_data.observation import observe
-from uictest.measures import MEASURES
-from uictest.recording.formats import FORMATS, Dialect, writer_of
-from uictest.recording.formats.reader import read_here
+from uictest.core.measures import MEASURES
+from uictest.core.recording.formats import FORMATS, Dialect, writer_of
+from uictest.core.recording.formats.reader import read_here
+from uictest.judging.evaluation import evaluate
+from uictest.plans.scenario import Case
+from uictest.recorded.field_data import judge_recording, load_map, prepare, select_channels, stated_case
+from uictest.recorded.field_data.observation import observe
 from uictest.rig import SimulatedStop
-from uictest.scenario import Case
 
 from .conftest import judge_stop
 

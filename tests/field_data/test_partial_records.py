@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import stated_case
-from uictest.field_data.observation import observe
-from uictest.measures import MEASURES
-from uictest.scenario import Case
-from uictest.scenario.parts.criteria import Criteria, Criterion
-from uictest.units import KINDS
+from uictest.core.measures import MEASURES
+from uictest.core.units import KINDS
+from uictest.plans.scenario import Case
+from uictest.plans.scenario.parts.criteria import Criteria, Criterion
+from uictest.recorded.field_data import stated_case
+from uictest.recorded.field_data.observation import observe
 
 from .conftest import judge_stop
 

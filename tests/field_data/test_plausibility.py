@@ -8,8 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from uictest.field_data import MapError, RawChannel, RecordedStop, UnusableError, load_map, select_channels
-from uictest.recording.contents import Contents, Group
+from uictest.core.recording.contents import Contents, Group
+from uictest.recorded.field_data import (
+    MapError,
+    RawChannel,
+    RecordedStop,
+    UnusableError,
+    load_map,
+    select_channels,
+)
 
 Channels = dict[str, RawChannel]
 SECONDS = np.arange(0.0, 20.0, 0.05)

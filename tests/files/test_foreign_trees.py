@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from uictest.files import (
+from uictest.core.files import (
     LATEST,
     LIST,
     FolderInUseError,

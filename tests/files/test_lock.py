@@ -14,12 +14,12 @@ from pathlib import Path
 
 import pytest
 
-from uictest.files import FolderInUseError, FolderLock
+from uictest.core.files import FolderInUseError, FolderLock
 
 HOLDER = """
 import sys
 from pathlib import Path
-from uictest.files import FolderLock
+from uictest.core.files import FolderLock
 with FolderLock(Path(sys.argv[1]), shared=sys.argv[2] == "shared"):
     print("held", flush=True)
     sys.stdin.read()

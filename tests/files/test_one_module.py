@@ -1,4 +1,4 @@
-"""Nothing but `uictest.files` writes, renames or removes."""
+"""Nothing but `uictest.core.files` writes, renames or removes."""
 
 from __future__ import annotations
 

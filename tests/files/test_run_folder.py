@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.files import (
+from uictest.core.files import (
     LATEST,
     LIST,
     FolderLock,
@@ -79,7 +79,7 @@ def test_a_folder_below_a_regular_file_is_an_oserror(tmp_path: Path) -> None:
 KILLED_AT_WORK = """
 import os, signal, sys
 from pathlib import Path
-from uictest.files import RunFolder, write
+from uictest.core.files import RunFolder, write
 with RunFolder(Path(sys.argv[1]), "killed") as folder:
     write(folder.path, "recordings/a.csv", "half")
     os.kill(os.getpid(), signal.SIGKILL)
@@ -276,7 +276,7 @@ def test_a_publication_that_fails_leaves_nothing(tmp_path: Path, monkeypatch: py
 PUBLISHER = """
 import sys
 from pathlib import Path
-from uictest.files import RunFolder, write
+from uictest.core.files import RunFolder, write
 sys.stdin.read()
 for _ in range(10):
     with RunFolder(Path(sys.argv[1]), "run") as folder:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.files import new_file, write_to
+from uictest.core.files import new_file, write_to
 
 
 def test_the_file_has_the_content_and_nothing_is_left_beside_it(tmp_path: Path) -> None:

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
-from uictest.recording import TIME, Recording
+from uictest.core.recording import TIME, Recording
+from uictest.plans.scenario import Case
+from uictest.recorded.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
 from uictest.rig import simulate
-from uictest.scenario import Case
 
 NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
 """Standard deviations, m/s and N; wheel speeds are read by the rig's toothed wheels besides."""

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import WHEELSETS, stated_case
-from uictest.fitting import CleaningFit, FitError, fit_cleaning, fit_stop
+from uictest.plans.scenario import Scenario
+from uictest.recorded.field_data import WHEELSETS, stated_case
+from uictest.recorded.fitting import CleaningFit, FitError, fit_cleaning, fit_stop
 from uictest.rig import simulate
-from uictest.scenario import Scenario
 
 Make = Callable[..., Any]
 

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.field_data import stated_case
-from uictest.fitting import FitError, fit_stop
-from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.stretches import stretch_names, stretch_of
-from uictest.fitting.wheel_loads import wheel_loads
-from uictest.physics.polach import contact_stiffness, creep_force
-from uictest.scenario import load_part
+from uictest.core.physics.polach import contact_stiffness, creep_force
+from uictest.plans.scenario import load_part
+from uictest.recorded.field_data import stated_case
+from uictest.recorded.fitting import FitError, fit_stop
+from uictest.recorded.fitting.creep import wheelset_creep
+from uictest.recorded.fitting.stretches import stretch_names, stretch_of
+from uictest.recorded.fitting.wheel_loads import wheel_loads
 
 Make = Callable[..., Any]
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.field_data import stated_case
-from uictest.fitting.balances import Balances, windows_of
-from uictest.fitting.cleaned_stop import CleanedStop
-from uictest.fitting.cleaning import find_cleaning
-from uictest.fitting.creep import wheelset_creep
-from uictest.fitting.rail_under_stop import RailUnderStop
-from uictest.fitting.samples import StopSamples
-from uictest.fitting.stretches import Stretches
-from uictest.scenario import Scenario
-from uictest.units import STANDARD_GRAVITY
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario import Scenario
+from uictest.recorded.field_data import stated_case
+from uictest.recorded.fitting.balances import Balances, windows_of
+from uictest.recorded.fitting.cleaned_stop import CleanedStop
+from uictest.recorded.fitting.cleaning import find_cleaning
+from uictest.recorded.fitting.creep import wheelset_creep
+from uictest.recorded.fitting.rail_under_stop import RailUnderStop
+from uictest.recorded.fitting.samples import StopSamples
+from uictest.recorded.fitting.stretches import Stretches
 
 ENERGY, FRICTION, CLEAN = 8000.0, 0.07, 0.22
 LOSS = 2000.0

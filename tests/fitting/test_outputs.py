@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 import yaml
 
-from uictest.field_data import stated_case
-from uictest.fitting.estimate import Fit
-from uictest.fitting.outputs import fitted_yaml, friction_of
-from uictest.fitting.stretches import Estimate
-from uictest.scenario import Case, load
+from uictest.plans.scenario import Case, load
+from uictest.recorded.field_data import stated_case
+from uictest.recorded.fitting.estimate import Fit
+from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
+from uictest.recorded.fitting.stretches import Estimate
 
 NAN = float("nan")
 HEAD = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 80 km/h\n"

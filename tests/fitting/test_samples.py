@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
-from uictest.fitting.samples import initial_speed, samples_of
-from uictest.recording import TIME
+from uictest.core.recording import TIME
+from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
+from uictest.recorded.fitting.samples import initial_speed, samples_of
 from uictest.rig import simulate
 
 

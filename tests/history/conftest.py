@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest import evaluation, report, runs
-from uictest.measures import STOP_COLUMNS
+from uictest import report, runs
+from uictest.core.measures import STOP_COLUMNS
+from uictest.judging import evaluation
 
 FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan"))
 VERSIONS = {"uictest": "0.1.0", "numpy": "2.0.0"}

@@ -4,9 +4,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
-from uictest import evaluation
-from uictest.history.case_history import CaseHistory, case_histories, runs_with_cases
-from uictest.history.listing import CASES_READ, list_runs
+from uictest.judging import evaluation
+from uictest.runs.history.case_history import CaseHistory, case_histories, runs_with_cases
+from uictest.runs.history.listing import CASES_READ, list_runs
 
 from .conftest import Publish, case, part
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest import report
-from uictest.evaluation import RepeatedStop, Repeats
-from uictest.history.entry import ENTRY, CaseEntry, RunEntry, _written, entry_of, read_entry
+from uictest.judging.evaluation import RepeatedStop, Repeats
+from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, _written, entry_of, read_entry
 
 from .conftest import Publish, case
 

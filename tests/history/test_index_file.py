@@ -12,9 +12,9 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
-from uictest import files
-from uictest.files import FolderLock
-from uictest.history import index_file, refresh_index
+from uictest.core import files
+from uictest.core.files import FolderLock
+from uictest.runs.history import index_file, refresh_index
 
 from .conftest import Publish, case, part
 
@@ -174,7 +174,9 @@ def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(
 AT_ONCE = """
 import sys
 from pathlib import Path
-from uictest import evaluation, files, report, runs
+from uictest import report, runs
+from uictest.core import files
+from uictest.judging import evaluation
 for n in range(4):
     result = evaluation.CaseResult(f"case-{sys.argv[1]}-{n}", "s.yaml", {}, "pass", "pass")
     manifest = report.RunManifest(command=("uictest", "run", sys.argv[1], str(n)))

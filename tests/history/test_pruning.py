@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from uictest import files, report
-from uictest.files import FolderLock
-from uictest.history import prune
+from uictest import report
+from uictest.core import files
+from uictest.core.files import FolderLock
+from uictest.runs.history import prune
 
 from .conftest import Publish, case
 
@@ -248,7 +249,7 @@ def test_a_removal_cut_short_is_completed_by_the_next_run(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr("uictest.files.run_folder.remove_contents", stop)
+        patched.setattr("uictest.core.files.run_folder.remove_contents", stop)
         with pytest.raises(KeyboardInterrupt):
             fates(reports, 1, newest)
     assert not old.exists()

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from uictest import report, sweeps
-from uictest.history import ENTRY, ListedRun, Unlisted, read_folder
-from uictest.history.run_in_folder import started_in
+from uictest import report
+from uictest.running import chunked
+from uictest.runs.history import ENTRY, ListedRun, Unlisted, read_folder
+from uictest.runs.history.run_in_folder import started_in
 
 from .conftest import Publish, case
 
@@ -19,7 +20,7 @@ SWEEP = {"schema": report.SWEEP_SCHEMA, "name": "study", "cases": 3, "met": 2}
 
 def sweep(folder: Path, **changes: object) -> Path:
     folder.mkdir(parents=True)
-    manifest = {"schema": sweeps.SCHEMA, "sweep": "study", "file": "study.sweep.yaml", "cases": 3}
+    manifest = {"schema": chunked.SCHEMA, "sweep": "study", "file": "study.sweep.yaml", "cases": 3}
     (folder / "manifest.json").write_text(json.dumps(manifest))
     document = SWEEP | {"outcomes": {"pass": 2, "fail": 1}} | changes
     (folder / "sweep.json").write_text(json.dumps(document))

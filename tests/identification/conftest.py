@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.identification.lines import FittedLine
-from uictest.identification.play import computed_force
+from uictest.rig.identification.lines import FittedLine
+from uictest.rig.identification.play import computed_force
 
 STEP = 0.0005
 LINES = {

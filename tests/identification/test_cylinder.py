@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.identification import UnsuitableRecordError, fitted_freely, identify_cylinder
-from uictest.identification.transfer_function import assembled
+from uictest.rig.identification import UnsuitableRecordError, fitted_freely, identify_cylinder
+from uictest.rig.identification.transfer_function import assembled
 
 STEP = 0.0005
 FREQUENCIES = np.geomspace(0.05, 20.0, 60)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.identification import UnsuitableRecordError, identify_hysteresis
+from uictest.rig.identification import UnsuitableRecordError, identify_hysteresis
 
 from .conftest import LINES
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.identification.lines import robust_line
+from uictest.rig.identification.lines import robust_line
 
 PRESSURE = np.linspace(1e5, 4e5, 400)
 

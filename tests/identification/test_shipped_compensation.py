@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from uictest.cli.entry import execute
-from uictest.identification.compensation_file import load_compensation
-from uictest.identification.transfer_function import TransferFunction
+from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.rig.bench.loading import recipe_path
-from uictest.scenario.parts.compensation import Compensation
+from uictest.rig.identification.compensation_file import load_compensation
+from uictest.rig.identification.transfer_function import TransferFunction
 
 PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
 FREQUENCIES = np.geomspace(0.01, 20.0, 30)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.signal import cont2discrete
 
-from uictest.identification.transfer_function import assembled, basis, sections
+from uictest.rig.identification.transfer_function import assembled, basis, sections
 
 constants = st.floats(0.002, 5.0)
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uictest.lanes import block, register_width
+from uictest.core.lanes import block, register_width
 
 LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8")]))
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import numba
 
-from uictest.lanes import compile_inner
+from uictest.core.lanes import compile_inner
 
 
 def has_machine_code(function: Any) -> bool:

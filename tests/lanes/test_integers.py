@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest import lanes
-from uictest.lanes import select, vectors
-from uictest.physics.noise import bell, threefry
+from uictest.core import lanes
+from uictest.core.lanes import select, vectors
+from uictest.core.physics.noise import bell, threefry
 from uictest.rig.backends.compiled import translate
 
 WIDTH = 8

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest import lanes, physics
-from uictest.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
-from uictest.physics import arithmetic, mass_flow, orifice_law
+from uictest.core import lanes, physics
+from uictest.core.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
+from uictest.core.physics import arithmetic, mass_flow, orifice_law
 from uictest.rig.backends.compiled import translate
 
 WIDTH = 8

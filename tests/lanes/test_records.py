@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numba.core.errors import TypingError
 
-from uictest import lanes
-from uictest.lanes import copy_from_lane, copy_to_lane, lane, vectors
+from uictest.core import lanes
+from uictest.core.lanes import copy_from_lane, copy_to_lane, lane, vectors
 
 LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8"), ("load", "f8")]))
 WIDTHS = [2, 4, 8, 16]

@@ -4,7 +4,7 @@ from typing import Any
 
 import numba
 
-from uictest.lanes import align_stack
+from uictest.core.lanes import align_stack
 
 njit: Any = numba.njit
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from uictest import library
-from uictest.scenario import ScenarioErrors, load_part, numbers
+from uictest.plans import library
+from uictest.plans.scenario import ScenarioErrors, load_part, numbers
 
 REFERENCES = [f"{folder}/{name}" for folder in library.FOLDERS for name in library.names(folder)]
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.scenario import load
 
 SCENARIO = Path(__file__).parents[2] / "scenarios" / "slip-120.yaml"
 RATE = 100

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from uictest import campaign
-from uictest.evaluation import CaseResult
-from uictest.faults import FAULT_KINDS
-from uictest.scenario import load
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.faults import FAULT_KINDS
+from uictest.plans.scenario import load
+from uictest.running import campaign
 
 VALUES = {
     ("speed-sensor", "factor"): "50 %",

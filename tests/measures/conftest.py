@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.measures import (
+from uictest.core.measures import (
     STOP_MEASURES,
     WHEELSET_MEASURES,
     MeasureDefinition,
@@ -21,7 +21,7 @@ from uictest.measures import (
     observe_train,
     observe_wheelset,
 )
-from uictest.record import layout_of
+from uictest.core.record import layout_of
 
 Column = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.measures import (
+from uictest.core.measures import (
     STOP_COLUMNS,
     begin_build_up,
     begin_train,
@@ -15,12 +15,12 @@ from uictest.measures import (
     observe_build_up,
     observe_train,
 )
-from uictest.measures.catalogue.build_up import (
+from uictest.core.measures.catalogue.build_up import (
     build_up_time,
     deceleration_distance,
     developed_deceleration,
 )
-from uictest.measures.catalogue.stopping import mean_deceleration
+from uictest.core.measures.catalogue.stopping import mean_deceleration
 
 COMMANDED = 3.8e5
 DEFINITION: Any = SimpleNamespace(

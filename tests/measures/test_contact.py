@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import (
+from uictest.core.measures import (
     begin_contact,
     begin_slides,
     begin_train,

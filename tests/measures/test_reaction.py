@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from uictest.measures import observe_reaction, observe_reference
+from uictest.core.measures import observe_reaction, observe_reference
 
 CYCLE = 0.01
 DEFINITION = SimpleNamespace(moving_speed=2.8, developed_time=2.0, released_share=0.2)

@@ -10,7 +10,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from uictest.measures import (
+from uictest.core.measures import (
     MEASURES,
     STOP_COLUMNS,
     WHEELSET_COLUMNS,
@@ -20,9 +20,9 @@ from uictest.measures import (
     stop_column_values,
     wheelset_column_values,
 )
-from uictest.measures.registry import measures_in
-from uictest.record import fields_of
-from uictest.units import KINDS
+from uictest.core.measures.registry import measures_in
+from uictest.core.record import fields_of
+from uictest.core.units import KINDS
 
 from .catalogue.conftest import sliding_stop, stop, wheelsets
 
@@ -35,7 +35,7 @@ DEFINED = {
     "end_speed": 60.0 / 3.6,
 }
 NEW = """
-from uictest.measures import Measure, MeasureValue, StopColumn
+from uictest.core.measures import Measure, MeasureValue, StopColumn
 
 MEASURES = (
     Measure(
@@ -172,6 +172,6 @@ def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() ->
 
 
 def test_importing_the_catalogue_imports_no_numpy() -> None:
-    code = "import sys; from uictest.measures import MEASURES; print('numpy' in sys.modules)"
+    code = "import sys; from uictest.core.measures import MEASURES; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "False"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import (
+from uictest.core.measures import (
     END_SPEEDS,
     MEASURES,
     SLOW_TIMES,

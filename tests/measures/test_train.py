@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.measures import (
+from uictest.core.measures import (
     STOP_MEASURES,
     WHEELSET_MEASURES,
     WINDOW_SECONDS,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import (
+from uictest.core.measures import (
     SPEED_CLASSES,
     STOP_MEASURES,
     WHEELSET_MEASURES,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.arithmetic import (
+from uictest.core.physics.arithmetic import (
     arctan_within_octant,
     clamp,
     exp,

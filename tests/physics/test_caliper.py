@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.optimize import brentq
 
-from uictest.physics.caliper import clamping_force, stiffnesses, stroke_after
+from uictest.core.physics.caliper import clamping_force, stiffnesses, stroke_after
 
 STEP = 5e-4
 

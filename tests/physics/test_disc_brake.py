@@ -2,7 +2,7 @@
 
 import pytest
 
-from uictest.physics.disc_brake import torque
+from uictest.core.physics.disc_brake import torque
 
 
 def test_torque_is_that_of_all_friction_faces_at_the_mean_radius() -> None:

@@ -9,7 +9,7 @@ from hypothesis import given, strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from uictest.physics.disc_temperature import (
+from uictest.core.physics.disc_temperature import (
     MODES,
     bulk_change,
     held_mode,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.flow import (
+from uictest.core.physics.flow import (
     REFERENCE_DENSITY,
     REFERENCE_TEMPERATURE,
     coldness,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.module_air import amount_gained, pressure_volume_after, travel_after
-from uictest.physics.tank import air_changes, enthalpy
+from uictest.core.physics.module_air import amount_gained, pressure_volume_after, travel_after
+from uictest.core.physics.tank import air_changes, enthalpy
 
 K = 1.4
 R = 287.05

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.rail import interpolated
+from uictest.core.physics.rail import interpolated
 
 places = st.lists(st.floats(-1e3, 1e3), min_size=1, max_size=20, unique=True).map(sorted)
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.sensors import analogue_reading, rounded_to_whole, speed_reading
+from uictest.core.physics.sensors import analogue_reading, rounded_to_whole, speed_reading
 
 PITCH = 2.0 * math.pi * 0.43 / 80
 TICK = 1e-6

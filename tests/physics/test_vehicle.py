@@ -5,7 +5,13 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.vehicle import kinetic_energy, longitudinal, spring_energy, suspension_force, vertical
+from uictest.core.physics.vehicle import (
+    kinetic_energy,
+    longitudinal,
+    spring_energy,
+    suspension_force,
+    vertical,
+)
 
 length = st.floats(-15.0, 15.0)
 

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.physics.polach import creep_force
-from uictest.physics.wheelset import (
+from uictest.core.physics.polach import creep_force
+from uictest.core.physics.wheelset import (
     SLOWEST_CREEP,
     locked_force,
     lowest_slip,

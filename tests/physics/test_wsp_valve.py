@@ -3,7 +3,15 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.physics.wsp_valve import FILL, HOLD, LONGEST_DELAY_CYCLES, VENT, command_before, remember, travel
+from uictest.core.physics.wsp_valve import (
+    FILL,
+    HOLD,
+    LONGEST_DELAY_CYCLES,
+    VENT,
+    command_before,
+    remember,
+    travel,
+)
 
 commands = st.lists(st.sampled_from([FILL, HOLD, VENT]), min_size=1, max_size=80)
 

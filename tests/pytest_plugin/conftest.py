@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import pytest
 
 # pytest would load the plugin a second time if it found its entry point as well.
-_PYTEST = [sys.executable, "-m", "pytest", "-p", "uictest.pytest_plugin"]
+_PYTEST = [sys.executable, "-m", "pytest", "-p", "uictest.api.pytest_plugin"]
 _ENVIRONMENT = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""

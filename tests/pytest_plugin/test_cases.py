@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from uictest import report
-from uictest.campaign import run_cases
-from uictest.scenario import load
+from uictest.plans.scenario import load
+from uictest.running.campaign import run_cases
 
 from ..runs.test_acceptance import TURNING
 from .conftest import SHORT_STOPS, Run, Write, junit_testcases, properties
@@ -193,7 +193,7 @@ def test_references_may_lead_anywhere_below_the_root(
 def test_a_run_that_asks_for_no_scenario_loads_nothing(run: Run, write: Write, scenario: Scenario) -> None:
     scenario("stop")
     write("pytest.ini", "[pytest]\n")
-    names = ["numpy", "pydantic", "numba", "yaml", "typer", "uictest.scenario", "uictest.rig"]
+    names = ["numpy", "pydantic", "numba", "yaml", "typer", "uictest.plans.scenario", "uictest.rig"]
     write(
         "test_own.py",
         f"import sys\ndef test_own(): assert [n for n in {json.dumps(names)} if n in sys.modules] == []\n",

@@ -5,4 +5,4 @@ from importlib.metadata import distribution
 
 def test_the_package_declares_its_plugin() -> None:
     [plugin] = distribution("uictest").entry_points.select(group="pytest11")
-    assert plugin.load().__name__ == "uictest.pytest_plugin"
+    assert plugin.load().__name__ == "uictest.api.pytest_plugin"

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import uictest
-from uictest import files
+from uictest.core import files
 
 from .conftest import SCENARIO, SHORT_STOPS, Run, Write
 

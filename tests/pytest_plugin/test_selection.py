@@ -8,8 +8,8 @@ from typing import Any, cast
 
 import pytest
 
-from uictest.pytest_plugin.selection import Selection
-from uictest.scenario import load
+from uictest.api.pytest_plugin.selection import Selection
+from uictest.plans.scenario import load
 
 SCENARIO = "schema: uictest/scenario/1\nname: {}\ninitial_speed: 30 km/h\n"
 FILES = {

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uictest.recording import Recording, read_parquet, write_parquet
+from uictest.core.recording import Recording, read_parquet, write_parquet
 
 TIME = np.array([0.0, 0.01, 0.02])
 
@@ -122,5 +122,7 @@ def test_a_channel_may_be_a_column_of_records(tmp_path: Path) -> None:
 
 
 def test_importing_the_room_does_not_import_pyarrow() -> None:
-    code = "import sys, uictest.recording; sys.exit(any(m in sys.modules for m in ('pyarrow', 'pandas')))"
+    code = (
+        "import sys, uictest.core.recording; sys.exit(any(m in sys.modules for m in ('pyarrow', 'pandas')))"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 
 TIME = np.array([0.0, 0.5, 1.0])
 

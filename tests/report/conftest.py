@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.recording import Recording
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, RunManifest
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.result import read_sweep_document

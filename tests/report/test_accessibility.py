@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from uictest import comparison
-from uictest.evaluation import CaseResult, RepeatedStop, Repeats
-from uictest.recording import Recording
+from uictest.analysis import comparison
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
 from uictest.report import RunContent, RunManifest
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.content import SweepContent

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.evaluation import CaseResult, Deviation, DomainOfValidity
+from uictest.judging.evaluation import CaseResult, Deviation, DomainOfValidity
 from uictest.report import deviation_text, domain_lines, domain_notices, interval_text
 
 SPEED = Deviation("initial_speed", (160 / 3.6, 160 / 3.6), (80 / 3.6, 120 / 3.6), "m/s")

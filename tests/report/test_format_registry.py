@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent, format_names, formats, write_formats
 from uictest.report.format_registry import IN_EVERY_RUN, format_named
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report.github import LIMIT, annotation, append_to_step_summary, case_annotations
 
 MakeResult = Callable[..., CaseResult]

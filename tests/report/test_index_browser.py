@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from uictest import report, runs
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.studies import (
     OwnBand,
     SourceBand,

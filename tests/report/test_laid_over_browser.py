@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest import comparison
-from uictest.recording import Recording
+from uictest.analysis import comparison
+from uictest.core.recording import Recording
 
 from .chromium import resize, run, wait
 

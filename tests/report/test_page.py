@@ -9,8 +9,8 @@ from html.parser import HTMLParser
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import DRAWN, CaseDescription, RunContent, RunManifest
 from uictest.report.page import page_html
 from uictest.report.traces.trace import trace_of
@@ -180,7 +180,7 @@ def test_a_criterion_whose_measure_has_no_drawing_is_listed(
 def test_a_verdict_that_hangs_on_a_definition_says_so(
     make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
 ) -> None:
-    from uictest.evaluation import Sensitivity, VerdictInterval
+    from uictest.judging.evaluation import Sensitivity, VerdictInterval
 
     flips = Sensitivity(
         "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import AppliedDefinition, CaseResult, Verdict
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import AppliedDefinition, CaseResult, Verdict
 from uictest.report import CaseDescription, RunContent
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.content import SweepContent

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent, case_annotations, csv_text, junit_xml, part_lines, run_manifest
 from uictest.report.formats.csv import FORMAT as CSV, summary_table
 from uictest.report.formats.junit import FORMAT as JUNIT

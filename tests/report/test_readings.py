@@ -9,8 +9,8 @@ from collections.abc import Callable
 import pytest
 from openpyxl import load_workbook
 
-from uictest.evaluation import CaseResult, ReadVerdict, Verdict, result_document
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, ReadVerdict, Verdict, result_document
 from uictest.report import RunContent
 from uictest.report.formats.csv import criteria_table
 from uictest.report.formats.md import markdown_summary

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import openpyxl
 import pytest
 
-from uictest.evaluation import CaseResult, OverStops, RepeatedStop, Repeats, Verdict
+from uictest.judging.evaluation import CaseResult, OverStops, RepeatedStop, Repeats, Verdict
 from uictest.report import (
     RunContent,
     Table,

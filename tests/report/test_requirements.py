@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report.requirement_matrix import requirement_matrix
 from uictest.report.requirements import requirements_of, verified_requirements
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult, cases_document
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, cases_document
 from uictest.report import (
     CaseDescription,
     RunContent,

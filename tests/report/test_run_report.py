@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from uictest.evaluation import CaseResult, results_of
-from uictest.recording import Recording, read_parquet
+from uictest.core.recording import Recording, read_parquet
+from uictest.judging.evaluation import CaseResult, results_of
 from uictest.report import RunContent, RunManifest
 from uictest.report.run_report import run_name, write_recording, write_reports
 

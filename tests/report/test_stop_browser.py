@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import AppliedDefinition, CaseResult, Verdict
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import AppliedDefinition, CaseResult, Verdict
 from uictest.report import RunContent, RunManifest
 from uictest.report.traces.trace import trace_of
 

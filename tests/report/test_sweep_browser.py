@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import CaseResult
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.content import SweepContent
 from uictest.report.traces.trace import trace_of

@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 import pytest
 from pydantic import TypeAdapter
 
-from uictest.evaluation import CaseResult
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult
 from uictest.report import Frontier, MeasureHistogram, OutcomeCount, Trend, WrittenValue
 from uictest.report.page import sweep_page_html
 from uictest.report.page.sweep.frontier_plot import frontier_plot

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent
 from uictest.report.traces.trace import trace_of
 

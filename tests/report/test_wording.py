@@ -5,9 +5,9 @@ from typing import get_args
 
 import pytest
 
-from uictest import evaluation
-from uictest.evaluation import CaseResult, Verdict
-from uictest.evaluation.result import Outcome
+from uictest.judging import evaluation
+from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation.result import Outcome
 from uictest.report.wording import (
     CASE_WORDS,
     counts_text,

@@ -14,7 +14,8 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS, DEFAULT
-from uictest.record import layout_of
+from uictest.core.record import layout_of
+from uictest.plans.scenario import Case, load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.compiled import translate
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
@@ -26,7 +27,6 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import Case, load
 
 Array = NDArray[np.float64]
 

@@ -6,14 +6,14 @@ import control
 import numpy as np
 import pytest
 
-from uictest.physics.flow import REFERENCE_DENSITY
-from uictest.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.core.physics.flow import REFERENCE_DENSITY
+from uictest.core.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario import ScenarioErrors
 from uictest.rig.assembly import friction_laws
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import MARGIN, POINTS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.scenario import ScenarioErrors
-from uictest.units import STANDARD_GRAVITY
 
 
 def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: Any) -> None:

@@ -59,8 +59,8 @@ def test_points_that_fill_up_a_friction_law_do_not_count(rig: Any) -> None:
 
 
 def test_an_axis_of_one_value_more_changes_no_digit_of_a_stop(rig: Any) -> None:
+    from uictest.plans.scenario import load
     from uictest.rig import simulate
-    from uictest.scenario import load
 
     path = rig.case().path
     (alone,) = load([path], ["rail.friction=0.1", "initial_speed=20 km/h"])

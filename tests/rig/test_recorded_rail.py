@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uictest.field_data import stated_case
+from uictest.recorded.field_data import stated_case
 from uictest.rig import RecordedRail, simulate
 
 _CLEANING = "{energy: 8000 J/m, recovered_friction: 0.22, reach: 0.5 m, carry_over: 0.7}"

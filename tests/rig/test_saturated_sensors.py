@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.campaign import RecordingRequest, run_case
-from uictest.scenario import load
+from uictest.plans.scenario import load
+from uictest.running.campaign import RecordingRequest, run_case
 
 STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 60 km/h\n"
 

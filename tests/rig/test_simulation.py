@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest.plans.scenario import load
 from uictest.rig import SimulatedStop, simulate, stop_is_compiled
-from uictest.scenario import load
 
 
 @pytest.fixture(name="stops", scope="module")

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.record import fields_of
+from uictest.core.record import fields_of
+from uictest.plans.scenario import WHEELSET_NUMBERS, wheelset_value
+from uictest.plans.scenario.parts.wheelsets import REGULAR
 from uictest.rig.assembly import assemble
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
-from uictest.scenario import WHEELSET_NUMBERS, wheelset_value
-from uictest.scenario.parts.wheelsets import REGULAR
 
 DRY = ("rail.condition=dry", "vehicle=intercity-180")
 WET = ("rail.condition=wet", "rail.friction=0.09", "initial_speed=60 km/h")
@@ -144,7 +144,7 @@ def test_a_weak_brake_has_less_torque_in_a_dry_stop(rig: Any, name: str) -> None
 
 def test_a_slow_valve_vents_later_than_the_others(rig: Any, bench: Any) -> None:
     """By its own delay, in whole steps."""
-    from uictest.physics.wsp_valve import VENT
+    from uictest.core.physics.wsp_valve import VENT
     from uictest.rig.model.cycle import command_valves
     from uictest.rig.model.step import step
 

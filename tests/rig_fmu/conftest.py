@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from uictest import rig_fmu
-from uictest.scenario import Case, load
+from uictest.api import rig_fmu
+from uictest.plans.scenario import Case, load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 CYCLE = 0.01

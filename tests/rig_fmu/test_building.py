@@ -15,8 +15,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest import __version__, rig_fmu
-from uictest.scenario import Case, load
+from uictest import __version__
+from uictest.api import rig_fmu
+from uictest.plans.scenario import Case, load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 VERSIONS = pytest.mark.parametrize("version", [2, 3])

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from uictest import rig
-from uictest.scenario import Case
+from uictest.plans.scenario import Case
 
 VERSIONS = pytest.mark.parametrize("version", [2, 3])
 MakeInstance = Callable[..., Any]

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from uictest import runs
-from uictest.evaluation import CaseResult
-from uictest.scenario import load
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import load
 
 from .test_acceptance import TURNING
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest import campaign
-from uictest.campaign import BatchResult, CaseRun, RecordingRequest
-from uictest.evaluation import CaseResult
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult
 from uictest.report import DRAWN
+from uictest.running import campaign
+from uictest.running.campaign import BatchResult, CaseRun, RecordingRequest
 from uictest.runs.drawing import TraceCollection
 
 RECORDING = Recording(

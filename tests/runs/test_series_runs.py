@@ -7,9 +7,10 @@ from typing import Any, cast
 
 import pytest
 
-from uictest import campaign, series
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans import series
+from uictest.running import campaign
 from uictest.runs.series_runs import SeriesBatch, run_series, speed_kmh
-from uictest.units import KILOMETRE_PER_HOUR
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, Diagnostic, ScenarioErrors, load
+from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors, load
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 """The least that a scenario says; three lines, so that what a test adds starts in line 4."""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, ScenarioErrors, load, misfits, rig_differences
+from uictest.plans.scenario import Case, ScenarioErrors, load, misfits, rig_differences
 
 Load = Callable[..., Case]
 

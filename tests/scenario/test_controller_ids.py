@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, Diagnostic, load
-from uictest.series import load_series
-from uictest.sweeps import load_sweep
+from uictest.plans.scenario import Case, Diagnostic, load
+from uictest.plans.series import load_series
+from uictest.plans.sweeps import load_sweep
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

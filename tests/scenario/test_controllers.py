@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, Diagnostic, load, values_in
+from uictest.plans.scenario import Case, Diagnostic, load, values_in
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]
@@ -173,7 +173,7 @@ def test_a_file_of_several_cases_is_read_once(
 
 def test_another_build_is_a_change_against_the_part_that_is_extended(write: Write, head: str) -> None:
     """The part at the root of `extends` has the SHA-256 of its own file."""
-    from uictest.evaluation import EffectiveParts
+    from uictest.judging.evaluation import EffectiveParts
 
     write("one.py", PROGRAM)
     write("two.py", PROGRAM + b"# another\n")

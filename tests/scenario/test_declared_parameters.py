@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import EffectiveParts
-from uictest.scenario import Case, Diagnostic, ScenarioErrors, load_controller, with_parameters
+from uictest.judging.evaluation import EffectiveParts
+from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors, load_controller, with_parameters
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import ScenarioErrors, load
+from uictest.plans.scenario import ScenarioErrors, load
 
 Write = Callable[[str, str], Path]
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.scenario import Case, ScenarioErrors, expansion
-from uictest.scenario.expansion import Variant, expand
-from uictest.scenario.identifiers import case_id, short_keys
-from uictest.scenario.yaml.parsing import parse
-from uictest.scenario.yaml.tree import Document, Map, as_written
+from uictest.plans.scenario import Case, ScenarioErrors, expansion
+from uictest.plans.scenario.expansion import Variant, expand
+from uictest.plans.scenario.identifiers import case_id, short_keys
+from uictest.plans.scenario.yaml.parsing import parse
+from uictest.plans.scenario.yaml.tree import Document, Map, as_written
 
 Loaded = Callable[..., list[Case]]
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.evaluation.effective_parts import EffectiveParts
-from uictest.scenario import Case, Diagnostic
+from uictest.judging.evaluation.effective_parts import EffectiveParts
+from uictest.plans.scenario import Case, Diagnostic
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

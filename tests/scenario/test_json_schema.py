@@ -9,8 +9,8 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from uictest.scenario import json_schema
-from uictest.scenario.model import Scenario
+from uictest.plans.scenario import json_schema
+from uictest.plans.scenario.model import Scenario
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "schema" / "scenario.schema.json"

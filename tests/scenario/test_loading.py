@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from uictest.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
-from uictest.scenario.parts.friction import FrictionProfile
+from uictest.plans.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
+from uictest.plans.scenario.parts.friction import FrictionProfile
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]
@@ -78,7 +78,7 @@ def test_a_part_is_made_once_for_all_cases(loaded: Loaded, head: str) -> None:
 
 def test_loading_needs_none_of_the_heavy_packages() -> None:
     code = (
-        "import sys; from pathlib import Path; from uictest.scenario import load;"
+        "import sys; from pathlib import Path; from uictest.plans.scenario import load;"
         "load([Path(sys.argv[1])]);"
         "heavy = {'numpy', 'numba', 'pandas', 'pyarrow', 'scipy', 'control', 'rich'};"
         "print(sorted(heavy & set(sys.modules)))"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Diagnostic
+from uictest.plans.scenario import Diagnostic
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 SPEED = "schema: uictest/scenario/1\nname: stop\ninitial_speed: "
@@ -648,7 +648,7 @@ def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(
 
 
 def test_a_missing_file_is_told_without_a_line_of_it(tmp_path: Path) -> None:
-    from uictest.scenario import ScenarioErrors, load
+    from uictest.plans.scenario import ScenarioErrors, load
 
     with pytest.raises(ScenarioErrors) as caught:
         load([tmp_path / "nothing.yaml"])
@@ -658,7 +658,7 @@ def test_a_missing_file_is_told_without_a_line_of_it(tmp_path: Path) -> None:
 
 
 def test_errors_of_several_files_are_told_together(write: Callable[..., Path]) -> None:
-    from uictest.scenario import ScenarioErrors, load
+    from uictest.plans.scenario import ScenarioErrors, load
 
     write("set/a.yaml", HEAD.replace("120 km/h", "120"))
     write("set/b.yaml", "- list\n")

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from uictest.scenario.parts.criteria import Criteria
+from uictest.plans.scenario.parts.criteria import Criteria
 
 DEFINITION = {
     "sliding_below": {"value": "90 %", "range": ["85 %", "95 %"]},

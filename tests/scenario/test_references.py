@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, Diagnostic, ScenarioErrors, load
+from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors, load
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import ScenarioErrors, ShareOfStops, load
+from uictest.plans.scenario import ScenarioErrors, ShareOfStops, load
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.scenario import (
+from uictest.plans.scenario import (
     Case,
     Diagnostic,
     in_order_of_ids,
@@ -15,7 +15,7 @@ from uictest.scenario import (
     read_requirement_list,
     values_in,
 )
-from uictest.scenario.yaml import ScenarioErrors
+from uictest.plans.scenario.yaml import ScenarioErrors
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from uictest.field_data import load_map
-from uictest.identification.compensation_file import load_compensation
+from uictest.plans.scenario import Diagnostic, ScenarioErrors, load
+from uictest.plans.sweeps import load_sweep
+from uictest.recorded.field_data import load_map
 from uictest.rig.bench.loading import load_bench
-from uictest.scenario import Diagnostic, ScenarioErrors, load
-from uictest.sweeps import load_sweep
+from uictest.rig.identification.compensation_file import load_compensation
 
 SECRET = "root:x:0:0 top secret\n"
 HEAD = "schema: uictest/scenario/1\nname: stop\n"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.scenario import Case, Criterion, Diagnostic
+from uictest.plans.scenario import Case, Criterion, Diagnostic
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import COMPENSATION_SETTINGS, Case, load
-from uictest.scenario.parts.friction import FrictionProfile
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case, load
+from uictest.plans.scenario.parts.friction import FrictionProfile
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
 

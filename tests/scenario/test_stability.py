@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uictest.plans.scenario import Case, ScenarioErrors, load
+from uictest.plans.scenario.stability import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.rig import simulate
-from uictest.scenario import Case, ScenarioErrors, load
-from uictest.scenario.stability import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
 
 SCENARIO = """\
 schema: uictest/scenario/1

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, ScenarioErrors, load, wheelset_value
-from uictest.scenario.parts.wheelsets import REGULAR
+from uictest.plans.scenario import Case, ScenarioErrors, load, wheelset_value
+from uictest.plans.scenario.parts.wheelsets import REGULAR
 
 Load = Callable[..., Case]
 FOUR_CALIPERS = "rig.topology=four-caliper"

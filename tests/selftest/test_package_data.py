@@ -14,7 +14,7 @@ from uictest.selftest.data_digests import data_digests
 from uictest.selftest.reference import stored_data_digests
 
 PACKAGE = Path(uictest.__file__).parent
-CRITERIA = "library/criteria/uic-541-05-appendix-b.yaml"
+CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
 
 
 @pytest.fixture
@@ -23,10 +23,10 @@ def package(tmp_path: Path) -> Path:
     for name in stored_data_digests():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(PACKAGE / name, tmp_path / name)
-    left = tmp_path / "library" / "__pycache__" / "__init__.cpython-311.pyc"
+    left = tmp_path / "plans/library" / "__pycache__" / "__init__.cpython-311.pyc"
     left.parent.mkdir()
     left.write_bytes(b"")
-    (tmp_path / "library" / ".swap").write_bytes(b"")
+    (tmp_path / "plans/library" / ".swap").write_bytes(b"")
     return tmp_path
 
 
@@ -56,6 +56,6 @@ def test_files_that_are_missing_or_new_are_named(
     monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
 ) -> None:
     (package / CRITERIA).unlink()
-    (package / "library/criteria/own.yaml").write_text("")
+    (package / "plans/library/criteria/own.yaml").write_text("")
     found = finding(monkeypatch, package, stops)
-    assert found.reason == f"library/criteria/own.yaml is not part of it, {CRITERIA} is missing"
+    assert found.reason == f"plans/library/criteria/own.yaml is not part of it, {CRITERIA} is missing"

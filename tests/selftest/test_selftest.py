@@ -18,7 +18,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest import physics, selftest, user_cache
+from uictest import selftest
+from uictest.core import physics, user_cache
 from uictest.selftest import environment, reference, template_stops
 from uictest.selftest.bits import answer_of
 from uictest.selftest.check import Answer, Check, NotCheckedError

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from uictest import series
-from uictest.evaluation import CaseResult, RepeatedStop, Repeats
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging import series
+from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
+from uictest.plans import series as series_plans
 
 Write = Callable[[str, str], Path]
 SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n{text}"
@@ -36,11 +37,13 @@ def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
 
 
 @pytest.fixture
-def load(write: Write) -> Callable[..., list[series.Series]]:
+def load(write: Write) -> Callable[..., list[series_plans.Series]]:
     """The series of a file that says this besides its schema and name."""
 
-    def read(text: str = PAIR, *overrides: str, seed: int | None = None) -> list[series.Series]:
-        return series.load_series(write("campaign.series.yaml", SERIES.format(text=text)), overrides, seed)
+    def read(text: str = PAIR, *overrides: str, seed: int | None = None) -> list[series_plans.Series]:
+        return series_plans.load_series(
+            write("campaign.series.yaml", SERIES.format(text=text)), overrides, seed
+        )
 
     return read
 
@@ -63,7 +66,7 @@ def judge() -> Callable[..., series.SeriesResult]:
     """
 
     def judged(
-        planned: series.Series,
+        planned: series_plans.Series,
         distances: Sequence[float | list[float]],
         outcomes: Mapping[float, str] | None = None,
         bypassed: float | None = None,

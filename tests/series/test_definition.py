@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest import series
-from uictest.scenario import LONGEST, ScenarioErrors
+from uictest.plans import series
+from uictest.plans.scenario import LONGEST, ScenarioErrors
 
 Load = Callable[..., list[series.Series]]
 Write = Callable[[str, str], Path]

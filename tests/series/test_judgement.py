@@ -9,10 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from uictest import evaluation, report, series
-from uictest.scenario.yaml import parse_quantity
+from uictest import report
+from uictest.judging import evaluation, series
+from uictest.plans import series as series_plans
+from uictest.plans.scenario.yaml import parse_quantity
 
-Load = Callable[..., list[series.Series]]
+Load = Callable[..., list[series_plans.Series]]
 Judge = Callable[..., series.SeriesResult]
 Write = Callable[[str, str], Path]
 THREE = (
@@ -28,7 +30,7 @@ criteria:
 
 
 @pytest.fixture
-def planned(load: Load, write: Write) -> series.Series:
+def planned(load: Load, write: Write) -> series_plans.Series:
     """One dry stop and three wet ones, judged by three criteria."""
     write("own.yaml", OWN)
     (one,) = load(THREE)
@@ -39,7 +41,7 @@ def verdicts(result: series.SeriesResult) -> dict[str, series.SeriesVerdict]:
     return {each.verdict.id: each for each in result.criteria}
 
 
-def test_a_series_that_keeps_everything_passes(planned: series.Series, judge: Judge) -> None:
+def test_a_series_that_keeps_everything_passes(planned: series_plans.Series, judge: Judge) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     assert (result.outcome, result.met) == ("pass", True)
     k_wet = verdicts(result)["k-wet"]
@@ -50,7 +52,7 @@ def test_a_series_that_keeps_everything_passes(planned: series.Series, judge: Ju
 
 
 def test_a_miss_says_what_was_found_what_is_demanded_and_how_much_is_missing(
-    planned: series.Series, judge: Judge
+    planned: series_plans.Series, judge: Judge
 ) -> None:
     # Deceleration distances 600, 640 and 680 m against 400 m.
     k_wet = verdicts(judge(planned, [460.0, 660.0, 700.0, 740.0]))["k-wet"].verdict
@@ -79,7 +81,7 @@ def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load: Load, judge: 
 
 
 def test_a_verdict_whose_interval_crosses_the_bound_is_not_certain(
-    planned: series.Series, judge: Judge
+    planned: series_plans.Series, judge: Judge
 ) -> None:
     certain = judge(planned, [460.0, 519.0, 520.0, 521.0])
     uncertain = judge(planned, [460.0, 480.0, 520.0, 560.0])
@@ -88,7 +90,7 @@ def test_a_verdict_whose_interval_crosses_the_bound_is_not_certain(
     assert uncertain.outcome == "pass"
 
 
-def test_every_wet_stop_must_keep_a_criterion_of_stops(planned: series.Series, judge: Judge) -> None:
+def test_every_wet_stop_must_keep_a_criterion_of_stops(planned: series_plans.Series, judge: Judge) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 600.0])
     each = verdicts(result)["each"]
     assert (each.verdict.status, each.kept, each.stops) == ("fail", 2, 3)
@@ -97,14 +99,16 @@ def test_every_wet_stop_must_keep_a_criterion_of_stops(planned: series.Series, j
     assert each.of_dry_stop
 
 
-def test_a_stop_beyond_its_share_of_the_dry_stop_does_not_pass(planned: series.Series, judge: Judge) -> None:
+def test_a_stop_beyond_its_share_of_the_dry_stop_does_not_pass(
+    planned: series_plans.Series, judge: Judge
+) -> None:
     result = judge(planned, [460.0, 500.0, 600.0, 610.0])
     share = verdicts(result)["passing"]
     assert share.verdict.value == pytest.approx(100.0 / 3.0)
     assert share.verdict.status == "fail"
 
 
-def test_invalid_stops_do_not_count_and_are_named(planned: series.Series, judge: Judge) -> None:
+def test_invalid_stops_do_not_count_and_are_named(planned: series_plans.Series, judge: Judge) -> None:
     # The invalid stop of 2000 m would spoil every figure.
     planned = _with_valid_share(planned, "60 %")
     result = judge(planned, [460.0, 500.0, 520.0, 2000.0], {2000.0: "invalid"})
@@ -117,20 +121,24 @@ def test_invalid_stops_do_not_count_and_are_named(planned: series.Series, judge:
 
 
 @pytest.mark.parametrize("outcome", ["invalid", "inconclusive", "skipped"])
-def test_too_few_stops_that_count_decide_nothing(planned: series.Series, judge: Judge, outcome: str) -> None:
+def test_too_few_stops_that_count_decide_nothing(
+    planned: series_plans.Series, judge: Judge, outcome: str
+) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {540.0: outcome})
     assert result.outcome == "inconclusive"
     assert {each.verdict.status for each in result.criteria} == {"inconclusive"}
     assert "2 of 3 wet stops from 120 km/h count, 80 % must" in result.reason
 
 
-def test_without_a_dry_stop_that_counts_nothing_is_decided(planned: series.Series, judge: Judge) -> None:
+def test_without_a_dry_stop_that_counts_nothing_is_decided(
+    planned: series_plans.Series, judge: Judge
+) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {460.0: "invalid"})
     assert result.outcome == "inconclusive"
     assert "none of 1 dry stops from 120 km/h counts" in result.reason
 
 
-def test_a_stop_that_failed_to_run_is_an_error(planned: series.Series, judge: Judge) -> None:
+def test_a_stop_that_failed_to_run_is_an_error(planned: series_plans.Series, judge: Judge) -> None:
     assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
 
 
@@ -193,7 +201,7 @@ def _locks(
 
 
 def test_a_failed_requirement_of_a_stop_counts_and_lowers_the_share(
-    planned: series.Series, judge: Judge
+    planned: series_plans.Series, judge: Judge
 ) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "fail"})
     assert result.speeds[0].wet.counted == 3
@@ -245,7 +253,7 @@ def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load: Loa
 
 
 def test_without_requirements_the_document_does_not_speak_of_them(
-    planned: series.Series, judge: Judge
+    planned: series_plans.Series, judge: Judge
 ) -> None:
     (form,) = series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])["series"]
     assert not {"requirements", "test_case"} & form.keys()
@@ -259,7 +267,7 @@ def test_expected_failures_are_met(load: Load, judge: Judge, write: Write) -> No
     assert not judge(planned, [460.0, 500.0]).met
 
 
-def test_a_series_is_judged_again_from_its_document(planned: series.Series, judge: Judge) -> None:
+def test_a_series_is_judged_again_from_its_document(planned: series_plans.Series, judge: Judge) -> None:
     result = judge(_with_valid_share(planned, "60 %"), [460.0, 500.0, 520.0, 540.0], {540.0: "invalid"})
     document = json.loads(json.dumps(series.series_document([result])))
     (read,) = series.series_results_of(document)
@@ -268,7 +276,9 @@ def test_a_series_is_judged_again_from_its_document(planned: series.Series, judg
     assert json.dumps(series.series_document([again])) == json.dumps(document)
 
 
-def test_cases_of_another_series_are_not_judged(planned: series.Series, load: Load, judge: Judge) -> None:
+def test_cases_of_another_series_are_not_judged(
+    planned: series_plans.Series, load: Load, judge: Judge
+) -> None:
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     (other,) = load("dry: dry.yaml\nwet: wet.yaml\n")
     with pytest.raises(ValueError, match="has no case"):
@@ -296,7 +306,7 @@ def test_cases_of_another_series_are_not_judged(planned: series.Series, load: Lo
     ],
 )
 def test_a_document_that_is_none_is_refused(
-    planned: series.Series, judge: Judge, spoil: Callable[[dict[str, object]], object], message: str
+    planned: series_plans.Series, judge: Judge, spoil: Callable[[dict[str, object]], object], message: str
 ) -> None:
     document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])))
     spoil(document)
@@ -304,7 +314,7 @@ def test_a_document_that_is_none_is_refused(
         series.series_results_of(document)
 
 
-def _with_valid_share(planned: series.Series, text: str) -> series.Series:
+def _with_valid_share(planned: series_plans.Series, text: str) -> series_plans.Series:
     share = parse_quantity(text, "share")
     return replace(planned, file=planned.file.model_copy(update={"valid_stops": share}))
 
@@ -313,7 +323,7 @@ TWO_SPEEDS = "{role}: {{scenario: {role}.yaml, set: {{initial_speed: [80 km/h, 1
 
 
 @pytest.fixture
-def two_speeds(load: Load, write: Write) -> series.Series:
+def two_speeds(load: Load, write: Write) -> series_plans.Series:
     """Dry and wet stops from two speeds, the wet ones repeated, by a bound above and one below."""
     own = "  - {{id: {id}, layer: requirement, scope: series, measure: median_braking_distance, {bound}}}\n"
     bounds = ("upper: 130 % of the dry stop", "lower: 105 % of the dry stop")
@@ -327,7 +337,7 @@ def two_speeds(load: Load, write: Write) -> series.Series:
 
 
 def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(
-    two_speeds: series.Series, judge: Judge
+    two_speeds: series_plans.Series, judge: Judge
 ) -> None:
     result = verdicts(judge(two_speeds, [200.0, 400.0, [202.0] * 7, [500.0] * 7]))
     assert (result["long"].verdict.status, result["long"].speed_kmh) == ("pass", 120.0)
@@ -336,7 +346,7 @@ def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(
 
 
 def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(
-    two_speeds: series.Series, judge: Judge
+    two_speeds: series_plans.Series, judge: Judge
 ) -> None:
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
@@ -345,7 +355,7 @@ def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(
 
 
 def test_one_speed_that_misses_for_certain_makes_a_miss_certain(
-    two_speeds: series.Series, judge: Judge
+    two_speeds: series_plans.Series, judge: Judge
 ) -> None:
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
     long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [540.0] * 7]))["long"]

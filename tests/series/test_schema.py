@@ -7,7 +7,7 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from uictest import series
+from uictest.plans import series
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = sorted([*(ROOT / "scenarios").glob("*.series.yaml"), *(ROOT / "examples").rglob("*.series.yaml")])

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.series_measures import CountedStop, SpeedStops
+from uictest.core.series_measures import CountedStop, SpeedStops
 
 MakeStop = Callable[..., CountedStop]
 MakeSpeed = Callable[..., SpeedStops]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies
 
-from uictest.series_measures.estimate import largest_of, mean_of, median_of, share_of, smallest_of
+from uictest.core.series_measures.estimate import largest_of, mean_of, median_of, share_of, smallest_of
 
 
 def test_the_median_of_ten_lies_between_the_second_and_the_ninth() -> None:

@@ -7,7 +7,7 @@ import math
 import pytest
 from hypothesis import given, strategies
 
-from uictest.series_measures import SERIES_MEASURES, CountedStop, SpeedStops
+from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStops
 
 K_WET = SERIES_MEASURES["k_wet"]
 INCREASE = SERIES_MEASURES["deceleration_distance_extension"]

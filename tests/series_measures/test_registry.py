@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.series_measures import SERIES_MEASURES, CountedStop, SpeedStops, dry_relation
-from uictest.units import KINDS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStops, dry_relation
+from uictest.core.units import KINDS
 
 MakeSpeed = Callable[..., SpeedStops]
 MakeStop = Callable[..., CountedStop]

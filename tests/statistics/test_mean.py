@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from uictest.statistics import mean_interval, next_interval
+from uictest.core.statistics import mean_interval, next_interval
 
 
 def test_the_interval_is_that_of_scipy() -> None:

@@ -12,7 +12,7 @@ from hypothesis import given, strategies as st
 from numpy.typing import NDArray
 from scipy.special import bdtr, ndtri
 
-from uictest.statistics import Side, bound_ranks, draws_needed, quantile_rank
+from uictest.core.statistics import Side, bound_ranks, draws_needed, quantile_rank
 
 TRIALS = 200
 levels = st.fractions(Fraction(1, 50), Fraction(49, 50), max_denominator=200)

@@ -5,7 +5,7 @@ from math import comb
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.statistics import proportion_interval, trials_needed
+from uictest.core.statistics import proportion_interval, trials_needed
 
 
 def at_least(successes: int, trials: int, probability: float) -> float:

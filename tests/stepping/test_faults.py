@@ -10,7 +10,7 @@ import pytest
 
 import uictest
 from uictest.controllers import Inputs
-from uictest.units import BAR
+from uictest.core.units import BAR
 
 Write = Callable[..., Path]
 NOTHING, HOLD, VENT = ([0] * 4, [0] * 4), ([1] * 4, [0] * 4), ([1] * 4, [1] * 4)

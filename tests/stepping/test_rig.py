@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 import uictest
-from uictest import campaign
 from uictest.controllers import Outputs
-from uictest.evaluation import CaseResult, result_document
-from uictest.scenario import ScenarioErrors, load
+from uictest.judging.evaluation import CaseResult, result_document
+from uictest.plans.scenario import ScenarioErrors, load
+from uictest.running import campaign
 
 Write = Callable[..., Path]
 TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"

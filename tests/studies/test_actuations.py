@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
 from uictest.studies.actuations import BANDS, PAPER, counts, in_bands, in_order, mean_counts
 

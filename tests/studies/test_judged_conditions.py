@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 import yaml
 
+from uictest.plans.scenario import ScenarioErrors, load
 from uictest.rig import bench
 from uictest.rig.bench.recipe import StopReplay
-from uictest.scenario import ScenarioErrors, load
 from uictest.studies import StopRunner, judged_conditions as module
 from uictest.studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
 

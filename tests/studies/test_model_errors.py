@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.studies.model_errors import force_channel, force_error, pressure_error
 
 UNITS = {

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from uictest.scenario import COMPENSATION_SETTINGS, Case
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 from uictest.studies import StopRunner, stop_runner
 from uictest.studies.neighbourhood import SEEDS, friction_sweep, neighbourhood
 from uictest.studies.stop_runner import constant_friction

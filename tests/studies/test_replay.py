@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
-from uictest.scenario import Case
+from uictest.core.recording import Recording
+from uictest.plans.scenario import Case
 from uictest.studies import StopRunner
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed, replayed_in_turn
 

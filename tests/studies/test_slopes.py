@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from uictest.identification import HysteresisResult
-from uictest.identification.lines import FittedLine
+from uictest.rig.identification import HysteresisResult
+from uictest.rig.identification.lines import FittedLine
 from uictest.studies.slopes import Loop, slope_spread, slopes_table
 
 

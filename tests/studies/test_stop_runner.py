@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from uictest import rig
-from uictest.scenario import Case, load
+from uictest.plans.scenario import Case, load
 from uictest.studies import StopRunner, stop_runner
 from uictest.studies.stop_runner import seeded
 

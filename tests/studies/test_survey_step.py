@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from uictest import library
-from uictest.sweeps import SURVEY_TABLE
+from uictest.plans import library
+from uictest.running.chunked import SURVEY_TABLE
 
 SCRIPT = Path(__file__).parents[2] / "studies" / "survey_step.py"
 FEW = 8

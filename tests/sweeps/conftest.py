@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from uictest import rig
 from uictest.controllers import HEADER
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.plans.sweeps import Plan, load_sweep
 from uictest.rig.model.friction_law import FRICTIONS
-from uictest.sweeps import ChunkRunner, Plan, load_sweep
-from uictest.sweeps.running.case_blocks import BlockAssembler
+from uictest.running.chunked import ChunkRunner
+from uictest.running.chunked.case_blocks import BlockAssembler
 
 SCENARIO = """\
 schema: uictest/scenario/1

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from uictest import campaign, conformance, templates
-from uictest.conformance.bench import Bench
-from uictest.scenario import load, load_controller
-from uictest.scenario.yaml import plain, read_file
+from uictest.plans import templates
+from uictest.plans.scenario import load, load_controller
+from uictest.plans.scenario.yaml import plain, read_file
+from uictest.running import campaign
+from uictest.selftest import conformance
+from uictest.selftest.conformance.bench import Bench
 
 REPOSITORY = Path(__file__).parents[2]
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest import user_cache
+from uictest.core import user_cache
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="files of other kinds and modes are POSIX")
 
@@ -133,7 +133,7 @@ def test_a_full_disk_is_named_once_and_leaves_nothing(tmp_path: Path) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 
     program = """if True:
-        from uictest import user_cache
+        from uictest.core import user_cache
         for number in b"ab":
             user_cache.write("code", bytes(number), bytes(1000))
             assert user_cache.read("code", bytes(number)) is None

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest import user_cache
+from uictest.core import user_cache
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes are POSIX")
 

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from uictest import user_cache
-from uictest.user_cache import turns
+from uictest.core import user_cache
+from uictest.core.user_cache import turns
 
 INPUTS = b"sources"
 MAKER = """
 import sys
-from uictest import user_cache
+from uictest.core import user_cache
 with user_cache.turn("code", b"sources"):
     print("began", flush=True)
     sys.stdin.read()

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy import stats
 
-from uictest.validation import agreement_of
+from uictest.analysis.validation import agreement_of
 
 RECORDED = [450.0, 460.0, 470.0, 455.0]
 NAN = math.nan

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.scenario import load
-from uictest.validation import agreement_of, as_recorded, seed_of
+from uictest.analysis.validation import agreement_of, as_recorded, seed_of
+from uictest.plans.scenario import load
 
 CAMPAIGNS = 1000
 WITHIN = 0.02

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.validation import read_validation
+from uictest.analysis.validation import read_validation
 
 
 def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from uictest.campaign import parts_of_cases
-from uictest.evaluation import Deviation
-from uictest.scenario import load
-from uictest.validation import Conditions, conditions_of, deviations, domains_of
+from uictest.analysis.validation import Conditions, conditions_of, deviations, domains_of
+from uictest.judging.evaluation import Deviation
+from uictest.plans.scenario import load
+from uictest.running.campaign import parts_of_cases
 
 STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 100 km/h\n"
 Under = Callable[..., Conditions]

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest import series
-from uictest.scenario import ScenarioErrors
-from uictest.validation import load_validation, plan_of_series
+from uictest.plans import series
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.validation import load_validation, plan_of_series
 
 Write = Callable[[str, str], Path]
 STOP = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 100 km/h\nrail: {{condition: {rail}}}\n"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.evaluation import CaseResult
-from uictest.validation import ComparedStop, figures_of
+from uictest.analysis.validation import ComparedStop, figures_of
+from uictest.judging.evaluation import CaseResult
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
-from uictest import campaign, runs
-from uictest.scenario.yaml import suggestion
+from uictest import runs
+from uictest.plans.scenario.yaml import suggestion
+from uictest.running import campaign
 
 PathName = str | PathLike[str]
 Trusted = Iterable[PathName]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from uictest import campaign, runs, scenario as scenarios
+from uictest import runs
 from uictest.api.arguments import (
     PathName,
     Record,
@@ -17,6 +17,8 @@ from uictest.api.arguments import (
 )
 from uictest.api.assignments import Assignments, override_texts
 from uictest.api.results import Results
+from uictest.plans import scenario as scenarios
+from uictest.running import campaign
 
 _ARGUMENTS = {
     "rail.condition": "rail",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from uictest import measures, report
+from uictest import report
+from uictest.core import measures
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import runs, scenario, series
+from uictest import runs
 from uictest.api.arguments import PathName, Trusted, as_paths, checked_seed, expression_of
 from uictest.api.assignments import Assignments, override_texts
+from uictest.plans import scenario, series
 
 
 def load(

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uictest import field_data, recording, report, runs
+from uictest import report, runs
 from uictest.api.arguments import PathName, Trusted, as_paths
 from uictest.api.results import Results
-from uictest.recording import formats
+from uictest.core import recording
+from uictest.core.recording import formats
+from uictest.recorded import field_data
 
 _AS_WRITTEN = "uictest"
 

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Final
 
-from uictest import evaluation, report, series
+from uictest import report
+from uictest.judging import evaluation, series
 
 _MOST_ROWS: Final = 50
 _COLOURS: Final = {"good": "#1a7f37", "bad": "#cf222e", "odd": "#8250df"}

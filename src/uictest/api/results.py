@@ -6,13 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
-from uictest import evaluation, report, runs, scenario
+from uictest import report, runs
 from uictest.api.arguments import PathName
 from uictest.api.frames import frame_of
 from uictest.api.result_html import verdict_html
-from uictest.recording import Recording, read_parquet
-from uictest.scenario.yaml import suggestion
-from uictest.series import SeriesResult
+from uictest.core.recording import Recording, read_parquet
+from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult
+from uictest.plans import scenario
+from uictest.plans.scenario.yaml import suggestion
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from uictest import recording, report, runs, scenario, series
+from uictest import report, runs
 from uictest.api.arguments import (
     PathName,
     Record,
@@ -22,6 +22,8 @@ from uictest.api.arguments import (
 from uictest.api.assignments import Assignments, override_texts
 from uictest.api.loading import selected
 from uictest.api.results import Results
+from uictest.core import recording
+from uictest.plans import scenario, series
 
 What = PathName | scenario.Case | Iterable[PathName | scenario.Case]
 FORMATS = ("csv", "html")

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from uictest import recording, rig, scenario
+from uictest import rig
 from uictest.api.arguments import PathName, Trusted, as_paths, checked_seed, sample_interval
 from uictest.api.assignments import Assignments, override_texts
 from uictest.api.loading import one_case
+from uictest.core import recording
+from uictest.plans import scenario
 
 
 def simulate(

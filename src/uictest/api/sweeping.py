@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from uictest import files, history, runs, sweeps
+from uictest import runs
 from uictest.api.arguments import (
     PathName,
     Trusted,
@@ -17,6 +17,10 @@ from uictest.api.arguments import (
 )
 from uictest.api.assignments import Assignments, override_texts
 from uictest.api.sweep_results import SweepResults
+from uictest.core import files
+from uictest.plans import sweeps
+from uictest.running import chunked
+from uictest.runs import history
 
 
 def sweep(
@@ -65,7 +69,7 @@ def sweep(
     texts, folders, seed = override_texts(set), as_paths(trust), checked_seed(seed)
     plan = sweeps.load_sweep(Path(file), tuple(texts), seed, folders)
     with expression_of("select", select):
-        selection = sweeps.select_cases(plan, select)
+        selection = chunked.select_cases(plan, select)
     if selection.size == 0:
         raise ValueError(f"nothing selected among {plan.size} cases")
 
@@ -75,7 +79,7 @@ def sweep(
     def run_in(folder: Path, formats: Sequence[str] | None) -> runs.SweepRun:
         return runs.SweepRun(
             selection=selection,
-            manifest=sweeps.sweep_manifest(selection, expression=select, overrides=texts, seed=seed),
+            manifest=chunked.sweep_manifest(selection, expression=select, overrides=texts, seed=seed),
             folder=folder / plan.name,
             jobs=thread_count(jobs),
             restart=restart,

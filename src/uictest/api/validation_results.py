@@ -6,7 +6,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from uictest import validation
+from uictest.analysis import validation
 from uictest.api.frames import frame_of
 
 if TYPE_CHECKING:

@@ -9,8 +9,10 @@ from typing import Any
 
 import typer
 
-from uictest import campaign, runs, scenario
+from uictest import runs
+from uictest.plans import scenario
 from uictest.report import TableColumn, aligned, columns_not_shown, fitted, printable
+from uictest.running import campaign
 
 
 def select_by_options(

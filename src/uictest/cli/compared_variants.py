@@ -6,10 +6,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import comparison, files, report, runs
+from uictest import report, runs
+from uictest.analysis import comparison
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
+from uictest.core import files
 
 
 def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page: Path | None) -> ExitCode:

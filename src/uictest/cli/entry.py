@@ -11,11 +11,12 @@ from typing import Final
 
 import typer
 
-from uictest import runs, scenario
+from uictest import runs
 from uictest.cli.app import application
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CommandLine
 from uictest.cli.output import lost_data, message, use_safe_encoding
+from uictest.plans import scenario
 
 _TYPER_INTERRUPTED = 130
 _OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask"}

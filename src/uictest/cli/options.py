@@ -10,7 +10,8 @@ from typing import Annotated
 
 import typer
 
-from uictest import comparison, report, runs
+from uictest import report, runs
+from uictest.analysis import comparison
 
 
 @dataclass(slots=True)

@@ -6,9 +6,9 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import history
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import message
+from uictest.runs import history
 
 
 def named_paths(*paths: Path | None) -> list[Path]:

@@ -8,8 +8,10 @@ from typing import Annotated
 
 import typer
 
-from uictest import field_data, runs, scenario
+from uictest import runs
 from uictest.cli.cases import malformed
+from uictest.plans import scenario
+from uictest.recorded import field_data
 
 Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
 MapName = Annotated[

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from uictest import campaign, scenario, series
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
+from uictest.plans import scenario, series
 from uictest.report import TableColumn, aligned, columns_not_shown, counted, counted_in, fitted, printable
+from uictest.running import campaign
 
 Status = Literal["covered", "uncovered", "unknown"]
 """unknown: a scenario, series or criterion names it and the list of requirements does not."""

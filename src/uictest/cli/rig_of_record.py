@@ -6,7 +6,8 @@ import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from uictest import runs, scenario
+from uictest import runs
+from uictest.plans import scenario
 from uictest.rig import bench
 
 

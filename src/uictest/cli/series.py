@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 
-from uictest import runs, series
+from uictest import runs
 from uictest.cli.cases import malformed
+from uictest.plans import series
 from uictest.report import printable
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from uictest.record import Record, fields_of
+from uictest.core.record import Record, fields_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,7 +12,7 @@ class DeclaredParameter:
     """One parameter of a controller.
 
     Attributes:
-        kind: kind of quantity, a name of :data:`uictest.units.KINDS`.
+        kind: kind of quantity, a name of :data:`uictest.core.units.KINDS`.
         description: one sentence for people.
         at_least: smallest value, as a user would write it, such as ``"1 ms"``.
         at_most: largest value, likewise.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.difference import (
     Difference,
     difference_sentence,

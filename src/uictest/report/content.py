@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, run_tally
 from uictest.report.difference import Difference
@@ -15,8 +15,8 @@ from uictest.report.manifest import RunManifest
 from uictest.report.part_wording import controllers_text
 
 if TYPE_CHECKING:
+    from uictest.judging.series import SeriesResult
     from uictest.report.traces.trace import PlotTrace
-    from uictest.series import SeriesResult
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from uictest import measures
+from uictest.core import measures
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import number, quantity

@@ -14,7 +14,7 @@ from pydantic import (
     WrapSerializer,
 )
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.baseline import BaselineComparison
 from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import Final
 
-from uictest import evaluation
+from uictest.core.units import KINDS, in_unit, value_text
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.wording import counted
-from uictest.units import KINDS, in_unit, value_text
 
 _MOST_NAMED: Final = 6
 """Deviations of a case that are listed before the rest is counted."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable
 
-from uictest import evaluation
+from uictest.judging import evaluation
 
 DRAWN = 18
 """Cases drawn on one page. Each takes up to 270 kB, and a page must still open from a mail attachment."""

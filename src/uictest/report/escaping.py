@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 
-from uictest.units import UNIT_SYMBOLS
+from uictest.core.units import UNIT_SYMBOLS
 
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", *"\uff1d\uff0b\uff0d\uff20")
 _UNITS = "|".join(map(re.escape, sorted(UNIT_SYMBOLS)))

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Final
 
-from uictest import files
+from uictest.core import files
 from uictest.report import formats
 from uictest.report.content import RunContent
 

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Literal
 
-from uictest import evaluation, files
+from uictest.core import files
+from uictest.judging import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.difference import Difference
 from uictest.report.escaping import workflow_message, workflow_property

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Final
 from xml.etree import ElementTree
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import xml_text
 
 WITH_TEST_PROPERTIES: Final = "junit-properties.xml"

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Final
 
 from pydantic import ConfigDict, TypeAdapter
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.part_wording import part_sentence
 
 RUN_MANIFEST_SCHEMA: Final = "uictest/manifest/1"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from uictest import controllers, evaluation
+from uictest import controllers
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 
 _PATHS = (".yaml", ".yml")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Final
 
-from uictest import evaluation, statistics
+from uictest.core import statistics
+from uictest.judging import evaluation
 from uictest.report.csv_text import Cell
 
 SHARE_COLUMNS: Final = ("stops", "passed", "share", "share_low", "share_high")

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal
 
-from uictest import evaluation, scenario
+from uictest.judging import evaluation
+from uictest.plans import scenario
 from uictest.report.csv_text import Cell
 from uictest.report.wording import outcome_word
 
 if TYPE_CHECKING:
-    from uictest.series import SeriesResult
+    from uictest.judging.series import SeriesResult
 
 NOT_APPLICABLE: Final = "not applicable"
 

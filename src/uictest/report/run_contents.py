@@ -7,7 +7,9 @@ import json
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
-from uictest import evaluation, recording
+from uictest.core import recording
+from uictest.judging import evaluation
+from uictest.judging.series import series_results_of
 from uictest.report.content import RunContent
 from uictest.report.document import read_baseline_comparison, read_subjects
 from uictest.report.drawn_cases import drawn_cases
@@ -15,7 +17,6 @@ from uictest.report.manifest import read_manifest
 from uictest.report.recording_path import recording_path, require_names
 from uictest.report.run_report import RESULTS
 from uictest.report.traces.trace import PlotTrace, trace_of
-from uictest.series import series_results_of
 
 
 def read_run(folder: Path, *, traces: bool = False) -> RunContent:

@@ -6,7 +6,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from uictest import evaluation, files, recording, series
+from uictest.core import files, recording
+from uictest.judging import evaluation, series
 from uictest.report.content import RunContent
 from uictest.report.document import baseline_form, subjects_form
 from uictest.report.format_registry import IN_EVERY_RUN, write_formats

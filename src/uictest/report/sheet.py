@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
-from uictest import files
+from uictest.core import files
 from uictest.report.csv_text import Cell
 from uictest.report.escaping import printable
 from uictest.report.sheet_columns import NUMBER_FORMATS, SheetColumn, sheet_column

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import Final, Literal
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.repeat_wording import repeat_sentences
 

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS, Config, ControllerProgram
-from uictest.record import ScenarioValue, scenario_values
+from uictest.core.record import ScenarioValue, scenario_values
+from uictest.plans.scenario import Case, Scenario
 from uictest.rig.derived_parameters import (
     DERIVED,
     Assignment,
@@ -28,7 +29,6 @@ from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.noise_key import noise_keys
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import Case, Scenario
 
 
 def assemble(case: Case) -> StopInputs:
@@ -103,7 +103,8 @@ def assigned(assignments: Iterable[Assignment], scenario: Scenario) -> dict[str,
 def friction_laws(scenario: Scenario) -> NDArray[np.float64]:
     """Return friction along the track and its factor over time, in rows of equal length.
 
-    Where the friction is that of n cases (:mod:`uictest.ensemble`), so are the laws: shape (n, 4, points).
+    Where the friction is that of n cases (:mod:`uictest.core.ensemble`), so are the laws: shape (n, 4,
+    points).
     """
     along, over_time = friction_along_track(scenario), friction_factor_over_time(scenario)
     places, frictions = zip(*along, strict=True)

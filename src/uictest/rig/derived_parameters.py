@@ -12,13 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from uictest.ensemble import Ensemble
-from uictest.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
-from uictest.rig.cylinder_sampling import resampled_transfer_function
-from uictest.rig.highest_creep import highest_creep_law
-from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail_memory import MARGIN, POINTS
-from uictest.scenario import (
+from uictest.core.ensemble import Ensemble
+from uictest.core.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario import (
     COMPENSATION_SETTINGS,
     FIT_KEYS,
     WHEELSET_NUMBERS,
@@ -27,7 +24,10 @@ from uictest.scenario import (
     rig_differences,
     wheelset_value,
 )
-from uictest.units import STANDARD_GRAVITY
+from uictest.rig.cylinder_sampling import resampled_transfer_function
+from uictest.rig.highest_creep import highest_creep_law
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.rail_memory import MARGIN, POINTS
 
 _ALWAYS = 1.0
 _WHEELS = 8.0
@@ -172,7 +172,7 @@ def _cylinder(p: Parameters, scenario: Scenario) -> None:
     "simulation.time_step",
 )
 def _module_air(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.physics.module_air`."""
+    """Numbers of :mod:`uictest.core.physics.module_air`."""
     model, system = scenario.rig.compensation_model.air, scenario.brake.system
     step, atmosphere = float(scenario.simulation.time_step), system.air.atmospheric_pressure
     heating = step * (system.air.heat_capacity_ratio - 1.0) * system.air.temperature / system.tank.volume
@@ -231,7 +231,7 @@ def _contact(p: Parameters, scenario: Scenario) -> None:
 
 @_reads("rail.condition")
 def _highest_creep(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.physics.friction_maximum`."""
+    """Numbers of :mod:`uictest.core.physics.friction_maximum`."""
     p.highest_creep_scale, coefficients = highest_creep_law(scenario.rail.condition)
     for power, coefficient in enumerate(coefficients):
         setattr(p, f"highest_creep_{power}", coefficient)
@@ -245,7 +245,7 @@ def _friction(p: Parameters, scenario: Scenario) -> None:
 
 @_reads("rail", "vehicle.bogie", "vehicle.half_pivot_distance")
 def _cleaning(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.physics.rail_cleaning`; zero where nothing is cleaned."""
+    """Numbers of :mod:`uictest.core.physics.rail_cleaning`; zero where nothing is cleaned."""
     cleaning = scenario.rail.cleaning_in_force
     wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
     largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)

@@ -1,7 +1,7 @@
 """Parameters of a wheelset that follow from several values, its own or the regular ones.
 
-Each function states the values of a wheelset (:func:`~uictest.scenario.wheelset_value`) and the further keys
-of the scenario at or below which it reads.
+Each function states the values of a wheelset (:func:`~uictest.plans.scenario.wheelset_value`) and the further
+keys of the scenario at or below which it reads.
 """
 
 import math
@@ -9,11 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from uictest.physics import stiffnesses
-from uictest.record import scenario_values
+from uictest.core.physics import stiffnesses
+from uictest.core.record import scenario_values
+from uictest.plans.scenario import WHEELSET_NUMBERS, Scenario, wheelset_keys, wheelset_value
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
-from uictest.scenario import WHEELSET_NUMBERS, Scenario, wheelset_keys, wheelset_value
 
 ValueOf = Callable[[str], Any]
 """Returns a value of the wheelset by its name."""

@@ -1,6 +1,6 @@
 """Parameters of the disc brake: the friction law of its pads and the temperature of its discs."""
 
-from uictest.physics import (
+from uictest.core.physics import (
     MODES,
     MOST_PAD_POINTS,
     held_mode,
@@ -9,9 +9,9 @@ from uictest.physics import (
     quotient_scale,
     relaxed_share,
 )
+from uictest.plans.scenario import DiscRing, PadLaw, Scenario
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.model.parameters import Parameters
-from uictest.scenario import DiscRing, PadLaw, Scenario
 
 
 def _pad(p: Parameters, scenario: Scenario) -> None:

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterator
 
-from uictest.faults import MOST_FAULTS, SPEED_SENSOR, Effects
+from uictest.core.units import KINDS
+from uictest.plans.faults import MOST_FAULTS, SPEED_SENSOR, Effects
+from uictest.plans.scenario import Fault, Quantity, Scenario
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.model.parameters import Parameters
-from uictest.scenario import Fault, Quantity, Scenario
-from uictest.units import KINDS
 
 _CONVERTED = frozenset({"travel_time", "release_time"})
 """Effects whose tables hold something else: shares of a step, controller cycles."""

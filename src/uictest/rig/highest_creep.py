@@ -1,4 +1,4 @@
-"""The largest creep force on a rail condition, for :func:`uictest.physics.highest_creep_force`."""
+"""The largest creep force on a rail condition, for :func:`uictest.core.physics.highest_creep_force`."""
 
 from functools import cache
 from typing import Final
@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
+from uictest.core.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
+from uictest.plans.scenario import RailCondition
 from uictest.rig.model.running_gear import LOWEST_LOAD
 from uictest.rig.model.slip_search import HIGHEST_LOAD
-from uictest.scenario import RailCondition
 
 _SLIPS: Final = np.geomspace(1e-5, 60.0, 800)
 """Values of x = B w among which the maximum is sought; it is flat, so that steps of 2 % suffice."""

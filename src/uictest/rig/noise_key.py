@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.ensemble import alike, rows_at
+from uictest.core.ensemble import alike, rows_at
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
 
 _OF_STOP: Final = ("initial_speed", "commanded_pressure", "static_wheel_load")

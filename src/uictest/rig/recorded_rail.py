@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.plans.scenario import Scenario
 from uictest.rig.assembly import ASSIGNMENTS, assigned
 from uictest.rig.backends.compiled import (
     compile_inner,
@@ -17,7 +18,6 @@ from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.rail_under_record import MET_RAIL, RECORDED_MOTION, follow_record
 from uictest.rig.model.state import CAR, WHEELSET
-from uictest.scenario import Scenario
 
 Array = NDArray[np.float64]
 _WHEELSETS = 4

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from uictest.controllers import ResponseTimes
-from uictest.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
+from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
+from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.in_process import RunInputs
@@ -18,7 +19,6 @@ from uictest.rig.model.trace import (
     WHEELSET_CHANNELS,
 )
 from uictest.rig.noise_key import noise_key_text
-from uictest.scenario import Case
 
 
 @dataclass(frozen=True)
@@ -26,8 +26,8 @@ class SimulatedStop:
     """Result of the simulation of a case.
 
     Attributes:
-        measures: record of :data:`uictest.measures.STOP_MEASURES`.
-        wheelset_measures: four records of :data:`uictest.measures.WHEELSET_MEASURES`.
+        measures: record of :data:`uictest.core.measures.STOP_MEASURES`.
+        wheelset_measures: four records of :data:`uictest.core.measures.WHEELSET_MEASURES`.
         recording: channels over time, if requested.
         controller_version: what a controller from outside says of itself.
         response_times: how it answered, where cycles were paced by the clock.

@@ -6,7 +6,12 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from uictest import campaign, comparison, evaluation, recording, report, scenario, series, validation
+from uictest import report
+from uictest.analysis import comparison, validation
+from uictest.core import recording
+from uictest.judging import evaluation
+from uictest.plans import scenario, series
+from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
 from uictest.runs.series_runs import SeriesBatch, run_series

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from uictest import campaign, evaluation, recording, report, scenario
+from uictest import report
+from uictest.core import recording
+from uictest.judging import evaluation
+from uictest.plans import scenario
+from uictest.running import campaign
 from uictest.runs.processors import available_processors
 
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 
-from uictest import campaign, report, scenario, series
+from uictest import report
+from uictest.judging import series
+from uictest.plans import scenario
+from uictest.running import campaign
 
 
 class Observer:

@@ -8,7 +8,9 @@ from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-from uictest import files, history, recording, report
+from uictest import report
+from uictest.core import files, recording
+from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uictest import files, report, sweeps
+from uictest import report
+from uictest.core import files
+from uictest.running import chunked
 
 
 def holds_sweep(folder: Path) -> bool:
     """Return whether a folder is that of a sweep, finished or not."""
     try:
-        manifest = sweeps.ChunkStore(folder).manifest()
+        manifest = chunked.ChunkStore(folder).manifest()
     except OSError:
         return False
-    return manifest is not None and manifest.get("schema") == sweeps.SCHEMA
+    return manifest is not None and manifest.get("schema") == chunked.SCHEMA
 
 
 def why_no_run(folder: Path) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from uictest import scenario, series
+from uictest.plans import scenario, series
+from uictest.plans.scenario import yaml
 from uictest.runs.invalid_input import InvalidInputError
-from uictest.scenario import yaml
 
 DEFAULT_FOLDER = Path("scenarios")
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, scenario, series
+from uictest.plans import scenario, series
 from uictest.report import RunContent, counted
+from uictest.running import campaign
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.scenario_files import load_cases
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from uictest import campaign, evaluation, scenario, series
-from uictest.units import in_unit
+from uictest.core.units import in_unit
+from uictest.judging import evaluation, series
+from uictest.plans import scenario, series as series_plans
+from uictest.running import campaign
 
 Simulate = Callable[[Sequence[scenario.Case]], campaign.BatchResult]
 
@@ -20,7 +22,7 @@ class SeriesBatch:
 
 
 def run_series(
-    planned: Sequence[series.Series],
+    planned: Sequence[series_plans.Series],
     simulate: Simulate,
     *,
     maxfail: int | None,
@@ -44,7 +46,9 @@ def run_series(
     return batch
 
 
-def cases_of(planned: series.Series, results: Sequence[evaluation.CaseResult]) -> list[series.SeriesCase]:
+def cases_of(
+    planned: series_plans.Series, results: Sequence[evaluation.CaseResult]
+) -> list[series.SeriesCase]:
     """Return the results of the cases of a series, with what each is for and its nominal speed."""
     return [
         series.SeriesCase(stop.role, speed_kmh(stop), result, stop.rail)
@@ -52,6 +56,6 @@ def cases_of(planned: series.Series, results: Sequence[evaluation.CaseResult]) -
     ]
 
 
-def speed_kmh(stop: series.PlannedStop) -> float:
+def speed_kmh(stop: series_plans.PlannedStop) -> float:
     """Return the nominal initial speed of a stop in km/h, without the digits that conversion adds."""
     return round(in_unit(stop.speed, "km/h"), 6)

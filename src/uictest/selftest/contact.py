@@ -3,7 +3,7 @@
 import math
 from typing import Final
 
-from uictest import physics
+from uictest.core import physics
 from uictest.selftest.check import Answer, Check
 
 _WHEEL_LOAD: Final = 55e3

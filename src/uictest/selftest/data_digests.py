@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Final
 
 _PACKAGE: Final = Path(__file__).parents[1]
-_FOLDERS: Final = ("library", "selftest/stops", "selftest/record", "templates")
+_FOLDERS: Final = ("plans/library", "selftest/stops", "selftest/record", "plans/templates")
 """Where the parts, criteria, known stops and first files of users lie."""
 _OF_PYTHON: Final = "__pycache__"
 

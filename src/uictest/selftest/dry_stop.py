@@ -9,8 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest import rig, scenario
-from uictest.recording import TIME, Recording
+from uictest import rig
+from uictest.core.recording import TIME, Recording
+from uictest.plans import scenario
 from uictest.selftest.check import Answer, Check
 from uictest.selftest.known_stops import KnownStops
 

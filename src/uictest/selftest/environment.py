@@ -10,8 +10,9 @@ from importlib.metadata import PackageNotFoundError, PackagePath, distribution, 
 from pathlib import Path
 from typing import Final
 
-from uictest import __version__, user_cache
-from uictest.lanes import fuses, register_width
+from uictest import __version__
+from uictest.core import user_cache
+from uictest.core.lanes import fuses, register_width
 from uictest.selftest.check import Answer, Check, NotCheckedError
 from uictest.selftest.known_stops import KnownStops
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Final
 
-from uictest import physics
+from uictest.core import physics
 from uictest.selftest.check import Answer, Check
 from uictest.selftest.known_stops import KnownStops
 

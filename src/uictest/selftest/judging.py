@@ -11,10 +11,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest import evaluation, field_data, scenario
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
+from uictest.plans import scenario
+from uictest.recorded import field_data
 from uictest.selftest.check import Answer, Check
 from uictest.selftest.known_stops import KnownStops
-from uictest.units import KILOMETRE_PER_HOUR
 
 _SPEED: Final = 120.0 * KILOMETRE_PER_HOUR
 _DECELERATION: Final = 1.0

@@ -7,7 +7,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest import rig, scenario
+from uictest import rig
+from uictest.plans import scenario
 
 _FOLDER: Final = Path(__file__).parent / "stops"
 Numbers = Mapping[str, str]

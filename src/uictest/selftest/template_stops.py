@@ -7,7 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from uictest import files, rig, scenario, templates
+from uictest import rig
+from uictest.core import files
+from uictest.plans import scenario, templates
 from uictest.selftest.check import NotCheckedError
 
 # As the Makefile of the template has them.

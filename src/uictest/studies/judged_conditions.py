@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from uictest.scenario import Case, yaml
+from uictest.plans.scenario import Case, yaml
 from uictest.studies.stop_runner import StopRunner, seeded
 
 _FILE = Path(__file__).parent / "conditions" / "judgement.yaml"

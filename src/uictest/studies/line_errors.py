@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from uictest.recording import Recording
-from uictest.scenario import Case
+from uictest.core.recording import Recording
+from uictest.core.units import PERCENT
+from uictest.plans.scenario import Case
 from uictest.studies.judged_conditions import JudgedConditions, judged_cases
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import StopRunner
-from uictest.units import PERCENT
 
 
 @dataclass(frozen=True, slots=True)

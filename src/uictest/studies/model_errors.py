@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.physics import VENT
-from uictest.recording import Recording
-from uictest.scenario import COMPENSATION_SETTINGS, Case
+from uictest.core.physics import VENT
+from uictest.core.recording import Recording
+from uictest.core.units import PERCENT
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 from uictest.studies.neighbourhood import SETTINGS
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import StopRunner
-from uictest.units import PERCENT
 
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}
 FILTER_MISSES = (

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from uictest import rig
-from uictest.scenario import COMPENSATION_SETTINGS, Case
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 from uictest.studies.stop_runner import StopRunner, constant_friction
 
 SETTINGS = tuple(COMPENSATION_SETTINGS)

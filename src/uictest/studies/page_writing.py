@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
-from uictest import files, report
+from uictest import report
+from uictest.core import files
 from uictest.studies.page import STUDIES_MARK, STUDY_MARK, StudyFigure, studies_html, study_html
 from uictest.studies.study import Study, StudyResult
 

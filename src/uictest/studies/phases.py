@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import identification
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.rig import identification
 
 TITLES = {
     "bc_squeezing": "BC squeezing",

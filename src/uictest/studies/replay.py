@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from uictest import recording, scenario
+from uictest.core import recording
+from uictest.plans import scenario
 from uictest.rig import bench
 
 CYCLE = 0.01

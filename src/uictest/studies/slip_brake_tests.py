@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from uictest import evaluation, rig, scenario
+from uictest import rig
+from uictest.core.units import NORMAL_DENSITY, PERCENT, SIZES
+from uictest.judging import evaluation
+from uictest.plans import scenario
 from uictest.studies.stop_runner import StopRunner, Stops, seeded
-from uictest.units import NORMAL_DENSITY, PERCENT, SIZES
 
 FRICTIONS = (0.03, 0.04, 0.05, 0.06, 0.08, 0.10)
 CLEANED = "5.3 kJ/m"

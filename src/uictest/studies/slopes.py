@@ -6,13 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from uictest import identification, scenario
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILONEWTON, KILONEWTON_PER_BAR
+from uictest.plans import scenario
+from uictest.rig import identification
 from uictest.studies.phases import TITLES, identified_lines
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Table
-from uictest.units import KILONEWTON, KILONEWTON_PER_BAR
 
 _NAN = float("nan")
 

@@ -10,9 +10,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from uictest import campaign, rig
-from uictest.recording import Recording
-from uictest.scenario import Case, load
+from uictest import rig
+from uictest.core.recording import Recording
+from uictest.plans.scenario import Case, load
+from uictest.running import campaign
 
 _SCENARIOS = Path(__file__).parent / "scenarios"
 

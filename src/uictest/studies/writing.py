@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import files
+from uictest.core import files
 from uictest.studies.comparison import comparison_table
 from uictest.studies.document import document
 from uictest.studies.figures.style import RC

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.recording import ORIGIN, Recording, read_parquet, write_parquet
+from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
 
 RECIPE = """\
 schema: uictest/bench/1

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from uictest import series
-from uictest.scenario import loading
+from uictest.plans import series
+from uictest.plans.scenario import loading
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
-from uictest.recording.formats import ReadingInterruptedError, writer_of
+from uictest.core.recording import Recording
+from uictest.core.recording.formats import ReadingInterruptedError, writer_of
 
 Call = Callable[..., Any]
 STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
@@ -240,7 +240,7 @@ def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
     def broken_off(path: Path, dialect: object = None) -> None:
         raise ReadingInterruptedError(28, f"No space left on device to read {path}", "/small")
 
-    monkeypatch.setattr("uictest.field_data.recorded_stop.read_contents", broken_off)
+    monkeypatch.setattr("uictest.recorded.field_data.recorded_stop.read_contents", broken_off)
     (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")
     answer = call("evaluate", "stop.csv", *STATED)
     assert answer.code == 3

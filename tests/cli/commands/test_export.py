@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.recording import Recording, write_parquet
-from uictest.recording.formats import Dialect
-from uictest.recording.formats.reader import read_here
+from uictest.core.recording import Recording, write_parquet
+from uictest.core.recording.formats import Dialect
+from uictest.core.recording.formats.reader import read_here
 
 Call = Callable[..., Any]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from uictest import rig_fmu
+from uictest.api import rig_fmu
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

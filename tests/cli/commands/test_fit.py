@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from uictest.recording import write_parquet
+from uictest.core.recording import write_parquet
+from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.scenario import load
 
 Call = Callable[..., Any]
 WET = "rail: {condition: wet, friction: 0.07}\ncriteria: [uictest-stop]\n"

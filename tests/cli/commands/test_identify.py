@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.identification.lines import FittedLine
-from uictest.identification.play import computed_force
-from uictest.recording import ORIGIN, Recording, read_parquet, write_parquet
-from uictest.scenario import load_part
-from uictest.scenario.parts.compensation import Compensation
+from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
+from uictest.plans.scenario import load_part
+from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.rig.identification.lines import FittedLine
+from uictest.rig.identification.play import computed_force
 
 STEP = 0.001
 SQUEEZING, RELEASING = FittedLine(0.042, -1800.0), FittedLine(0.0475, -1650.0)
@@ -50,7 +50,7 @@ def record(workplace):
 
 
 def read(path) -> Compensation:
-    from uictest.identification.compensation_file import load_compensation
+    from uictest.rig.identification.compensation_file import load_compensation
 
     return load_compensation(str(path))
 

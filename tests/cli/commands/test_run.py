@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest import campaign, report
+from uictest import report
+from uictest.running import campaign
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

@@ -11,8 +11,8 @@ import jsonschema
 import pytest
 
 from uictest.cli.commands.schema import SchemaKind, schema_text
-from uictest.scenario import PART_MODELS
-from uictest.scenario.yaml import plain, read_file
+from uictest.plans.scenario import PART_MODELS
+from uictest.plans.scenario.yaml import plain, read_file
 
 REPOSITORY = Path(__file__).parents[3]
 LIBRARY = REPOSITORY / "src" / "uictest" / "library"

@@ -10,8 +10,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest import recording, series
-from uictest.recording.formats import writer_of
+from uictest.core import recording
+from uictest.core.recording.formats import writer_of
+from uictest.judging import series
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

@@ -15,8 +15,10 @@ from typing import Any
 
 import pytest
 
-from uictest import report, sweeps as room
-from uictest.sweeps.running.chunk import ChunkRunner
+from uictest import report
+from uictest.analysis import summaries
+from uictest.running import chunked
+from uictest.running.chunked.chunk import ChunkRunner
 
 from ..conftest import HANGING, Start
 
@@ -188,15 +190,15 @@ def test_a_full_disk_and_ctrl_c_leave_what_is_finished(
     call: Call, study: Path, monkeypatch: pytest.MonkeyPatch, error: Any, code: int, said: str
 ) -> None:
     call("sweep", study, "-o", "whole")
-    write = room.ChunkStore.write
+    write = chunked.ChunkStore.write
 
-    def breaks(self: room.ChunkStore, number: int, content: bytes) -> None:
+    def breaks(self: chunked.ChunkStore, number: int, content: bytes) -> None:
         if number == 3:
             raise error
         write(self, number, content)
 
     with monkeypatch.context() as patch:
-        patch.setattr(room.ChunkStore, "write", breaks)
+        patch.setattr(chunked.ChunkStore, "write", breaks)
         answer = call("sweep", study, "-n", "1")
     assert answer.code == code
     assert said in answer.err
@@ -215,7 +217,7 @@ def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(room, "summarize", interrupted)
+        patch.setattr(summaries, "summarize", interrupted)
         answer = call("sweep", study)
     assert answer.code == 2
     assert "uictest: interrupted\nuictest: finished chunks are kept in reports/study; the same" in answer.err

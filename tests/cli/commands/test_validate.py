@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 
-from uictest.campaign import batch
-from uictest.validation import read_validation
+from uictest.analysis.validation import read_validation
+from uictest.running.campaign import batch
 
 from ..conftest import FIGURES
 

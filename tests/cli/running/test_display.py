@@ -8,7 +8,7 @@ import pytest
 from uictest.cli.options import Colour, Format
 from uictest.cli.output import interactive
 from uictest.cli.running.display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 
 MET = CaseResult("[bold]a", "a.yaml", {}, "pass", "pass")

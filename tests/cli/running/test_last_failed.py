@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
-from uictest.recording.formats import writer_of
+from uictest.core.recording import Recording
+from uictest.core.recording.formats import writer_of
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]

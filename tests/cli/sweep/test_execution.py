@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from uictest.files import FolderLock
+from uictest.core.files import FolderLock
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
 

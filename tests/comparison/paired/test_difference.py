@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy import stats
 
-from uictest.comparison import Draw, PairedDifference, paired_group
+from uictest.analysis.comparison import Draw, PairedDifference, paired_group
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
 

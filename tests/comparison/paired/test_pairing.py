@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.comparison import (
+from uictest.analysis.comparison import (
     Comparison,
     Tolerances,
     compare_runs,
@@ -20,7 +20,7 @@ from uictest.comparison import (
     variants_json,
     variants_lines,
 )
-from uictest.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report import RunContent
 
 Make = Callable[..., CaseResult]

@@ -15,7 +15,6 @@ import pytest
 
 import uictest.controllers.built_in.threshold as threshold
 from uictest import rig
-from uictest.conformance.situations import anything
 from uictest.controllers import (
     Config,
     ControllerError,
@@ -24,7 +23,8 @@ from uictest.controllers import (
     open_controller,
 )
 from uictest.controllers.adapters import registered
-from uictest.scenario import ScenarioErrors, load, load_controller, load_part, with_parameters
+from uictest.plans.scenario import ScenarioErrors, load, load_controller, load_part, with_parameters
+from uictest.selftest.conformance.situations import anything
 
 ENTRY_POINTS = """\
 [uictest.controllers]

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 
 KMH = 1 / 3.6
 G = 9.80665

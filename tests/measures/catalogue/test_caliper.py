@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import MEASURES, WHEELSET_MEASURES, wheelset_column_values
+from uictest.core.measures import MEASURES, WHEELSET_MEASURES, wheelset_column_values
 
 HIGHEST = MEASURES["maximum_disc_temperature"]
 

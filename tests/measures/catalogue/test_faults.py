@@ -4,7 +4,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from uictest.measures import MEASURES
+from uictest.core.measures import MEASURES
 
 
 def value(name: str, stop: dict[str, float], wheelsets: list[dict[str, float]]) -> Any:

@@ -1,7 +1,12 @@
 import pytest
 
-from uictest.measures import MeasureValue
-from uictest.measures.catalogue.stopping import braking_distance, braking_time, mean_deceleration, standstill
+from uictest.core.measures import MeasureValue
+from uictest.core.measures.catalogue.stopping import (
+    braking_distance,
+    braking_time,
+    mean_deceleration,
+    standstill,
+)
 
 
 def test_440_to_490_m_from_120_km_h_are_1_263_to_1_134_m_per_s2(stop) -> None:

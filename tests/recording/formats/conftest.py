@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
-from uictest.recording.formats import FORMATS, isolation, writer_of
+from uictest.core.recording import Recording
+from uictest.core.recording.formats import FORMATS, isolation, writer_of
 
 from ...conftest import READ_IN_PROCESS
 

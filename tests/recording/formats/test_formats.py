@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
-from uictest.recording.formats import (
+from uictest.core.recording import Recording
+from uictest.core.recording.formats import (
     FORMATS,
     Dialect,
     MissingExtraError,
@@ -19,10 +19,10 @@ from uictest.recording.formats import (
     read_contents,
     writer_of,
 )
-from uictest.recording.formats.layout import name_and_unit
-from uictest.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
-from uictest.recording.formats.problems import required_module
-from uictest.recording.formats.reader import read_here
+from uictest.core.recording.formats.layout import name_and_unit
+from uictest.core.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
+from uictest.core.recording.formats.problems import required_module
+from uictest.core.recording.formats.reader import read_here
 
 Written = Callable[[str], Path]
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}

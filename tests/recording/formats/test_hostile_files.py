@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.recording.formats import UnreadableError, read_contents
-from uictest.recording.formats.choice import format_of
+from uictest.core.recording.formats import UnreadableError, read_contents
+from uictest.core.recording.formats.choice import format_of
 
 Written = Callable[[str], Path]
 BINARY = ("mdf", "tdms", "mat", "parquet")

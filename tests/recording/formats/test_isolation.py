@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from uictest.recording.formats import ReadingInterruptedError, UnreadableError, isolation, read_contents
+from uictest.core.recording.formats import ReadingInterruptedError, UnreadableError, isolation, read_contents
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
 

@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Callable
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, Table, csv_text
 from uictest.report.formats.csv import (
     FORMAT,

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report.formats.junit import junit_xml
 
 MakeResult = Callable[..., CaseResult]

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from uictest.evaluation import CaseResult, EffectivePart, Parameter, Verdict
+from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter, Verdict
 from uictest.report import RunContent
 from uictest.report.formats.junit import FORMAT, junit_xml
 

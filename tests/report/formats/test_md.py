@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from markdown_it import MarkdownIt
 
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report import CaseDescription, RunContent, append_step_summary
 from uictest.report.formats.md import markdown_summary
 from uictest.report.github import LIMIT

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import CaseDescription, RunContent
 from uictest.report.formats.xlsx import workbook_bytes
 from uictest.report.sheet import LONGEST_TEXT

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import product
 
-from uictest.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report.page.matrix import maps_of
 
 MakeResult = Callable[..., CaseResult]

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from uictest import evaluation, series
-from uictest.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.series_measures import SERIES_MEASURES, SpeedStops
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.series_measures import SERIES_MEASURES, SpeedStops
+from uictest.judging import evaluation, series
+from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
 
 MakeSeries = Callable[..., series.SeriesResult]
 

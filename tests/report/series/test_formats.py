@@ -13,8 +13,8 @@ from xml.etree import ElementTree
 import openpyxl
 import pytest
 
-from uictest import series
-from uictest.evaluation import CaseResult
+from uictest.judging import series
+from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent, read_run, series_table, write_formats, write_reports
 from uictest.report.formats.junit import junit_xml
 from uictest.report.formats.md import markdown_summary

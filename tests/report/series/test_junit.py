@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from xml.etree import ElementTree
 
-from uictest import series
-from uictest.evaluation import CaseResult
+from uictest.judging import series
+from uictest.judging.evaluation import CaseResult
 from uictest.report.formats.junit import junit_xml
 
 MakeSeries = Callable[..., series.SeriesResult]

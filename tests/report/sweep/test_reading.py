@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.evaluation import CaseResult
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult
 from uictest.report import write_recording
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.reading import read_sweep

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from uictest.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
+from uictest.judging.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
 from uictest.report.terminal.case_lines import case_line, criterion_lines, definition_lines
 
 MakeResult = Callable[..., CaseResult]

@@ -8,7 +8,7 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from uictest.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent
 from uictest.report.terminal.verdict_table import explanation_text, verdict_table
 

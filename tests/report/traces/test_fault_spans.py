@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
 from uictest.report.traces.fault_spans import FaultSpan, fault_spans
 from uictest.report.traces.trace import trace_of

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.evaluation import AppliedDefinition, Verdict
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import AppliedDefinition, Verdict
 from uictest.report.traces.moments import TRAIN, Moments, moments_of
 
 MakeVerdict = Callable[..., Verdict]

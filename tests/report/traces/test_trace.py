@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.report.page.stop.bars import magnet_bars, vents
 from uictest.report.traces.quantities import MAGNETS
 from uictest.report.traces.trace import BINS, deceleration, slide, trace_of

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest import user_cache
+from uictest.core import user_cache
 from uictest.rig.backends import machine_code
 from uictest.rig.backends.machine_code import Entries, Unit, is_kept, native_function
 

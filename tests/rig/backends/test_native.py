@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.plans.scenario import load
 from uictest.rig import simulate
 from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.native import compiled_stop, stop_is_compiled
@@ -18,14 +19,13 @@ from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.scenario import load
 
 WITHOUT_COMPILER = """
 import sys
 sys.modules["numba"] = None
 from pathlib import Path
 from uictest.rig import simulate
-from uictest.scenario import load
+from uictest.plans.scenario import load
 print(float(simulate(load([Path(sys.argv[1])])[0]).measures.stopped))
 """
 ON_AN_OLD_PROCESSOR = """
@@ -37,7 +37,7 @@ class Features(dict):
 binding.get_host_cpu_name = lambda: "x86-64"
 binding.get_host_cpu_features = lambda: Features(fma=False)
 from uictest.rig import simulate
-from uictest.scenario import load
+from uictest.plans.scenario import load
 print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())
 """
 

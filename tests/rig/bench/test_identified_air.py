@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.identification import UnsuitableRecordError
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.plans.scenario.yaml import parse_quantity
 from uictest.rig.bench import BenchTest, identify_air, load_bench, run_test
-from uictest.scenario.yaml import parse_quantity
+from uictest.rig.identification import UnsuitableRecordError
 
 RECIPE = """schema: uictest/bench/1
 name: cycling

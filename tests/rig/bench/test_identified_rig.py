@@ -6,12 +6,13 @@ from typing import Any
 
 import pytest
 
-from uictest import rig, user_cache
+from uictest import rig
+from uictest.core import user_cache
+from uictest.plans.scenario import Case, load, rig_differences
 from uictest.rig import bench
 from uictest.rig.bench import identified_rig
-from uictest.scenario import Case, load, rig_differences
 
-LINES = resources.files("uictest.library") / "compensations" / "six-inch.yaml"
+LINES = resources.files("uictest.plans.library") / "compensations" / "six-inch.yaml"
 
 
 def stop(folder: Path, *overrides: str) -> Case:

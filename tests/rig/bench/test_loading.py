@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario.yaml.model import quantities_in
 from uictest.rig.bench.loading import load_bench, recipe_names, recipe_path
-from uictest.scenario import ScenarioErrors
-from uictest.scenario.yaml.model import quantities_in
 
 
 @pytest.mark.parametrize("name", recipe_names())

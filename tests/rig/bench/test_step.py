@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from uictest.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.bench.applied import bench_input
 from uictest.rig.bench.inputs import BenchInput, joined_inputs, stepwise_input, triangular_input
 from uictest.rig.bench.loading import load_bench, recipe_path

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import HEADER
+from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import load
 
 HERE = Path(__file__).parent
 Compile = Callable[..., Path]

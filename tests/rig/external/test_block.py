@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 import uictest.controllers.built_in.threshold as threshold
 from uictest.controllers import EXCHANGE
 from uictest.controllers.adapters import registered
+from uictest.plans.scenario import load, load_part
 from uictest.rig.assembly import assemble
 from uictest.rig.backends import lanes
 from uictest.rig.external.block import BlockInputs, run_block
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import load, load_part
 
 Compile = Callable[..., Path]
 ENTRY_POINTS = """\

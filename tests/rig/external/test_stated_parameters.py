@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import ControllerError
+from uictest.plans.scenario import load
 from uictest.rig import Workers
 from uictest.rig.assembly import assemble
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import load
 
 Compile = Callable[..., Path]
 

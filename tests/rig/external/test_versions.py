@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import ControllerError
+from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import load
 
 VersionOf = Callable[[str], StopInputs]
 Compile = Callable[..., Path]

@@ -187,7 +187,7 @@ def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path, fault: str)
     temporary.mkdir()
     stop_of(fault, limit="600 s")
     program = (
-        "from pathlib import Path; from uictest import rig; from uictest.scenario import load\n"
+        "from pathlib import Path; from uictest import rig; from uictest.plans.scenario import load\n"
         "rig.simulate(load([Path('stop.yaml')])[0])"
     )
     environment = {**os.environ, "TMPDIR": str(temporary)}

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.step import step
 

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.physics import interpolated
+from uictest.core.physics import interpolated
+from uictest.plans.scenario import load_part
 from uictest.rig.model.disc_brake import set_pad_friction, warm_disc
-from uictest.scenario import load_part
 
 DRY = ("initial_speed=120 km/h",)
 WARM = (*DRY, "brake.disc_temperature=modelled")

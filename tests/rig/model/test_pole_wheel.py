@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from uictest.plans.scenario import ScenarioErrors
 from uictest.rig.model.cycle import read_sensors
 from uictest.rig.model.pole_wheel import read_pole_wheels
-from uictest.scenario import ScenarioErrors
 
 Benches = Callable[[Any], Any]
 EXACT = {"speed_noise": 0.0, "timer_resolution": 1e-12}

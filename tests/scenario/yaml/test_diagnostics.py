@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from uictest.scenario.yaml.diagnostics import ScenarioErrors, diagnose, in_reading_order
-from uictest.scenario.yaml.tree import Document, Place
-from uictest.scenario.yaml.wording import nearest, quoted, suggestion, visible
+from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, diagnose, in_reading_order
+from uictest.plans.scenario.yaml.tree import Document, Place
+from uictest.plans.scenario.yaml.wording import nearest, quoted, suggestion, visible
 
 
 def place(text: str, line: int, column: int, display: str = "a.yaml") -> Place:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import Case, ScenarioErrors, load
+from uictest.plans.scenario import Case, ScenarioErrors, load
 
 Write = Callable[[str, str], Path]
 PARENT = """\

@@ -5,9 +5,9 @@ from collections.abc import Callable
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.scenario import Case, Diagnostic, ScenarioErrors
-from uictest.scenario.yaml.overrides import parse_overrides
-from uictest.scenario.yaml.tree import as_written
+from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors
+from uictest.plans.scenario.yaml.overrides import parse_overrides
+from uictest.plans.scenario.yaml.tree import as_written
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

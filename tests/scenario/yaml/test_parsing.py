@@ -6,10 +6,10 @@ import pytest
 import yaml
 from hypothesis import given, strategies as st
 
-from uictest.scenario import ScenarioErrors
-from uictest.scenario.yaml import parsing
-from uictest.scenario.yaml.parsing import parse
-from uictest.scenario.yaml.tree import Document, Map, Node, Scalar, plain
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario.yaml import parsing
+from uictest.plans.scenario.yaml.parsing import parse
+from uictest.plans.scenario.yaml.tree import Document, Map, Node, Scalar, plain
 
 LOADERS = [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)]
 

@@ -6,8 +6,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.scenario.yaml.quantities import Quantity, QuantityError, parse_quantity
-from uictest.units import KINDS
+from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml.quantities import Quantity, QuantityError, parse_quantity
 
 WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.units]
 

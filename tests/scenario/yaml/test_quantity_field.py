@@ -5,8 +5,8 @@ from typing import Annotated
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from uictest.scenario.yaml.quantities import Quantity
-from uictest.scenario.yaml.quantity_field import of_kind
+from uictest.plans.scenario.yaml.quantities import Quantity
+from uictest.plans.scenario.yaml.quantity_field import of_kind
 
 
 class Sample(BaseModel):

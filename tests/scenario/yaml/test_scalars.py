@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from uictest.scenario.yaml.parsing import scalar_value
+from uictest.plans.scenario.yaml.parsing import scalar_value
 
 
 @pytest.mark.parametrize(

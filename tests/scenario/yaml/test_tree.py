@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from uictest.scenario.yaml.parsing import parse
-from uictest.scenario.yaml.tree import Document, Node, as_written, merge, plain
+from uictest.plans.scenario.yaml.parsing import parse
+from uictest.plans.scenario.yaml.tree import Document, Node, as_written, merge, plain
 
 
 def tree(text: str) -> Node:

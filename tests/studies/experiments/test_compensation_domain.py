@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.scenario import COMPENSATION_SETTINGS
+from uictest.plans.scenario import COMPENSATION_SETTINGS
 from uictest.studies import STUDIES, StopRunner, run_study
 from uictest.studies.experiments import compensation_domain
 from uictest.studies.figures.compensation_domain import worst_by_cell

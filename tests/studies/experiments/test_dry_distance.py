@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from uictest.scenario import COMPENSATION_SETTINGS
+from uictest.plans.scenario import COMPENSATION_SETTINGS
 from uictest.studies import STUDIES, StopRunner, run_study
 from uictest.studies.experiments import dry_distance
 from uictest.studies.experiments.dry_distance import (

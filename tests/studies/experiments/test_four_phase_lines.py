@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from uictest.identification.lines import FittedLine
+from uictest.rig.identification.lines import FittedLine
 from uictest.studies.experiments.four_phase_lines import _gain, apart
 from uictest.studies.line_errors import LineErrors
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
 from uictest.studies.actuations import mean_counts
 from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
 from uictest.studies.experiments.robustness import (
     SweptFriction,

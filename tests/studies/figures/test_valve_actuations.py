@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.studies.figures.valve_actuations import ActuationPanel, openings
 
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.scenario.yaml import parse_quantity
-from uictest.sweeps.plan.column import ParameterValue, drawn_column, listed_column
-from uictest.sweeps.plan.decimal_quantity import quantity_text, rounded_decimal, rounded_text
-from uictest.units import KINDS
+from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml import parse_quantity
+from uictest.plans.sweeps.column import ParameterValue, drawn_column, listed_column
+from uictest.plans.sweeps.decimal_quantity import quantity_text, rounded_decimal, rounded_text
 
 DRAWN = (
     st.floats(1e-16, 1e14)

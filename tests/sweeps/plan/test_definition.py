@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.scenario import ScenarioErrors
-from uictest.sweeps import Plan, load_sweep
-from uictest.sweeps.plan.base_case import BaseCase
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps.base_case import BaseCase
 
 from ..conftest import GRID, HEAD, Load
 

@@ -8,8 +8,8 @@ import pytest
 from scipy import stats
 from scipy.special import erfcx
 
-from uictest.sweeps.plan.distribution import Probabilities, quantile
-from uictest.sweeps.plan.model import FARTHEST_END, Distribution
+from uictest.plans.sweeps.distribution import Probabilities, quantile
+from uictest.plans.sweeps.model import FARTHEST_END, Distribution
 
 SHARES = np.linspace(0.0, 0.999, 50)
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.sweeps import drawn_ranges, load_sweep
-from uictest.sweeps.plan.plan import saltelli_sample
+from uictest.plans.sweeps import drawn_ranges, load_sweep
+from uictest.plans.sweeps.plan import saltelli_sample
 
 from ..conftest import Load
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
-from uictest.sweeps.plan.model import Method
-from uictest.sweeps.plan.sampling import points
+from uictest.plans.sweeps.model import Method
+from uictest.plans.sweeps.sampling import points
 
 METHODS: list[Method] = ["random", "sobol", "latin-hypercube", "saltelli"]
 

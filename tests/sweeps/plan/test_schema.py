@@ -7,7 +7,7 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from uictest.sweeps import load_sweep, sweep_schema
+from uictest.plans.sweeps import load_sweep, sweep_schema
 
 ROOT = Path(__file__).parents[3]
 SHIPPED = sorted((ROOT / "scenarios").glob("*.sweep.yaml"))

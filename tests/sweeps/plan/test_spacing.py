@@ -7,9 +7,9 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, strategies as st
 
+from uictest.analysis.summaries.bins import bins_of_plan
+from uictest.analysis.summaries.spacing import logarithmic_keys, spaced_logarithmically
 from uictest.report import DrawnInterval
-from uictest.sweeps.plan.spacing import logarithmic_keys, spaced_logarithmically
-from uictest.sweeps.summaries.bins import bins_of_plan
 
 from ..conftest import Load
 

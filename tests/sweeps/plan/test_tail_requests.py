@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.scenario import ScenarioErrors
-from uictest.sweeps import Plan, load_sweep
-from uictest.sweeps.plan.tail_model import QuantileRequest
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps.tail_model import QuantileRequest
 
 from ..conftest import HEAD
 

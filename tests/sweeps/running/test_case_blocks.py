@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.evaluation import JUDGED_KEYS
+from uictest.judging.evaluation import JUDGED_KEYS
+from uictest.plans.scenario import Case, Scenario, load as load_scenarios
+from uictest.plans.scenario.yaml.model import Model
+from uictest.plans.sweeps import Plan
 from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, WHEELSET_ASSIGNMENTS, assemble, assigned, friction_laws
-from uictest.scenario import Case, Scenario, load as load_scenarios
-from uictest.scenario.yaml.model import Model
-from uictest.sweeps import Plan
-from uictest.sweeps.running.case_blocks import BlockAssembler
-from uictest.sweeps.running.scenario_function import ScenarioVariants
+from uictest.running.chunked.case_blocks import BlockAssembler
+from uictest.running.chunked.scenario_function import ScenarioVariants
 
 from ..conftest import GRID, Load
 
@@ -211,7 +211,7 @@ def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> Non
 
 @pytest.mark.parametrize("case", SHIPPED[:3], ids=lambda case: case.id)
 def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
-    from uictest.evaluation import evaluate
+    from uictest.judging.evaluation import evaluate
 
     from ..conftest import formula
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.campaign import ExpressionError
-from uictest.sweeps import CaseSelection, select_cases
+from uictest.running.campaign import ExpressionError
+from uictest.running.chunked import CaseSelection, select_cases
 
 from ..conftest import Load
 

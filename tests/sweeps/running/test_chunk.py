@@ -12,8 +12,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.evaluation import evaluate
-from uictest.sweeps import CaseSelection, ChunkRunner, Plan, run_on_threads
+from uictest.judging.evaluation import evaluate
+from uictest.plans.sweeps import Plan
+from uictest.running.chunked import CaseSelection, ChunkRunner, run_on_threads
 
 from ..conftest import Load, formula
 from .test_case_blocks import written_out

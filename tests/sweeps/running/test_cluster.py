@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from uictest import rig
-from uictest.sweeps import CaseSelection, chunk_runner
+from uictest.running.chunked import CaseSelection, chunk_runner
 
 from ..conftest import Load
 
@@ -48,7 +48,7 @@ def cluster() -> Iterator[Any]:
 
 
 def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: Any) -> None:
-    from uictest.sweeps.running.cluster import run_on_cluster
+    from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     here = chunk_runner(selection.plan, rig.run_block)
@@ -66,7 +66,7 @@ def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: 
 
 
 def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
-    from uictest.sweeps.running.cluster import run_on_cluster
+    from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
     found: list[int] = []
@@ -75,7 +75,7 @@ def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
 
 
 def test_a_scheduler_that_does_not_answer_is_reported(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
-    from uictest.sweeps.running import cluster as module
+    from uictest.running.chunked import cluster as module
 
     monkeypatch.setattr(module, "_TIMEOUT", "1s")
     with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
@@ -85,7 +85,7 @@ def test_a_scheduler_that_does_not_answer_is_reported(load: Load, monkeypatch: p
 
 
 def test_waiting_for_workers_is_reported_once(load: Load) -> None:
-    from uictest.sweeps.running.cluster import run_on_cluster
+    from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     found: list[int] = []
@@ -112,7 +112,7 @@ def announced_address(file: Path, scheduler: subprocess.Popen[bytes]) -> str:
 
 
 def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
-    from uictest.sweeps.running import cluster as module
+    from uictest.running.chunked import cluster as module
 
     log = logging.getLogger("distributed.client")
     log.setLevel(logging.WARNING)
@@ -144,7 +144,7 @@ def test_what_is_no_address_is_rejected(load: Load, capsys: pytest.CaptureFixtur
 
 @pytest.mark.parametrize("address", ["foo:1", "tcp://foo:1", "tls://127.0.0.1:8786", "[::1]:8786"])
 def test_addresses(address: str) -> None:
-    from uictest.sweeps.running.cluster import check_address
+    from uictest.running.chunked.cluster import check_address
 
     check_address(address)
 

@@ -12,12 +12,12 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
-from uictest.campaign import RecordingRequest, run_case
-from uictest.measures import STOP_COLUMNS
+from uictest.core.measures import STOP_COLUMNS
+from uictest.plans.sweeps import Plan, programs_of
 from uictest.rig import run_in_process
-from uictest.sweeps import Plan, chunk_runner, programs_of
-from uictest.sweeps.running import cluster
-from uictest.sweeps.running.manifest import program_digest
+from uictest.running.campaign import RecordingRequest, run_case
+from uictest.running.chunked import chunk_runner, cluster
+from uictest.running.chunked.manifest import program_digest
 
 from ..conftest import Load
 from .test_case_blocks import written_out

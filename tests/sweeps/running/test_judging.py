@@ -13,12 +13,13 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest import rig
-from uictest.evaluation import ResultColumns, error_result, evaluate_simulated, result_columns
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.sweeps import ChunkRunner, Plan, chunk_runner
-from uictest.sweeps.running.case_blocks import CaseBlock
-from uictest.sweeps.running.chunk import parquet_bytes
-from uictest.sweeps.running.table import rows
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.judging.evaluation import ResultColumns, error_result, evaluate_simulated, result_columns
+from uictest.plans.sweeps import Plan
+from uictest.running.chunked import ChunkRunner, chunk_runner
+from uictest.running.chunked.case_blocks import CaseBlock
+from uictest.running.chunked.chunk import parquet_bytes
+from uictest.running.chunked.table import rows
 
 from ..conftest import Load
 from .test_case_blocks import written_out

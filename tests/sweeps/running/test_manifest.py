@@ -10,17 +10,14 @@ from typing import Any
 import pytest
 
 import uictest
-from uictest.sweeps import CaseSelection, Plan, load_sweep, sweep_manifest
-from uictest.sweeps.running.manifest import SOURCES, manifest_differences
+from uictest.plans.sweeps import Plan, load_sweep
+from uictest.running.chunked import CaseSelection, sweep_manifest
+from uictest.running.chunked.manifest import SOURCES, manifest_differences
 
 Load = Callable[..., Plan]
 PACKAGE = Path(uictest.__file__).parent
-WITHOUT_INFLUENCE = {
-    *("campaign", "files", "library", "recording", "report", "user_cache"),
-    "validation",
-}
-"""Rooms that select cases, serve the bench, keep files, write reports or say what was validated; the files of
-the library are inputs."""
+WITHOUT_INFLUENCE = {"report"}
+"""Rooms that write what was found."""
 
 
 def manifest(plan: Plan) -> dict[str, Any]:

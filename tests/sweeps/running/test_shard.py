@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.sweeps import Shard, parse_shard
+from uictest.running.chunked import Shard, parse_shard
 
 
 @given(st.integers(0, 50), st.integers(1, 12))

@@ -7,8 +7,8 @@ from pathlib import Path
 import pyarrow as pa
 import pytest
 
-from uictest.sweeps import ChangedInputsError, ChunkStore, MissingChunksError
-from uictest.sweeps.running.chunk import parquet_bytes
+from uictest.running.chunked import ChangedInputsError, ChunkStore, MissingChunksError
+from uictest.running.chunked.chunk import parquet_bytes
 
 MANIFEST = {"schema": "x", "cases": 3, "inputs": {"a.yaml": "1", "b.yaml": "2"}, "program": "p"}
 

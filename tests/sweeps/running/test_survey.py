@@ -13,11 +13,12 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
-from uictest.scenario import ScenarioErrors, load as load_scenarios
-from uictest.sweeps import CaseSelection, ChunkRunner, Plan, chunk_runner, sweep_manifest
-from uictest.sweeps.plan.survey import in_survey_steps
-from uictest.sweeps.running.case_blocks import BlockAssembler
-from uictest.sweeps.running.survey import biases_by_measure, survey_biases, survey_step
+from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
+from uictest.plans.sweeps import Plan
+from uictest.plans.sweeps.survey import in_survey_steps
+from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
+from uictest.running.chunked.case_blocks import BlockAssembler
+from uictest.running.chunked.survey import biases_by_measure, survey_biases, survey_step
 
 from ..conftest import GRID, SCENARIO, Load, formula
 

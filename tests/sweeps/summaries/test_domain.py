@@ -9,13 +9,14 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from uictest.campaign import parts_of_cases
+from uictest.analysis.summaries import full_cases
+from uictest.analysis.summaries.domain import OUTSIDE, DomainTally
+from uictest.analysis.validation import Domain, Validation, ValidationReference, conditions_of, domains_of
+from uictest.plans.scenario import load as load_scenarios
+from uictest.plans.sweeps import Plan
 from uictest.report import domain_notes
-from uictest.scenario import load as load_scenarios
-from uictest.sweeps import Plan, full_cases
-from uictest.sweeps.running.table import number_column, text_column
-from uictest.sweeps.summaries.domain import OUTSIDE, DomainTally
-from uictest.validation import Domain, Validation, ValidationReference, conditions_of, domains_of
+from uictest.running.campaign import parts_of_cases
+from uictest.running.chunked.table import number_column, text_column
 
 from ..conftest import Load
 

@@ -7,10 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from uictest.analysis.summaries import FrontierError, FrontierSearch
+from uictest.analysis.summaries.frontier import Verdicts
+from uictest.plans.sweeps import Plan
+from uictest.plans.sweeps.decimal_quantity import parse_decimal_quantity
 from uictest.report import FrontierScan, WrittenValue
-from uictest.sweeps import FrontierError, FrontierSearch, Plan
-from uictest.sweeps.plan.decimal_quantity import parse_decimal_quantity
-from uictest.sweeps.summaries.frontier import Verdicts
 
 from ..conftest import Load
 

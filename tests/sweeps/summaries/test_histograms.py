@@ -7,7 +7,7 @@ import pyarrow as pa
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.sweeps.summaries.histograms import HistogramCounts, ReportedMeasure, reported_measures
+from uictest.analysis.summaries.histograms import HistogramCounts, ReportedMeasure, reported_measures
 
 MEASURE = ReportedMeasure("slide", "%", ("a", "b"), 100.0)
 values = st.one_of(st.none(), st.floats(-1e6, 1e6))

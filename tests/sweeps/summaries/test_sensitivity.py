@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
-from uictest.sweeps.plan.plan import saltelli_sample
-from uictest.sweeps.summaries.sensitivity import (
+from uictest.analysis.summaries.sensitivity import (
     confidence_interval,
     sobol_sensitivities,
     uncertainty_note,
 )
+from uictest.plans.sweeps.plan import saltelli_sample
+from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
 
 from ..conftest import Load
 

@@ -16,11 +16,13 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
+from uictest.analysis.summaries import summarize
+from uictest.analysis.summaries.trends import MOST_VALUES
+from uictest.plans.sweeps import Plan
 from uictest.report import SweepResult, map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
-from uictest.sweeps import CaseSelection, ChunkRunner, ChunkStore, Plan, summarize
-from uictest.sweeps.running.case_blocks import BlockAssembler
-from uictest.sweeps.summaries.trends import MOST_VALUES
+from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore
+from uictest.running.chunked.case_blocks import BlockAssembler
 
 from ..conftest import GRID, SCENARIO, Load, formula
 
@@ -204,7 +206,7 @@ def test_one_row_per_case_in_both_summaries(finished: Callable[..., tuple[SweepR
 def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeRunner, tmp_path: Path) -> None:
     import pyarrow as pa
 
-    from uictest.sweeps.summaries.summary_files import without_formulas
+    from uictest.analysis.summaries.summary_files import without_formulas
 
     assert without_formulas(pa.table({"a": ["=1+1", "+2", "x"], "b": [1, 2, 3]})).column("a").to_pylist() == [
         "'=1+1",

@@ -14,11 +14,13 @@ import pytest
 import yaml
 
 from uictest import rig
+from uictest.analysis.summaries import summarize
+from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
 from uictest.report import SweepResult, tail_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
-from uictest.sweeps import CaseSelection, ChunkRunner, ChunkStore, Plan, load_sweep, select_cases, summarize
-from uictest.sweeps.plan.nominal import drawn_ranges, nominal_plan
-from uictest.sweeps.running.case_blocks import BlockAssembler
+from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore, select_cases
+from uictest.running.chunked.case_blocks import BlockAssembler
 
 from ..conftest import HEAD, formula
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pyarrow as pa
 
-from uictest.sweeps.summaries.bins import bins_of_plan
-from uictest.sweeps.summaries.histograms import ReportedMeasure
-from uictest.sweeps.summaries.trends import TrendSums
+from uictest.analysis.summaries.bins import bins_of_plan
+from uictest.analysis.summaries.histograms import ReportedMeasure
+from uictest.analysis.summaries.trends import TrendSums
 
 from ..conftest import GRID, Load
 

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest import rig
-from uictest.campaign import RecordingRequest, run_cases
-from uictest.sweeps.running.chunk import chunk_runner
-from uictest.sweeps.summaries.worst import MOST, WorstCases, full_cases
+from uictest.analysis.summaries.worst import MOST, WorstCases, full_cases
+from uictest.running.campaign import RecordingRequest, run_cases
+from uictest.running.chunked.chunk import chunk_runner
 
 from ..conftest import Load
 

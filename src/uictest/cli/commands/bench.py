@@ -9,14 +9,16 @@ from typing import Annotated
 
 import typer
 
-from uictest import identification, recording, runs, scenario
+from uictest import runs
 from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.recording import formats
-from uictest.rig import bench as rig_bench
-from uictest.scenario import yaml
+from uictest.core import recording
+from uictest.core.recording import formats
+from uictest.plans import scenario
+from uictest.plans.scenario import yaml
+from uictest.rig import bench as rig_bench, identification
 
 _FORMATS = {".parquet": "parquet", ".csv": "csv"}
 """Suffix of the recording -> its format."""

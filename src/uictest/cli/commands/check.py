@@ -9,12 +9,13 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, runs, scenario, series, sweeps
+from uictest import report, runs
 from uictest.cli import sweep as sweeping
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.scenario import yaml
+from uictest.plans import scenario, series, sweeps
+from uictest.plans.scenario import yaml
 
 _FIELDS = ("file", "line", "column", "key", "message", "hint")
 

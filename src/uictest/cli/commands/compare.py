@@ -9,12 +9,14 @@ from typing import Annotated
 
 import typer
 
-from uictest import comparison, files, recording, runs
+from uictest import runs
+from uictest.analysis import comparison
 from uictest.cli.compared_variants import compare_variants
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
 from uictest.cli.output import data, message, terminal_width
-from uictest.recording import formats
+from uictest.core import files, recording
+from uictest.core.recording import formats
 
 
 def compare(

@@ -10,12 +10,14 @@ from typing import Annotated, Any, Final
 
 import typer
 
-from uictest import conformance, files, scenario
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
 from uictest.cli.registration import command
-from uictest.scenario import yaml
+from uictest.core import files
+from uictest.plans import scenario
+from uictest.plans.scenario import yaml
+from uictest.selftest import conformance
 
 controller = typer.Typer(rich_markup_mode=None, help="Check WSP controllers without the rig.")
 

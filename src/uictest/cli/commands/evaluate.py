@@ -8,12 +8,15 @@ from typing import Annotated
 
 import typer
 
-from uictest import campaign, field_data, recording, report, runs
+from uictest import report, runs
 from uictest.cli import options, recordings, running
 from uictest.cli.exit_codes import ExitCode, of_run
 from uictest.cli.output import data, message
 from uictest.cli.pruning import keep_newest, named_paths
-from uictest.recording import formats
+from uictest.core import recording
+from uictest.core.recording import formats
+from uictest.recorded import field_data
+from uictest.running import campaign
 
 _OPTIONS = {
     "rail.condition": "--rail",

@@ -9,13 +9,14 @@ from typing import Annotated, Final
 
 import typer
 
-from uictest import __version__, recording, runs
+from uictest import __version__, runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files
-from uictest.files import make_folder
-from uictest.recording import formats as file_formats
+from uictest.core import recording
+from uictest.core.files import make_folder
+from uictest.core.recording import formats as file_formats
 
 _BY_SUFFIX: Final = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
 """Suffix of its files -> format; engineers say MF4 for MDF 4."""

@@ -9,12 +9,15 @@ from typing import Annotated
 
 import typer
 
-from uictest import files, rig_fmu, runs, scenario
+from uictest import runs
+from uictest.api import rig_fmu
 from uictest.cli.cases import case_lines, select_by_options
 from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
 from uictest.cli.output import data, message
+from uictest.core import files
+from uictest.plans import scenario
 
 
 class Fmi(StrEnum):

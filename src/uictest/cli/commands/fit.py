@@ -11,14 +11,17 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import controllers, field_data, files, fitting, report, rig, runs, scenario as scenarios
+from uictest import controllers, report, rig, runs
 from uictest.cli import options, recordings
 from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, message
-from uictest.recording import formats
-from uictest.scenario import yaml
-from uictest.units import KILOMETRE_PER_HOUR
+from uictest.core import files
+from uictest.core.recording import formats
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans import scenario as scenarios
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data, fitting
 
 _RECORD_EVERY = 0.01
 """s"""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from uictest import field_data, files, identification, library, runs, scenario
+from uictest import runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.identify_options import (
     ActingTime,
@@ -36,8 +36,11 @@ from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
 from uictest.cli.registration import command
 from uictest.cli.rig_of_record import rig_of_record
-from uictest.rig import bench
-from uictest.scenario import yaml
+from uictest.core import files
+from uictest.plans import library, scenario
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data
+from uictest.rig import bench, identification
 
 if TYPE_CHECKING:
     import numpy as np

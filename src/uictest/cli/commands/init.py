@@ -8,11 +8,13 @@ from typing import Annotated
 
 import typer
 
-from uictest import files, report, runs, templates
+from uictest import report, runs
 from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import message
+from uictest.core import files
+from uictest.plans import templates
 
 SCENARIO = Path("scenarios", "first-stop.yaml")
 SCHEMA = Path("schema", "scenario.schema.json")

@@ -8,14 +8,16 @@ from typing import Annotated
 
 import typer
 
-from uictest import field_data, library as library_files, runs, scenario
+from uictest import runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data
 from uictest.cli.registration import command
+from uictest.plans import library as library_files, scenario
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data
 from uictest.report import aligned_rows, printable
 from uictest.rig import bench
-from uictest.scenario import yaml
 
 library = typer.Typer(rich_markup_mode=None, help="Show the parts that come with the program.")
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import runs, scenario, series, sweeps
+from uictest import runs
 from uictest.cli import sweep as sweeping
 from uictest.cli.cases import (
     case_lines,
@@ -27,6 +27,7 @@ from uictest.cli.series import (
     series_json,
     series_lines,
 )
+from uictest.plans import scenario, series, sweeps
 
 
 def list_cases(

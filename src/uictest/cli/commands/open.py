@@ -10,11 +10,12 @@ from typing import Annotated
 
 import typer
 
-from uictest import history, report, runs
+from uictest import report, runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data, message
-from uictest.scenario import yaml
+from uictest.plans.scenario import yaml
+from uictest.runs import history
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 

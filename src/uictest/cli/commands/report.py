@@ -9,11 +9,12 @@ from typing import Annotated
 
 import typer
 
-from uictest import files, report as reports, runs
+from uictest import report as reports, runs
 from uictest.cli.cases import malformed
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Draw, Verbosity, report_formats
 from uictest.cli.output import data
+from uictest.core import files
 
 
 def report(

@@ -15,7 +15,7 @@ from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Colour, Colouring, Jobs, ListFormat, PlainFormat, Verbosity
 from uictest.cli.output import coloured, data, interactive, message
-from uictest.scenario import yaml
+from uictest.plans.scenario import yaml
 
 _INSTALL_FIGURES = "pip install 'uictest[figures]'"
 

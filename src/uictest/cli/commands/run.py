@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import campaign, evaluation, report, runs, scenario, series
+from uictest import report, runs
 from uictest.cli import options, running
 from uictest.cli.cases import (
     case_lines,
@@ -26,6 +26,9 @@ from uictest.cli.series import (
     series_json,
     series_lines,
 )
+from uictest.judging import evaluation
+from uictest.plans import scenario, series
+from uictest.running import campaign
 
 LastFailed = Annotated[
     bool, typer.Option("--lf", help="Select the cases that were not as expected in the newest run.")

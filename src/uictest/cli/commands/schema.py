@@ -10,10 +10,12 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest import field_data, files, scenario, series, sweeps, validation
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
+from uictest.core import files
+from uictest.plans import scenario, series, sweeps, validation
+from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench
 
 

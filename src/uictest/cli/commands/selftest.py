@@ -6,11 +6,12 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from uictest import files, selftest as known_answers
+from uictest import selftest as known_answers
 from uictest.cli import options
 from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
+from uictest.core import files
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
 """Worst finding -> exit code; any other is `ExitCode.MET`."""

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import report, runs, sweeps
+from uictest import report, runs
 from uictest.cli import sweep as sweeping
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import (
@@ -29,6 +29,8 @@ from uictest.cli.options import (
     report_formats,
 )
 from uictest.cli.output import message
+from uictest.plans import sweeps
+from uictest.running import chunked
 
 SweepFile = Annotated[Path, typer.Argument(metavar="FILE", help="Sweep file (*.sweep.yaml).")]
 Frontier = Annotated[
@@ -139,7 +141,7 @@ def sweep(
         return ExitCode.MET
     run = runs.SweepRun(
         selection=selection,
-        manifest=sweeps.sweep_manifest(
+        manifest=chunked.sweep_manifest(
             selection, expression=expression, overrides=overrides or (), seed=seed
         ),
         folder=output / plan.name,

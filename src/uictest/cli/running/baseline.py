@@ -9,10 +9,14 @@ from pathlib import Path
 
 import typer
 
-from uictest import comparison, evaluation, files, report, runs, scenario, series
+from uictest import report, runs
+from uictest.analysis import comparison
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import message
-from uictest.scenario import yaml
+from uictest.core import files
+from uictest.judging import evaluation
+from uictest.plans import scenario, series
+from uictest.plans.scenario import yaml
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from uictest import files, report, runs
+from uictest import report, runs
 from uictest.cli.output import message
 from uictest.cli.running.display import Display
 from uictest.cli.running.following import TerminalObserver
+from uictest.core import files
 
 
 def publish_and_show(

@@ -6,9 +6,10 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 
-from uictest import evaluation, report, series
+from uictest import report
 from uictest.cli.options import Colour, Format
 from uictest.cli.output import coloured, data, interactive
+from uictest.judging import evaluation, series
 
 _ANSI = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _ANSI_END = "\x1b[0m"

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
-from uictest import campaign, report, rig, runs, scenario, series
+from uictest import report, rig, runs
 from uictest.cli.compilation import compilation_shown
 from uictest.cli.output import message
 from uictest.cli.progress import announce_in_process, progress
 from uictest.cli.running.display import Display
+from uictest.judging import series
+from uictest.plans import scenario
+from uictest.running import campaign
 
 
 class TerminalObserver(runs.Observer):

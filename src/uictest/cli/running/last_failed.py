@@ -6,8 +6,11 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, files, report, runs, scenario, series
+from uictest import report, runs
 from uictest.cli.output import message
+from uictest.core import files
+from uictest.plans import scenario, series
+from uictest.running import campaign
 
 
 def failed_last(

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import campaign, runs
+from uictest import runs
 from uictest.cli.output import message
 from uictest.cli.running.batch import show_index_problem, write_junit
 from uictest.cli.running.display import Display
+from uictest.running import campaign
 
 _FORMATS = ("html",)
 

@@ -6,21 +6,24 @@ from collections.abc import Sequence
 
 import typer
 
-from uictest import campaign, runs, sweeps
+from uictest import runs
+from uictest.analysis import summaries
+from uictest.plans import sweeps
+from uictest.running import campaign, chunked
 
 
-def selected_cases(plan: sweeps.Plan, expression: str | None) -> sweeps.CaseSelection:
+def selected_cases(plan: sweeps.Plan, expression: str | None) -> chunked.CaseSelection:
     """Return the cases that `-k` selects. Raises typer.BadParameter for a malformed expression."""
     try:
-        return sweeps.select_cases(plan, expression)
+        return chunked.select_cases(plan, expression)
     except campaign.ExpressionError as error:
         raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
 
 
-def shard_of(text: str | None) -> sweeps.Shard:
+def shard_of(text: str | None) -> chunked.Shard:
     """Return the shard that `--shard` names, else the only one. Raises typer.BadParameter."""
     try:
-        return sweeps.Shard() if text is None else sweeps.parse_shard(text)
+        return chunked.Shard() if text is None else chunked.parse_shard(text)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--shard") from error
 
@@ -29,7 +32,7 @@ def cluster_address(address: str | None) -> str | None:
     """Return the address that `--dask` names. Raises typer.BadParameter."""
     try:
         if address is not None:
-            sweeps.check_address(address)
+            chunked.check_address(address)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--dask") from error
     return address
@@ -37,11 +40,11 @@ def cluster_address(address: str | None) -> str | None:
 
 def frontier_search(
     plan: sweeps.Plan, key: str | None, tolerance: str | None
-) -> sweeps.FrontierSearch | None:
+) -> summaries.FrontierSearch | None:
     """Return the search of `--frontier` and `--tolerance`. Raises typer.BadParameter."""
     try:
         return runs.frontier_search(plan, key, tolerance)
-    except sweeps.FrontierError as error:
+    except summaries.FrontierError as error:
         raise typer.BadParameter(str(error), param_hint="--frontier") from error
     except runs.ToleranceError as error:
         raise typer.BadParameter(str(error), param_hint="--tolerance") from error

@@ -5,16 +5,17 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 
-from uictest import report, runs, sweeps
+from uictest import report, runs
 from uictest.cli.options import Format
 from uictest.cli.output import data, terminal_width
 from uictest.report import printable
+from uictest.running import chunked
 
 _MOST_ROWS = 30
 _IDS_AT_ONCE = 4096
 
 
-def show_ids(selection: sweeps.CaseSelection) -> bool:
+def show_ids(selection: chunked.CaseSelection) -> bool:
     """Write the ids of the selected cases to stdout, one per line; return whether all were accepted."""
     for first in range(0, selection.size, _IDS_AT_ONCE):
         indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))

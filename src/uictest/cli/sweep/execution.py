@@ -5,13 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from time import perf_counter
 
-from uictest import files, history, report, runs, sweeps
+from uictest import report, runs
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Format
 from uictest.cli.output import message
 from uictest.cli.sweep.display import show_annotations, show_result
 from uictest.cli.sweep.following import TerminalSweepObserver
+from uictest.core import files
 from uictest.report import counted
+from uictest.running import chunked
+from uictest.runs import history
 
 
 def execute_sweep(run: runs.SweepRun, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
@@ -62,7 +65,7 @@ def _append_step_summary(content: report.SweepContent) -> None:
 
 
 def _report_finished_chunks(run: runs.SweepRun) -> None:
-    if sweeps.ChunkStore(run.folder).has_chunks():
+    if chunked.ChunkStore(run.folder).has_chunks():
         message(f"uictest: finished chunks are kept in {run.folder}; the same command continues")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from uictest import scenario
+from uictest.plans import scenario
 
 
 def is_sweep(path: Path) -> bool:

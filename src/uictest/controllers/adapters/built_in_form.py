@@ -7,14 +7,14 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest import lanes
 from uictest.controllers.adapters.declared_values import parameter_values
 from uictest.controllers.adapters.instance import ControllerError, reason_of
 from uictest.controllers.contract import Controller
 from uictest.controllers.exchange import INPUTS, OUTPUTS, WHEELSETS
 from uictest.controllers.interface import Config
-from uictest.physics import FILL, VENT, fma
-from uictest.record import layout_of
+from uictest.core import lanes
+from uictest.core.physics import FILL, VENT, fma
+from uictest.core.record import layout_of
 
 _OPTIONS: Final = {"error_model": "numpy", "nogil": True}
 """As the rig is compiled: the same source gives the same bits."""

@@ -12,7 +12,7 @@ from uictest.controllers.adapters.instance import ControllerError
 from uictest.controllers.contract import Controller, DeclaredParameter
 from uictest.controllers.declared import nothing_declared, parameter_problems, unknown_parameter
 from uictest.controllers.program import ControllerProgram
-from uictest.units import KINDS
+from uictest.core.units import KINDS
 
 _WRITTEN: Final = re.compile(r"\s*([-+]?[0-9]+(?:\.[0-9]+)?(?:[eE][-+]?[0-9]{1,3})?)\s*(\S.*?)?\s*")
 

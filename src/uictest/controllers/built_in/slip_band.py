@@ -15,7 +15,7 @@ from uictest.controllers.contract import (
     TrainMemory,
     share,
 )
-from uictest.physics import FILL, HOLD, VENT, maximum
+from uictest.core.physics import FILL, HOLD, VENT, maximum
 
 
 class Parameters(ControllerParameters):

@@ -29,7 +29,7 @@ from uictest.controllers.plausibility import (
     take_over,
     watch,
 )
-from uictest.physics import FILL, HOLD, VENT, maximum, minimum
+from uictest.core.physics import FILL, HOLD, VENT, maximum, minimum
 
 
 class Parameters(PlausibilityParameters):

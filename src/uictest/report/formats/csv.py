@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from uictest import evaluation
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
 from uictest.report.csv_text import Cell, Table, csv_text
@@ -27,7 +27,7 @@ from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import definition_sentence, reading_sentences
 
 if TYPE_CHECKING:
-    from uictest.series import SeriesResult
+    from uictest.judging.series import SeriesResult
 
 CHANGED = "changed_parameters"
 REQUIREMENTS = "requirements"

@@ -8,7 +8,8 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from uictest import evaluation
+from uictest.judging import evaluation
+from uictest.plans.scenario import in_order_of_ids
 from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.content import RunContent
@@ -25,10 +26,9 @@ from uictest.report.part_wording import changes_line, controller_of, controllers
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
 from uictest.report.wording import DIFFERS, real_time_sentences
-from uictest.scenario import in_order_of_ids
 
 if TYPE_CHECKING:
-    from uictest.series import SeriesResult
+    from uictest.judging.series import SeriesResult
 
 
 def junit_xml(

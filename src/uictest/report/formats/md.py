@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent

@@ -6,8 +6,8 @@ import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
 
-from uictest import evaluation
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent

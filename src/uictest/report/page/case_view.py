@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.baseline import case_explanation, case_word
 from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from uictest import evaluation
+from uictest.judging import evaluation
 
 
 @dataclass(frozen=True, slots=True)

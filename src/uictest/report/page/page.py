@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import islice
 from typing import Any
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import side_text

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.part_wording import base_word, changed_parameters, part_sentences
 
 _MOST: Final = 100

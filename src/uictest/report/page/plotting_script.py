@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from uictest import user_cache
+from uictest.core import user_cache
 
 
 class PackedScript(NamedTuple):

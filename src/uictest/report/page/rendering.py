@@ -10,7 +10,7 @@ from jinja2 import DictLoader, Environment, StrictUndefined
 from jinja2.bccache import Bucket, BytecodeCache, bc_magic
 from markupsafe import Markup
 
-from uictest import user_cache
+from uictest.core import user_cache
 from uictest.report.domain_wording import domain_notices, domain_sentences
 from uictest.report.escaping import printable
 from uictest.report.page.plotting_script import plotting_script, script_digest

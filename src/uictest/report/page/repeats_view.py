@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from uictest import evaluation
-from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.judging import evaluation
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import failing_first, without_rig_that_holds

@@ -7,7 +7,9 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from uictest import evaluation
+from uictest.core.series_measures import SERIES_MEASURES
+from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult, SeriesStop, SeriesVerdict, SpeedResult, observed_stops
 from uictest.report.page.anchors import fragment, series_anchor
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.series.comparison import comparison_columns, comparison_rows, value_with_interval
@@ -20,8 +22,6 @@ from uictest.report.series.wording import (
     series_word,
 )
 from uictest.report.wording import failing_first, limits, quantity
-from uictest.series import SeriesResult, SeriesStop, SeriesVerdict, SpeedResult, observed_stops
-from uictest.series_measures import SERIES_MEASURES
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
 _DISTANCE = "braking_distance_m"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from uictest.core.series_measures import SeriesValue
+from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.series.wording import interval, of_dry_stop, series_word, short
-from uictest.series import SeriesResult, SeriesVerdict
-from uictest.series_measures import SeriesValue
 
 _REMARKS = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}
 _NOT_CERTAIN = "not certain"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from uictest.judging.series import SeriesResult
 from uictest.report.github import annotation
 from uictest.report.series.wording import series_explanation, series_word
-from uictest.series import SeriesResult
 
 
 def series_annotations(result: SeriesResult) -> Iterator[str]:

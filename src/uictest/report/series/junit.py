@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
-from uictest import evaluation
+from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult, SeriesVerdict
+from uictest.plans.scenario import in_order_of_ids
 from uictest.report.escaping import xml_text
 from uictest.report.junit_properties import add_suite_properties, add_test_properties
 from uictest.report.part_wording import controller_of
@@ -17,8 +19,6 @@ from uictest.report.series.wording import (
     series_explanation,
     series_verdict_sentence,
 )
-from uictest.scenario import in_order_of_ids
-from uictest.series import SeriesResult, SeriesVerdict
 
 
 def series_testsuites(

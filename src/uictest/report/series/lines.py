@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from uictest.core.series_measures import SERIES_MEASURES
+from uictest.judging.series import SeriesResult
 from uictest.report.escaping import printable
 from uictest.report.series.wording import (
     count_sentences,
@@ -13,8 +15,6 @@ from uictest.report.series.wording import (
     unsettled_of_series,
 )
 from uictest.report.wording import line_word, number
-from uictest.series import SeriesResult
-from uictest.series_measures import SERIES_MEASURES
 
 SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")
 

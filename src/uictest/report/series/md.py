@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
 
+from uictest.judging.series import SeriesResult
 from uictest.report.markdown_table import MarkdownTable, code, prose, row
 from uictest.report.series.comparison import comparison_columns, comparison_rows
 from uictest.report.series.wording import (
@@ -14,7 +15,6 @@ from uictest.report.series.wording import (
     of_dry_stop,
 )
 from uictest.report.wording import counted, limits, quantity
-from uictest.series import SeriesResult
 
 _COLUMNS = ("verdict", "series", "criterion", "value", "limit", "margin", "confidence")
 _REST = "more rows are in `series-criteria.csv` and `results.json`."

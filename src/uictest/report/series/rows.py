@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue
+from uictest.judging.series import SeriesResult, SeriesVerdict, observed_stops
 from uictest.report.csv_text import Cell
 from uictest.report.series.wording import series_word
 from uictest.report.wording import definition_sentence
-from uictest.series import SeriesResult, SeriesVerdict, observed_stops
-from uictest.series_measures import SERIES_MEASURES, Estimate, SeriesValue
 
 Row = dict[str, Cell]
 ALL_SPEEDS = "all"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from uictest.judging.series import SeriesResult
 from uictest.report.escaping import printable
 from uictest.report.series.comparison import comparison_columns, comparison_rows
 from uictest.report.series.wording import (
@@ -15,7 +16,6 @@ from uictest.report.series.wording import (
 )
 from uictest.report.terminal.fitted_columns import TableColumn, aligned, columns_not_shown, fitted
 from uictest.report.wording import limits, quantity
-from uictest.series import SeriesResult
 
 _MORE = "every criterion stands below"
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from uictest.judging.series import SeriesResult
 from uictest.report.csv_text import Table
 from uictest.report.series.rows import Row, criterion_rows, measure_rows, series_rows, stop_rows
-from uictest.series import SeriesResult
 
 
 def series_tables(results: Sequence[SeriesResult]) -> dict[str, Table]:

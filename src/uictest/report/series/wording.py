@@ -7,7 +7,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from uictest import statistics
+from uictest.core import statistics
+from uictest.core.series_measures import Estimate, Method
+from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
 from uictest.report.wording import (
     CASE_WORDS,
@@ -19,8 +21,6 @@ from uictest.report.wording import (
     quantity,
     unsettled_sentences,
 )
-from uictest.series import SeriesResult, SeriesVerdict
-from uictest.series_measures import Estimate, Method
 
 _METHODS: Final[dict[Method, str]] = {
     "median": "median of {}",

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from uictest.evaluation import Deviation
+from uictest.judging.evaluation import Deviation
 from uictest.report.domain_wording import deviation_text
 from uictest.report.wording import counted
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from uictest import files
+from uictest.core import files
 from uictest.report.sweep import formats
 from uictest.report.sweep.content import SweepContent
 

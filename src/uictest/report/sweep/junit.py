@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import PurePosixPath
 from xml.etree import ElementTree
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import xml_text
 from uictest.report.junit_properties import add_suite_properties, add_test_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult

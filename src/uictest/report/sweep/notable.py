@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.sweep.result import MissedCase, SweepResult
 from uictest.report.wording import explanation, outcome_word, result_word

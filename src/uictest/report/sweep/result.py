@@ -8,8 +8,8 @@ from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import ConfigDict, Field, TypeAdapter
 
-from uictest import evaluation
-from uictest.evaluation import NamedParts, Number, WrittenCaseResult, required
+from uictest.judging import evaluation
+from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
 from uictest.report.sweep.domain import SweepDomain
 from uictest.report.sweep.survey import SurveyStep

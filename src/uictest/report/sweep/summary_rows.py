@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.measures import column_unit
+from uictest.core.measures import column_unit
+from uictest.core.units import SIZES
 from uictest.report.sweep.cases import SUMMARY
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 from uictest.report.sweep.values import DrawnInterval
-from uictest.units import SIZES
 
 if TYPE_CHECKING:
     import pyarrow as pa

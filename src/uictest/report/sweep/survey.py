@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
+from uictest.core.units import PERCENT
 from uictest.report.wording import counted
-from uictest.units import PERCENT
 
 _LEAST_NOTED: Final = 1e-4
 """Share below which biases are only counted."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from uictest.evaluation import OptionalNumber
+from uictest.judging.evaluation import OptionalNumber
 from uictest.report.sweep.values import Written
 
 

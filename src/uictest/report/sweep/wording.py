@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from uictest.measures import column_unit
+from uictest.core.measures import column_unit
 from uictest.report.escaping import argument
 from uictest.report.sweep.result import Circumstances, Flip, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label

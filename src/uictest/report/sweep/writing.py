@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from uictest import evaluation, files
+from uictest.core import files
+from uictest.judging import evaluation
 from uictest.report.junit_properties import WITH_TEST_PROPERTIES
 from uictest.report.sweep.junit import sweep_junit_xml
 from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml

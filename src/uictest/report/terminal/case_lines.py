@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.difference import Difference
 from uictest.report.escaping import printable

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Final
 
-from uictest import evaluation
-from uictest.measures import MEASURES, STOP_COLUMNS
+from uictest.core.measures import MEASURES, STOP_COLUMNS
+from uictest.judging import evaluation
 from uictest.report.baseline import difference_sentences
 from uictest.report.escaping import printable
 from uictest.report.part_wording import slide_speed

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest import recording
+from uictest.core import recording
 
 
 @dataclass(frozen=True, slots=True)

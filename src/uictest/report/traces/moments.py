@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.traces.quantities import PLOT_QUANTITIES, WHEELSETS
 
 Samples = NDArray[np.float64]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from uictest.recording import TIME, Recording
-from uictest.units import KILOMETRE_PER_HOUR
+from uictest.core.recording import TIME, Recording
+from uictest.core.units import KILOMETRE_PER_HOUR
 
 _WIDTH, _PANEL, _MARGIN = 900, 130, 45
 _MOST_POINTS = 1500

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from uictest.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
+from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
 
 WHEELSETS = (1, 2, 3, 4)
 ORDINARY_CREEP = 10.0

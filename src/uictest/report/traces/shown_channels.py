@@ -6,8 +6,8 @@ import re
 from types import MappingProxyType
 from typing import Final
 
+from uictest.core.units import KINDS
 from uictest.report.traces.quantities import PLOT_QUANTITIES, WHEELSETS, channel_names
-from uictest.units import KINDS
 
 _KEYS: Final = MappingProxyType({name: key for key in PLOT_QUANTITIES for name in channel_names(key)})
 """Channel -> its quantity on every page."""

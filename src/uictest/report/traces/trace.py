@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import evaluation, recording
+from uictest.core import recording
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.judging import evaluation
 from uictest.report.traces.extremes import thinned
 from uictest.report.traces.fault_spans import FaultSpan, fault_spans
 from uictest.report.traces.moments import Moments, moments_of
@@ -20,7 +22,6 @@ from uictest.report.traces.quantities import (
     channel_names,
     loop_lines,
 )
-from uictest.units import STANDARD_GRAVITY
 
 BINS = 800
 """Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""

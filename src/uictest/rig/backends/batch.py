@@ -13,8 +13,8 @@ class BatchMeasures(NamedTuple):
     """Measures of many stops, in the order of the cases.
 
     Attributes:
-        measures: records of :data:`uictest.measures.STOP_MEASURES`, shape (cases,).
-        wheelset_measures: records of :data:`uictest.measures.WHEELSET_MEASURES`, shape (cases, 4).
+        measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.core.measures.WHEELSET_MEASURES`, shape (cases, 4).
     """
 
     measures: NDArray[Any]

@@ -1,9 +1,9 @@
 """The rig compiled: the same functions, translated once.
 
-:func:`~uictest.lanes.translate` copies a function and everything of this package that it calls, with each
-copy wrapped by a compiler. The originals stay plain Python, and one source serves several targets. Floating
-point is strict: nothing is contracted but what the source writes as one operation, nothing reassociated, so
-that compiled and plain code give the same bits.
+:func:`~uictest.core.lanes.translate` copies a function and everything of this package that it calls, with
+each copy wrapped by a compiler. The originals stay plain Python, and one source serves several targets.
+Floating point is strict: nothing is contracted but what the source writes as one operation, nothing
+reassociated, so that compiled and plain code give the same bits.
 """
 
 import importlib
@@ -14,20 +14,19 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from uictest import lanes
 from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
-from uictest.lanes import translate as translate
-from uictest.physics import fma
+from uictest.core import lanes
+from uictest.core.lanes import translate as translate
+from uictest.core.physics import fma
 from uictest.rig.model.controller import begin, decide
 from uictest.rig.model.external_controller import call_step, exchange_at
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = (
-    "record.py",
-    *("physics", "controllers", "faults", "lanes", "rig"),
-    *(f"measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
-    *(f"measures/{name}.py" for name in ("build_up", "contact", "reaction", "sliding_share")),
+    *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults", "rig"),
+    *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
+    *(f"core/measures/{name}.py" for name in ("build_up", "contact", "reaction", "sliding_share")),
 )
 """Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from uictest.controllers import ResponseTimes
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace

@@ -7,7 +7,7 @@ by lane once per controller cycle; everything else runs in all lanes at once. A 
 
 from typing import Any, NamedTuple
 
-from uictest.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
+from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
@@ -41,7 +41,7 @@ class RigRecords(NamedTuple):
 
 
 class Lanes(NamedTuple):
-    """Blocks of lanes (:func:`uictest.lanes.block`): a rig, its parameters, the measures of its stop."""
+    """Blocks of lanes (:func:`uictest.core.lanes.block`): a rig, its parameters, the measures of its stop."""
 
     rig: RigRecords
     settings: Any

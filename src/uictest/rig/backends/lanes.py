@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import lanes as vector_functions
-from uictest.lanes import block, register_width
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.physics import floor, maximum, minimum, select, sqrt
+from uictest.core import lanes as vector_functions
+from uictest.core.lanes import block, register_width
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.physics import floor, maximum, minimum, select, sqrt
 from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.compiled import (
     Function,

@@ -18,11 +18,11 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest import lanes, user_cache
+from uictest.core import lanes, user_cache
 from uictest.rig.backends.compiled import OPTIONS, Function, compiler_inputs
 
 Entries = Mapping[str, tuple[Function, tuple[Any, ...]]]
-"""Functions of addresses and whole numbers by their names, as :func:`uictest.lanes.bitcode` takes them."""
+"""Functions of addresses and whole numbers by their names, as :func:`.bitcode` takes them."""
 
 
 class Unit(NamedTuple):

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.backends.scalar import RUN, RUN_ARGUMENTS, SCALAR
 from uictest.rig.model.friction_law import ROWS

@@ -3,7 +3,7 @@
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import (
     compile_inner,
     compiled_operations,

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import FinishedStop, empty_trace, rows_of_trace
 from uictest.rig.backends.machine_code import Target, address, native_function, object_code
 from uictest.rig.backends.scalar import SCALAR, STEP, STEP_ARGUMENTS

@@ -3,7 +3,9 @@
 from dataclasses import replace
 from pathlib import Path
 
-from uictest import identification
+from uictest.core.units import BAR
+from uictest.plans.scenario import Case
+from uictest.rig import identification
 from uictest.rig.bench.inputs import (
     BenchInput,
     Clock,
@@ -27,8 +29,6 @@ from uictest.rig.bench.recipe import (
 )
 from uictest.rig.bench.rig import clock_of
 from uictest.rig.simulation import simulate
-from uictest.scenario import Case
-from uictest.units import BAR
 
 
 def bench_input(test: BenchTest) -> BenchInput:

@@ -5,11 +5,11 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest import identification
-from uictest.physics import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, VENT
+from uictest.core.physics import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, VENT
+from uictest.core.units import BAR, in_unit
+from uictest.plans.scenario import Case, ModuleAir
+from uictest.rig import identification
 from uictest.rig.bench.modelled_pressure import ModelledPressure
-from uictest.scenario import Case, ModuleAir
-from uictest.units import BAR, in_unit
 
 Samples = NDArray[np.float64]
 _SPACING = 0.01

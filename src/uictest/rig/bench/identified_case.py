@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from uictest.scenario import Case
+from uictest.plans.scenario import Case
 
 
 def identified(case: Case) -> Case:

@@ -9,14 +9,9 @@ from threading import Lock
 from typing import Any, Final
 
 import uictest
-from uictest import identification, user_cache
-from uictest.recording import ORIGIN
-from uictest.rig.backends.compiled import compiler_inputs
-from uictest.rig.bench.identified_air import identify_air
-from uictest.rig.bench.loading import BenchTest, load_bench, recipe_path
-from uictest.rig.bench.recipe import Random, Stepwise, StopReplay, Triangular
-from uictest.rig.bench.run import run_test
-from uictest.scenario import (
+from uictest.core import user_cache
+from uictest.core.recording import ORIGIN
+from uictest.plans.scenario import (
     COMPENSATION_SETTINGS,
     BrakeSystem,
     Compensation,
@@ -27,7 +22,13 @@ from uictest.scenario import (
     rig_as_built,
     with_listed_rig,
 )
-from uictest.scenario.yaml import Document, parse, quantities_in
+from uictest.plans.scenario.yaml import Document, parse, quantities_in
+from uictest.rig import identification
+from uictest.rig.backends.compiled import compiler_inputs
+from uictest.rig.bench.identified_air import identify_air
+from uictest.rig.bench.loading import BenchTest, load_bench, recipe_path
+from uictest.rig.bench.recipe import Random, Stepwise, StopReplay, Triangular
+from uictest.rig.bench.run import run_test
 
 _BENCHES: Final = {"hysteresis": "six-inch-hysteresis", "pressure": "six-inch-cylinder"}
 _BASE: Final = "six-inch"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.physics import FILL, HOLD, VENT
+from uictest.core.physics import FILL, HOLD, VENT
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from uictest import library
-from uictest.rig.bench.recipe import BenchRecipe, FileReplay, StopReplay
-from uictest.scenario import (
+from uictest.plans import library
+from uictest.plans.scenario import (
     EXPANSION_KEYS,
     PART_KEYS,
     SCENARIO_SCHEMA,
@@ -18,7 +17,7 @@ from uictest.scenario import (
     resolve,
     with_default_parts,
 )
-from uictest.scenario.yaml import (
+from uictest.plans.scenario.yaml import (
     Entry,
     Map,
     Scalar,
@@ -33,6 +32,7 @@ from uictest.scenario.yaml import (
     validated,
     whole_file,
 )
+from uictest.rig.bench.recipe import BenchRecipe, FileReplay, StopReplay
 
 _FOLDER = Path(library.__file__).parent / "benches"
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.compiled import (
     compile_inner,
@@ -27,7 +28,6 @@ from uictest.rig.model.wheelset_parameters import (
     copy_wheelset_parameters,
 )
 from uictest.rig.stop_inputs import StopInputs
-from uictest.scenario import Case
 
 Samples = NDArray[np.float64]
 _NAME = "uictest_modelled_pressure"

@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from uictest.scenario.yaml import Part, Quantity, Section, of_kind
+from uictest.plans.scenario.yaml import Part, Quantity, Section, of_kind
 
 Pressure = Annotated[Quantity, of_kind("pressure", at_least="0 bar", at_most="12 bar")]
 Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="600 s")]

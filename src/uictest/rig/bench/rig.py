@@ -5,12 +5,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 from uictest.rig.assembly import assemble
 from uictest.rig.bench.inputs import Clock
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
-from uictest.scenario import COMPENSATION_SETTINGS, Case
 
 SETTINGS = tuple(COMPENSATION_SETTINGS)
 """Settings of the compensation, in the order of the records that compute them."""

@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 
 import uictest
-from uictest.identification import AS_BUILT
-from uictest.recording import ORIGIN, Recording
+from uictest.core.recording import ORIGIN, Recording
+from uictest.plans.scenario import Case, rig_as_built
 from uictest.rig.bench.applied import bench_input
 from uictest.rig.bench.inputs import BenchInput
 from uictest.rig.bench.loading import BenchTest
 from uictest.rig.bench.native import run_compiled
 from uictest.rig.bench.rig import bench_rig
 from uictest.rig.bench.trace import BENCH_CHANNELS, BENCH_SAMPLE
-from uictest.scenario import Case, rig_as_built
+from uictest.rig.identification import AS_BUILT
 
 
 def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_compiled) -> Recording:

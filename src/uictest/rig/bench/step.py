@@ -7,7 +7,7 @@ setting of the compensation.
 
 from typing import Any
 
-from uictest.physics import sqrt
+from uictest.core.physics import sqrt
 from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, THERMAL, BenchRig
 from uictest.rig.bench.trace import sample
 from uictest.rig.model.clamping import step_clamping

@@ -1,7 +1,7 @@
 """Channels of a bench recording and how a sample of them is taken."""
 
-from uictest.physics import analogue_reading
-from uictest.record import Record, channel, layout_of, units_of
+from uictest.core.physics import analogue_reading
+from uictest.core.record import Record, channel, layout_of, units_of
 from uictest.rig.bench.rig import CYLINDER, FULL, HYSTERESIS, LOADCELLS, NONE, THERMAL, BenchRig
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Wheelset

@@ -18,7 +18,7 @@ from uictest.controllers import (
     ControllerInstance,
     ControllerProgram,
 )
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.opened import opened
@@ -29,8 +29,8 @@ class BlockRun(NamedTuple):
     """What a block of stops leaves.
 
     Attributes:
-        measures: records of :data:`uictest.measures.STOP_MEASURES`, shape (cases,).
-        wheelset_measures: records of :data:`uictest.measures.WHEELSET_MEASURES`, shape (cases, 4).
+        measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.core.measures.WHEELSET_MEASURES`, shape (cases, 4).
         failures: for each case why its controller failed, empty where it did not; the measures of a case
             that failed mean nothing.
     """

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.controller_messages import bytes_of, read_controller, written_controllers

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from uictest.physics import kinetic_energy, longitudinal, spring_energy, vertical
+from uictest.core.physics import kinetic_energy, longitudinal, spring_energy, vertical
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
 

@@ -1,6 +1,6 @@
 """From the pressure of a module to its clamping force: the real caliper, or what replaces it."""
 
-from uictest.physics import (
+from uictest.core.physics import (
     analogue_reading,
     beyond_range,
     clamping_force,

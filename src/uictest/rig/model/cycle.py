@@ -8,7 +8,7 @@ alone.
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.physics import (
+from uictest.core.physics import (
     FILL,
     VENT,
     bell,

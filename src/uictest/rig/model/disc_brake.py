@@ -6,7 +6,7 @@ work that they did within it then warms the discs at a constant rate.
 
 from collections.abc import Sequence
 
-from uictest.physics import bulk_change, cooled_heat, interpolated, mode_after, quotient_factor
+from uictest.core.physics import bulk_change, cooled_heat, interpolated, mode_after, quotient_factor
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Wheelset
 

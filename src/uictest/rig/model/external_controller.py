@@ -26,7 +26,7 @@ from uictest.controllers import (
     ControllerCycle,
     TrainMemory,
 )
-from uictest.physics import FILL, HOLD, VENT
+from uictest.core.physics import FILL, HOLD, VENT
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 

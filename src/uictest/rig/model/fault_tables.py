@@ -7,14 +7,14 @@ no code asks what kind of fault it is.
 from collections.abc import MutableSequence
 from typing import Annotated
 
-from uictest.faults import MOST_FAULTS
-from uictest.record import Record, derived
+from uictest.core.record import Record, derived
+from uictest.plans.faults import MOST_FAULTS
 
 FaultTable = Annotated[MutableSequence[float], MOST_FAULTS]
 
 
 class FaultTables(Record):
-    """The faults of a stop, in the order of the scenario; effects as in :class:`uictest.faults.Effects`."""
+    """The faults of a stop, in the order of the scenario; effects as in :class:`.Effects`."""
 
     fault_count: int = derived()
     has_leaks: float = derived()  # 0 or 1: a fault is a leak

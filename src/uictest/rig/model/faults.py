@@ -6,7 +6,7 @@ acts on what the earlier one has left.
 
 from collections.abc import Sequence
 
-from uictest.physics import FILL, clamp, fma, maximum, minimum, uniform
+from uictest.core.physics import FILL, clamp, fma, maximum, minimum, uniform
 from uictest.rig.model.cycle import CHANNELS, noise_words
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from uictest.physics import air_changes, coldness, enthalpy
+from uictest.core.physics import air_changes, coldness, enthalpy
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import module_volume, orifice
 from uictest.rig.model.state import Car, Wheelset

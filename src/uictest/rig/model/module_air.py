@@ -6,7 +6,7 @@ the valves are open under their commands.
 
 from collections.abc import Sequence
 
-from uictest.physics import (
+from uictest.core.physics import (
     amount_gained,
     analogue_reading,
     beyond_range,

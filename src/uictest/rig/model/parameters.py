@@ -1,8 +1,8 @@
 """Parameters: the numbers that a case fixes, each declared once; those of a wheelset stand apart.
 
-:func:`~uictest.record.from_scenario` names the key of the scenario whose value the field holds; what is
-:func:`~uictest.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. What may differ from
-wheelset to wheelset is in :mod:`uictest.rig.model.wheelset_parameters`. SI units; pressures are absolute
+:func:`~uictest.core.record.from_scenario` names the key of the scenario whose value the field holds; what is
+:func:`~uictest.core.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. What may differ
+from wheelset to wheelset is in :mod:`uictest.rig.model.wheelset_parameters`. SI units; pressures are absolute
 unless named gauge. The order of fields carries no meaning.
 """
 
@@ -10,9 +10,9 @@ from collections.abc import MutableSequence
 from typing import Annotated
 
 from uictest.controllers import CONTROLLERS, ControllerCycle
-from uictest.measures import MeasureDefinition
-from uictest.physics import MOST_PAD_POINTS
-from uictest.record import derived, from_scenario, layout_of
+from uictest.core.measures import MeasureDefinition
+from uictest.core.physics import MOST_PAD_POINTS
+from uictest.core.record import derived, from_scenario, layout_of
 from uictest.rig.model.fault_tables import FaultTables
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]

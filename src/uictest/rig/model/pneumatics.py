@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from uictest.physics import (
+from uictest.core.physics import (
     air_changes,
     coldness,
     compressor_running,
@@ -200,7 +200,7 @@ def orifice(
     conductance: float,
     p: Parameters,
 ) -> float:
-    """Mass flow through an orifice of the rig, kg/s: :func:`uictest.physics.flow.mass_flow`."""
+    """Mass flow through an orifice of the rig, kg/s: :func:`uictest.core.physics.flow.mass_flow`."""
     return mass_flow(
         pressure_1,
         pressure_2,

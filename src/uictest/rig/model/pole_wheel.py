@@ -6,7 +6,7 @@ Once per controller cycle and in lanes, only in stops where a wheelset has such 
 import math
 from collections.abc import Sequence
 
-from uictest.physics import (
+from uictest.core.physics import (
     last_tooth,
     passed_turns,
     passing_rate,

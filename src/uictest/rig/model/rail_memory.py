@@ -10,8 +10,8 @@ Scalar code, called once per controller cycle.
 from collections.abc import MutableSequence, Sequence
 from typing import Annotated, Final
 
-from uictest.physics import cleaned_friction, cleaned_share, floor, share_left_behind
-from uictest.record import Record, layout_of
+from uictest.core.physics import cleaned_friction, cleaned_share, floor, share_left_behind
+from uictest.core.record import Record, layout_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 

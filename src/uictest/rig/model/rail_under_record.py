@@ -7,8 +7,8 @@ slip speeds by the creep law, at the friction that the rail has come to have.
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.physics import contact_stiffness, creep_force, maximum
-from uictest.record import Record, layout_of
+from uictest.core.physics import contact_stiffness, creep_force, maximum
+from uictest.core.record import Record, layout_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import RailMemory, clean_rail
 from uictest.rig.model.state import Car, Wheelset

@@ -5,7 +5,7 @@ with the new speeds (semi-implicit Euler), which keeps the energy of the suspens
 damping of its own. Only the creep force is implicit, since only it is stiff.
 """
 
-from uictest.physics import (
+from uictest.core.physics import (
     fma,
     gradient_force,
     locked_force,

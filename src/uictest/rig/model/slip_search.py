@@ -6,7 +6,7 @@ Nothing of a search outlasts its step: it is passed from function to function, n
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from uictest.physics import (
+from uictest.core.physics import (
     SLOWEST_CREEP,
     contact_stiffness,
     fma,

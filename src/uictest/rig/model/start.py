@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from uictest.physics import select
+from uictest.core.physics import select
 from uictest.rig.model.balance import stored_air, stored_air_energy, stored_energy
 from uictest.rig.model.controller import begin
 from uictest.rig.model.disc_brake import start_disc

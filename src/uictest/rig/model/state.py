@@ -4,7 +4,7 @@ SI units; pressures are absolute unless named gauge. The order of fields carries
 """
 
 from uictest.controllers import CONTROLLERS, ControlledWheelset, TrainMemory
-from uictest.record import Record, layout_of
+from uictest.core.record import Record, layout_of
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from uictest.controllers import NO_FAILURE
-from uictest.measures import StopMeasures, WheelsetMeasures
+from uictest.core.measures import StopMeasures, WheelsetMeasures
 from uictest.rig.model.controller import FROM_OUTSIDE
 from uictest.rig.model.external_controller import read_outputs, write_inputs
 from uictest.rig.model.parameters import Parameters

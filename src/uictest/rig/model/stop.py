@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from uictest.measures import StopMeasures, WheelsetMeasures
+from uictest.core.measures import StopMeasures, WheelsetMeasures
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs

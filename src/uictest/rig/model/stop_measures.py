@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from uictest.measures import (
+from uictest.core.measures import (
     StopMeasures,
     WheelsetMeasures,
     begin_build_up,
@@ -26,7 +26,7 @@ from uictest.measures import (
     observe_train,
     observe_wheelset,
 )
-from uictest.physics import highest_creep_force, maximum, select
+from uictest.core.physics import highest_creep_force, maximum, select
 from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual, rail_work
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Wheelset

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from uictest.physics import FILL, VENT
-from uictest.record import Record, channel, layout_of, units_of
+from uictest.core.physics import FILL, VENT
+from uictest.core.record import Record, channel, layout_of, units_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 

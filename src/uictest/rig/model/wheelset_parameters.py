@@ -1,11 +1,12 @@
 """Parameters that may differ from wheelset to wheelset, each declared once.
 
-:func:`~uictest.record.from_scenario` names a value as :func:`uictest.scenario.wheelset_value` does; what is
-:func:`~uictest.record.derived` is computed in :mod:`uictest.rig.derived_wheelset_parameters`. SI units.
-The state of a wheelset has these fields as well: the step reads them there.
+:func:`~uictest.core.record.from_scenario` names a value as :func:`uictest.plans.scenario.wheelset_value`
+does; what is :func:`~uictest.core.record.derived` is computed in
+:mod:`uictest.rig.derived_wheelset_parameters`. SI units. The state of a wheelset has these fields as well:
+the step reads them there.
 """
 
-from uictest.record import Record, derived, field_copier, from_scenario, layout_of
+from uictest.core.record import Record, derived, field_copier, from_scenario, layout_of
 
 
 class WheelsetParameters(Record):

@@ -6,7 +6,12 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from uictest import campaign, evaluation, field_data, recording, report, scenario, series
+from uictest import report
+from uictest.core import recording
+from uictest.judging import evaluation, series
+from uictest.plans import scenario, series as series_plans
+from uictest.recorded import field_data
+from uictest.running import campaign
 from uictest.runs.recorded.files import RecordedFile
 from uictest.runs.series_runs import cases_of
 
@@ -18,7 +23,7 @@ class RecordedBatch:
     files: Sequence[RecordedFile]
     cases: Sequence[scenario.Case]
     arguments: Sequence[str]
-    series: Sequence[series.Series] = ()
+    series: Sequence[series_plans.Series] = ()
     """Series whose stops, in this order, are all of the recorded ones; none where each stop is by itself."""
     strict: bool = False
     """Whether a stop is met only if all of its verdicts are settled, too."""
@@ -78,7 +83,7 @@ def _content(
 
 
 def _judge_series(
-    planned: Sequence[series.Series], results: Sequence[evaluation.CaseResult]
+    planned: Sequence[series_plans.Series], results: Sequence[evaluation.CaseResult]
 ) -> list[series.SeriesResult]:
     """Return the series judged; `results` are those of all their stops, in order."""
     waiting = iter(results)

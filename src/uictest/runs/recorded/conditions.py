@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from uictest import field_data, scenario as scenarios
+from uictest.plans import scenario as scenarios
+from uictest.recorded import field_data
 
 CaseOfStop = Callable[[str, float], "scenarios.Case"]
 """Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""

@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
-from uictest import field_data, scenario
-from uictest.recording import formats
+from uictest.core.recording import formats
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans import scenario
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.recorded.conditions import CaseOfStop
-from uictest.scenario import yaml
-from uictest.units import KILOMETRE_PER_HOUR
 
 Result = TypeVar("Result")
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from uictest import series
+from uictest.plans import series
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.recorded.files import RecordedFile, named_map, read_files
 from uictest.runs.scenario_files import load_series

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from uictest import campaign, evaluation, report, sweeps
+from uictest import report
+from uictest.analysis import summaries
+from uictest.judging import evaluation
+from uictest.plans import sweeps
+from uictest.running import campaign
 from uictest.runs.sweep.run import SweepRun
 
 
@@ -29,7 +33,7 @@ def with_nominal_stops(run: SweepRun, result: report.SweepResult) -> report.Swee
 
 def _nominal_stops(run: SweepRun) -> Sequence[evaluation.CaseResult]:
     plan = sweeps.nominal_plan(run.selection.plan)
-    cases = sweeps.full_cases(plan, range(plan.size))
+    cases = summaries.full_cases(plan, range(plan.size))
     batch = campaign.run_cases(
         cases,
         jobs=run.jobs,

@@ -6,7 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from uictest import campaign, evaluation, files, report, sweeps
+from uictest import report
+from uictest.analysis import summaries
+from uictest.core import files
+from uictest.judging import evaluation
+from uictest.running import campaign, chunked
 from uictest.runs.sweep.nominal_stops import with_nominal_stops
 from uictest.runs.sweep.observer import SweepObserver
 from uictest.runs.sweep.run import SweepRun, prepared_runner
@@ -28,10 +32,10 @@ class FinishedSweep:
     content: report.SweepContent
 
 
-def publish(run: SweepRun, store: sweeps.ChunkStore, observer: SweepObserver) -> FinishedSweep:
+def publish(run: SweepRun, store: chunked.ChunkStore, observer: SweepObserver) -> FinishedSweep:
     """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
     files.begin_list(store.folder)
-    summary = sweeps.summarize(
+    summary = summaries.summarize(
         run.selection, store, run.pair, run.measures, run.reference, csv=run.writes_csv
     )
     frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
@@ -52,7 +56,7 @@ def _run_worst(
 
     Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
     """
-    cases = sweeps.full_cases(run.selection.plan, indices)
+    cases = summaries.full_cases(run.selection.plan, indices)
     files.remove_listed(folder, f"{report.RECORDINGS}/*")
 
     def write_recording(case_run: campaign.CaseRun) -> None:
@@ -78,11 +82,11 @@ def _run_worst(
 
 
 def _frontier(
-    run: SweepRun, summary: sweeps.SweepSummary, search: sweeps.FrontierSearch, observer: SweepObserver
+    run: SweepRun, summary: summaries.SweepSummary, search: summaries.FrontierSearch, observer: SweepObserver
 ) -> report.Frontier:
     observer.searching(search.key)
     runner = prepared_runner(run, observer)
     scans = search.run(
-        summary.verdicts, lambda plan, indices: sweeps.verdicts_of(plan, indices, runner, run.jobs)
+        summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, run.jobs)
     )
     return report.Frontier(search.key, tuple(scans))

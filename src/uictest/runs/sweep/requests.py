@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from uictest import sweeps
-from uictest.scenario import yaml
+from uictest.analysis import summaries
+from uictest.plans import sweeps
+from uictest.plans.scenario import yaml
+from uictest.running import chunked
 
 
 class ToleranceError(ValueError):
@@ -20,7 +22,7 @@ def first_pair(plan: sweeps.Plan) -> tuple[str, str] | None:
 
 def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
     """Return columns of measures, else the braking distance. Raises ValueError for another name."""
-    columns = sweeps.measure_columns()
+    columns = chunked.measure_columns()
     for name in names or ():
         if name not in columns:
             raise ValueError(f"no measure {name!r}; {yaml.suggestion(name, columns)}")
@@ -29,7 +31,7 @@ def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
 
 def frontier_search(
     plan: sweeps.Plan, key: str | None, tolerance: str | None
-) -> sweeps.FrontierSearch | None:
+) -> summaries.FrontierSearch | None:
     """Return the search of a frontier along a parameter.
 
     Raises FrontierError for the parameter, ToleranceError for the tolerance.
@@ -38,8 +40,8 @@ def frontier_search(
         return None
     try:
         width = None if tolerance is None else sweeps.parse_decimal_quantity(tolerance)
-        return sweeps.FrontierSearch(plan, key, width)
-    except sweeps.FrontierError:
+        return summaries.FrontierSearch(plan, key, width)
+    except summaries.FrontierError:
         raise
     except ValueError as error:
         raise ToleranceError(str(error)) from error

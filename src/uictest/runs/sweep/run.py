@@ -8,17 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from uictest import report, rig, sweeps, validation
+from uictest import report, rig
+from uictest.analysis import validation
+from uictest.analysis.summaries import FrontierSearch
+from uictest.running import chunked
+from uictest.running.chunked import CaseSelection, ChangedInputsError, ChunkRunner, ChunkStore, Shard
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.sweep.observer import SweepObserver
-from uictest.sweeps import (
-    CaseSelection,
-    ChangedInputsError,
-    ChunkRunner,
-    ChunkStore,
-    FrontierSearch,
-    Shard,
-)
 
 
 @dataclass(frozen=True)
@@ -43,7 +39,7 @@ class SweepRun:
     formats: Sequence[str] | None = None
     """Of reports; None for tables and the page, and only the page where the cases are very many."""
     in_process: bool = False
-    run_block: sweeps.RunBlock = rig.run_block
+    run_block: chunked.RunBlock = rig.run_block
     """Simulates blocks with controllers from outside."""
 
     @property
@@ -117,11 +113,11 @@ def _merge_shard(store: ChunkStore, folder: Path, observer: SweepObserver) -> No
 
 
 def _run_chunks(
-    run: SweepRun, numbers: Sequence[int], write_chunk: sweeps.WriteChunk, observer: SweepObserver
+    run: SweepRun, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: SweepObserver
 ) -> None:
     if run.cluster is None:
         runner = prepared_runner(run, observer)
-        sweeps.run_on_threads(runner, run.selection, numbers, run.jobs, write_chunk)
+        chunked.run_on_threads(runner, run.selection, numbers, run.jobs, write_chunk)
     else:
         _run_on_cluster(run, run.cluster, numbers, write_chunk, observer)
 
@@ -130,22 +126,24 @@ def _run_on_cluster(
     run: SweepRun,
     address: str,
     numbers: Sequence[int],
-    write_chunk: sweeps.WriteChunk,
+    write_chunk: chunked.WriteChunk,
     observer: SweepObserver,
 ) -> None:
     try:
-        sweeps.run_on_cluster(run.selection, numbers, address, write_chunk, lambda: observer.waiting(address))
+        chunked.run_on_cluster(
+            run.selection, numbers, address, write_chunk, lambda: observer.waiting(address)
+        )
     except ImportError as error:
         raise InvalidInputError(
             "a cluster needs the extra: pip install 'uictest[dask]'", arguments=("cluster",)
         ) from error
-    except sweeps.ClusterError as error:
+    except chunked.ClusterError as error:
         raise OSError(str(error)) from error
 
 
 def prepared_runner(run: SweepRun, observer: SweepObserver) -> ChunkRunner:
     """Return a runner with a compiled rig."""
-    runner = sweeps.chunk_runner(run.selection.plan, run.run_block)
+    runner = chunked.chunk_runner(run.selection.plan, run.run_block)
     with observer.compiling():
         runner.prepare()
     return runner

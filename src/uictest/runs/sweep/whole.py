@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from uictest import controllers, files, rig
+from uictest import controllers, rig
+from uictest.core import files
+from uictest.plans.sweeps import programs_of
+from uictest.running.chunked import ChunkStore
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.sweep.observer import SweepObserver
 from uictest.runs.sweep.publishing import FinishedSweep, publish
 from uictest.runs.sweep.run import SweepRun, run_missing_chunks
-from uictest.sweeps import ChunkStore, programs_of
 
 
 def run_sweep(run: SweepRun, observer: SweepObserver) -> FinishedSweep | None:

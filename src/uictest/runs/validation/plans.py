@@ -5,21 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from uictest import validation
+from uictest.analysis import validation
+from uictest.plans import validation as validation_plans
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.scenario_files import is_series, load_series
 
 
 def load_validations(
     paths: Sequence[Path], overrides: Sequence[str] | None = None, trusted: Sequence[Path] | None = None
-) -> list[validation.ValidationPlan]:
+) -> list[validation_plans.ValidationPlan]:
     """Return the validations of validation and series files. Raises ScenarioErrors, InvalidInputError."""
-    plans: list[validation.ValidationPlan] = []
+    plans: list[validation_plans.ValidationPlan] = []
     for path in paths:
         if is_series(path):
-            plans += map(validation.plan_of_series, load_series([path], overrides, None, trusted))
+            plans += map(validation_plans.plan_of_series, load_series([path], overrides, None, trusted))
         else:
-            plans.append(validation.load_validation(path, tuple(overrides or ()), trusted or ()))
+            plans.append(validation_plans.load_validation(path, tuple(overrides or ()), trusted or ()))
     for plan in plans:
         if not plan.comparisons:
             raise InvalidInputError(f"{plan.path}: no stop names a recording: list them under `recordings`")

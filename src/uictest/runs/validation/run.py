@@ -7,7 +7,12 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from uictest import campaign, evaluation, files, report, scenario, validation
+from uictest import report
+from uictest.analysis import validation
+from uictest.core import files
+from uictest.judging import evaluation
+from uictest.plans import scenario, validation as validation_plans
+from uictest.running import campaign
 from uictest.runs.observer import Observer
 from uictest.runs.validation.stops import compared_stop, conditions_of_stop, recorded_stops
 
@@ -21,7 +26,7 @@ class ValidationRun:
 
 
 def run_validation(
-    plan: validation.ValidationPlan, jobs: int, trusted: Sequence[Path] | None, observer: Observer
+    plan: validation_plans.ValidationPlan, jobs: int, trusted: Sequence[Path] | None, observer: Observer
 ) -> ValidationRun:
     """Compare the recorded stops of a plan with their simulations.
 

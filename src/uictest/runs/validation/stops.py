@@ -8,11 +8,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from uictest import campaign, evaluation, field_data, scenario, validation
+from uictest.analysis import validation
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
+from uictest.plans import scenario, validation as validation_plans
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data
+from uictest.running import campaign
 from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.recorded.files import RecordedFile, named_map, read_files
-from uictest.scenario import yaml
-from uictest.units import KILOMETRE_PER_HOUR
 
 _DISTANCE: Final = "braking_distance_m"
 
@@ -22,13 +26,13 @@ class RecordedStopOfPlan:
     """A recorded stop: its file, the case as planned, and that from the recorded speed where it is usable."""
 
     file: RecordedFile
-    planned: validation.PlannedComparison
+    planned: validation_plans.PlannedComparison
     case: scenario.Case
     not_counted: str
 
 
 def recorded_stops(
-    plan: validation.ValidationPlan, trusted: Sequence[Path] | None
+    plan: validation_plans.ValidationPlan, trusted: Sequence[Path] | None
 ) -> tuple[list[RecordedStopOfPlan], dict[str, str]]:
     """Return the recorded stops of a plan, and every file that was read with its SHA-256.
 
@@ -71,8 +75,8 @@ def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
 
 
 def _stops(
-    plan: validation.ValidationPlan,
-    planned: validation.PlannedComparison,
+    plan: validation_plans.ValidationPlan,
+    planned: validation_plans.PlannedComparison,
     read: dict[str, str],
     trusted: Sequence[Path] | None,
 ) -> Iterator[RecordedStopOfPlan]:
@@ -88,7 +92,7 @@ def _stops(
         yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
 
 
-def _require_distinct(plan: validation.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
+def _require_distinct(plan: validation_plans.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
     """Raise InvalidInputError where two stops have one id: each is compared with the simulation of its id."""
     files: dict[str, Path] = {}
     for stop in stops:
@@ -114,7 +118,7 @@ def _counted_once(stops: Sequence[RecordedStopOfPlan]) -> list[RecordedStopOfPla
 
 
 def _why_not_counted(
-    plan: validation.ValidationPlan, planned: validation.PlannedComparison, file: RecordedFile
+    plan: validation_plans.ValidationPlan, planned: validation_plans.PlannedComparison, file: RecordedFile
 ) -> str:
     if file.stop is None:
         return "; ".join(map(str, file.defects))

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from functools import partial
 
-from uictest import evaluation, scenario
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
+from uictest.plans import scenario
 from uictest.studies.figures.appendix_b import draw
 from uictest.studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import KILOMETRE_PER_HOUR
 
 SEEDS = range(5)
 

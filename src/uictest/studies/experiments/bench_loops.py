@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from functools import partial
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILONEWTON
 from uictest.rig import bench
 from uictest.studies.figures.bench_loops import draw
 from uictest.studies.phases import identified_lines
 from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR, KILONEWTON
 
 TESTS = ("stepwise", "triangular", "random")
 """Bench recipes of the library. The kinds of pressure are the paper's; levels, rates and times are ours."""

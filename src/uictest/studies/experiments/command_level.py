@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 
+from uictest.core.units import KILONEWTON, PERCENT
 from uictest.studies.figures.levels import draw
 from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue
 from uictest.studies.slopes import loops, slope_spread, slopes_table
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
-from uictest.units import KILONEWTON, PERCENT
 
 QUANTITIES = (
     StudyQuantity(

@@ -6,16 +6,15 @@ from functools import partial
 
 import numpy as np
 
-from uictest import identification
-from uictest.recording import Recording
-from uictest.rig import bench
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, PERCENT
+from uictest.rig import bench, identification
 from uictest.studies.figures.cylinder_dynamics import draw
 from uictest.studies.model_errors import FILTER_MISSES, pressure_error
 from uictest.studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE, maximum_pressure, replayed
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR, PERCENT
 
 SEEDS = range(5)
 _EVERY = 20

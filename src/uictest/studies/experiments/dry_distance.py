@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from uictest.scenario import COMPENSATION_SETTINGS, Case
+from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS
 from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table
-from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 SPEEDS = ("30 km/h", "60 km/h", "100 km/h", "120 km/h", "145 km/h")
 COMMANDS = ("30 %", "70 %", "100 %")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILONEWTON
 from uictest.studies.figures.force_accuracy import draw
 from uictest.studies.model_errors import force_channel, force_error
 from uictest.studies.neighbourhood import SETTINGS
@@ -12,7 +13,6 @@ from uictest.studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats
 from uictest.studies.replay import CYCLE, replayed
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import KILONEWTON
 
 SEEDS = range(5)
 _EVERY = 20

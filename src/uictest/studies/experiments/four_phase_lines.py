@@ -8,8 +8,9 @@ from itertools import product
 
 import numpy as np
 
-from uictest import identification
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
+from uictest.rig import identification
 from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.judged_conditions import judged_conditions
 from uictest.studies.line_errors import LineErrors, held_out_errors
@@ -19,7 +20,6 @@ from uictest.studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, 
 from uictest.studies.replay import CYCLE, replayed_in_turn
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 
 _NAN = float("nan")
 _EVERY = 20

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
 from uictest.studies.figures.rail_cleaning import draw_maps, draw_stops
 from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE

@@ -9,6 +9,7 @@ from itertools import product
 from statistics import median
 
 from uictest import rig
+from uictest.core.units import PERCENT, in_unit, normal_volume
 from uictest.studies.figures.rig_equivalence import draw_train, draw_wheelsets
 from uictest.studies.model_errors import UNITS_OF_ERRORS, replay_errors
 from uictest.studies.neighbourhood import (
@@ -22,7 +23,6 @@ from uictest.studies.neighbourhood import (
 from uictest.studies.quantity import NOT_ASKED, Status, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner, seeded
 from uictest.studies.study import Study, StudyFindings, Table
-from uictest.units import PERCENT, in_unit, normal_volume
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four, whose spread is that of chance."""

@@ -10,13 +10,13 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.units import PERCENT
 from uictest.studies.actuations import APART, Counts, counts, in_bands, in_order, mean_counts
 from uictest.studies.figures.robustness import draw_points, draw_sweep
 from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, Point, friction_sweep, neighbourhood
 from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table
-from uictest.units import PERCENT
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 

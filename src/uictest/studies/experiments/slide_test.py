@@ -7,13 +7,13 @@ from functools import partial
 import numpy as np
 
 from uictest import rig
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILOMETRE_PER_HOUR
 from uictest.studies.figures.slide_test import draw
 from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue, repeats_note, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table, column
-from uictest.units import BAR, KILOMETRE_PER_HOUR
 
 SEEDS = range(10)
 WHEELSETS = (1, 2, 3, 4)

@@ -9,8 +9,8 @@ from typing import Any, get_args
 import numpy as np
 
 from uictest import rig
-from uictest.recording import Recording
-from uictest.scenario import Case, FrictionProfile
+from uictest.core.recording import Recording
+from uictest.plans.scenario import Case, FrictionProfile
 from uictest.studies.field.assumptions import DRY, Assumptions, Brake
 from uictest.studies.field.real_train import INITIAL_SPEED, REAL_TRAIN, FieldStop
 from uictest.studies.replay import CYCLE

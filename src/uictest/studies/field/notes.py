@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from uictest.core.units import PERCENT
 from uictest.studies.field.assumptions import SHAPES
 from uictest.studies.field.real_train import FieldStop, even_braking_delay
 from uictest.studies.field.search import Trial, closest
 from uictest.studies.field.single import Point, Varied
-from uictest.units import PERCENT
 
 
 def simplest(best: Sequence[Trial]) -> Trial:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import nan
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
 from uictest.studies.field.assumptions import Assumptions
 from uictest.studies.field.real_train import REAL_TRAIN, FieldStop
 from uictest.studies.field.search import Trial
 from uictest.studies.field.single import Point, Varied
 from uictest.studies.study import Table, column
-from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 _UNITS = {"braking_time": "s", "braking_distance": "m"}
 _WHEELSETS = (1, 2, 3, 4)

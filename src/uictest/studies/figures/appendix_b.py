@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from uictest import recording
+from uictest.core import recording
+from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
 from uictest.studies.figures.style import BAND, INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
-from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

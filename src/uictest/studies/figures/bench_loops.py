@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from uictest import identification
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILONEWTON
+from uictest.rig import identification
 from uictest.studies.figures.style import BLUE, INK, MUTED, WIDTH, from_zero
-from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, PERCENT
 from uictest.studies.figures.style import BAND, INK, SETTINGS, WIDTH, from_zero, title_and_legend
 from uictest.studies.model_errors import pressure_channel
-from uictest.units import BAR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop
 from uictest.studies.figures.style import BAND, BLUE, INK, MUTED, ORANGE, WHEELSETS, WIDTH, from_zero
-from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import KILONEWTON, PERCENT
 from uictest.studies.figures.style import BAND, INK, SETTINGS, WIDTH, from_zero, title_and_legend
 from uictest.studies.model_errors import force_channel
-from uictest.units import KILONEWTON, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from uictest import identification
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILONEWTON
+from uictest.rig import identification
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from uictest.studies.phases import TITLES, on_phases
-from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import PERCENT
 from uictest.studies.figures.style import INK, MUTED, ORANGE, WHEELSETS, WIDTH, from_zero
-from uictest.units import PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

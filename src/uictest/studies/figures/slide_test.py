@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILOMETRE_PER_HOUR
 from uictest.studies.figures.style import INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
-from uictest.units import BAR, KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from uictest.recording import Recording
+from uictest.core.recording import Recording
+from uictest.core.units import BAR
 from uictest.studies.figures.style import SETTINGS, WIDTH, from_zero
-from uictest.units import BAR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from uictest.evaluation import (
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import (
     AppliedDefinition,
     CaseResult,
     Sensitivity,
@@ -13,7 +14,6 @@ from uictest.evaluation import (
     VerdictInterval,
     narrowest_margin,
 )
-from uictest.recording import Recording
 from uictest.report.page.stop.margins import margin_share, margins_of
 from uictest.report.page.stop.taken import taken_at
 from uictest.report.traces.trace import PlotTrace, trace_of

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
-from uictest.evaluation import AppliedDefinition, Verdict
-from uictest.measures import MEASURES
-from uictest.recording import Recording
+from uictest.core.measures import MEASURES
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import AppliedDefinition, Verdict
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import DRAWN, marks_of
 from uictest.report.traces.trace import PlotTrace, trace_of

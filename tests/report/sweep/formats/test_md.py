@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from markdown_it import MarkdownIt
 
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report.github import LIMIT
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown

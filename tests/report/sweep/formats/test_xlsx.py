@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 

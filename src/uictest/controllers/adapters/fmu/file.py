@@ -9,8 +9,8 @@ from zipfile import BadZipFile, ZipFile
 
 import fmpy
 
-from uictest import files
 from uictest.controllers.adapters.instance import ControllerError, reason_of
+from uictest.core import files
 
 _VERSIONS: Final = ("2.0", "3.0")
 _LARGEST_REFERENCE: Final = 2**32 - 1

@@ -7,11 +7,11 @@ from typing import Any
 
 from fmpy import fmi2, fmi3
 
-from uictest import files
 from uictest.controllers.adapters.fmu.file import UnpackedFmu, unpack
 from uictest.controllers.adapters.fmu.log import FMI2_CALLBACKS, clear_log, note_fmi3, with_log
 from uictest.controllers.adapters.fmu.slave import Fmi2Slave, Fmi3Slave, Slave
 from uictest.controllers.adapters.instance import ControllerError
+from uictest.core import files
 
 _loading = Lock()
 

@@ -12,9 +12,9 @@ from typing import Any, ClassVar, Final
 
 from fmpy import fmi1, fmi3
 
-from uictest import files
 from uictest.controllers.adapters.fmu.log import clear_log, with_log
 from uictest.controllers.adapters.instance import ControllerError
+from uictest.core import files
 
 CType = Any
 _STATUS: Final = ("ok", "warning", "discard", "error", "fatal", "pending")

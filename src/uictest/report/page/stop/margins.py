@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from uictest import evaluation
+from uictest.core.units import in_unit
+from uictest.judging import evaluation
 from uictest.report.page.stop.taken import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import limits, quantity, rig_sentence, without_rig_that_holds
-from uictest.units import in_unit
 
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 

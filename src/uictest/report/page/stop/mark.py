@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.wording import quantity
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.page.stop import train_marks, wheelset_marks
 from uictest.report.page.stop.mark import Mark
 from uictest.report.traces.trace import PlotTrace

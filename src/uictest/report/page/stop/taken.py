@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.page.stop.bars import vents
 from uictest.report.traces.moments import TRAIN, Interval, Moments
 from uictest.report.traces.quantities import WHEELSETS

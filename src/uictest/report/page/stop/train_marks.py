@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from uictest import evaluation
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.mark import Mark, instant, limit_marks, point
 from uictest.report.traces.moments import TRAIN, Moments
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import limits, number, quantity, value_and_limits
-from uictest.units import STANDARD_GRAVITY
 
 
 def braking_distance(verdict: evaluation.Verdict, trace: PlotTrace) -> Iterator[Mark]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from uictest import evaluation
+from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.mark import Mark, limit_marks, misses, point

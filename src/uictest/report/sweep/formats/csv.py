@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from uictest import files
+from uictest.core import files
 from uictest.report.sweep.content import SweepContent
 from uictest.report.sweep.format_registry import SweepFormat
 

@@ -1,0 +1,1 @@
+"""What many results show: summaries of sweeps, comparisons, agreement."""

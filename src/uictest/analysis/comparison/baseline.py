@@ -1,0 +1,124 @@
+"""Compare a run with the results that were accepted before."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Container, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from uictest import report
+from uictest.analysis.comparison.accepted_series import compare_accepted_series
+from uictest.analysis.comparison.parameters import parameter_changes, parameter_lines
+from uictest.analysis.comparison.runs import case_differences, run_notes, stops_of_series, unknown_parameters
+from uictest.analysis.comparison.scope import Scope
+from uictest.analysis.comparison.tolerance import Tolerances
+from uictest.judging import evaluation
+from uictest.report import BaselineComparison, Difference, without_machine
+
+
+@dataclass(frozen=True, slots=True)
+class Baseline:
+    """Accepted results, and how a run is compared with them."""
+
+    folder: str
+    sha256: str
+    run: report.RunContent
+    results: Mapping[str, evaluation.CaseResult] = field(repr=False)
+    document: Mapping[str, Any] = field(repr=False)
+    scope: Scope
+    tolerances: Tolerances
+
+    def compare(self, run: report.RunContent) -> BaselineComparison:
+        """Compare every case and series of a run, and list those of the baseline that were not compared."""
+        quantities = {result.id: list(self._quantities(result)) for result in run.results}
+        missing, other_ids = self._not_compared(quantities)
+        of_series = compare_accepted_series(self.run.series, run.series, self.scope, self.tolerances)
+        compared = [*quantities.values(), *of_series.quantities.values()]
+        beyond = {
+            own_id: _beyond(each)
+            for side in (quantities, of_series.quantities)
+            for own_id, each in side.items()
+        }
+        beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
+        return BaselineComparison(
+            without_machine(self.folder),
+            self.sha256,
+            compared=sum(map(len, compared)) + len(missing),
+            within=sum(each.within for of_one in compared for each in of_one if each),
+            differences={own_id: each for own_id, each in beyond.items() if each},
+            missing=missing,
+            series={own_id: file for own_id, file in of_series.files.items() if beyond[own_id]},
+            not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
+            not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
+            series_not_compared=of_series.not_compared,
+            notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
+        )
+
+    def differences(self, result: evaluation.CaseResult) -> list[Difference]:
+        """Return the quantities of a case that are out of tolerance."""
+        return _beyond(self._quantities(result))
+
+    def _not_compared(self, compared: Container[str]) -> tuple[dict[str, str], list[str]]:
+        """Return the cases that the scenario files no longer have (id -> file), and the ids of the others."""
+        results = [result for result in self.run.results if result.id not in compared]
+        missing = {
+            result.id: result.scenario for result in results if self.scope.misses(result.id, result.scenario)
+        }
+        return missing, [result.id for result in results if result.id not in missing]
+
+    def _quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
+        """Yield one item per quantity compared: None where both sides are the same."""
+        accepted = self.results.get(result.id)
+        if accepted is None:
+            remark = "the baseline has no such case; --accept adds it"
+            yield Difference(result.id, "case", "missing", result.outcome, within=False, remark=remark)
+        else:
+            yield from case_differences(accepted, result, self.tolerances)
+
+    def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
+        """Yield the parameters that have changed since the cases were accepted."""
+        both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
+        yield from parameter_lines(parameter_changes([*both, *stops_of_series(self.run, run)]))
+        yield from unknown_parameters(both, ("baseline", "run"))
+
+    def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
+        """Return the accepted run as if it had read nothing that this one did not select."""
+        accepted = self.run.manifest
+        inputs = {name: digest for name, digest in accepted.inputs.items() if name in run.manifest.inputs}
+        return dataclasses.replace(self.run, manifest=dataclasses.replace(accepted, inputs=inputs))
+
+
+def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baseline:
+    """Return the baseline in a folder. Raises OSError or ValueError where there is none."""
+    path = folder / report.RESULTS
+    content = path.read_bytes()
+    try:
+        document = json.loads(content)
+        run = report.run_content(document, folder.name)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path}: not the results of a run: {error}") from error
+    results = {result.id: result for result in run.results}
+    sha256 = hashlib.sha256(content).hexdigest()
+    return Baseline(str(_named(folder)), sha256, run, results, document, scope, tolerances)
+
+
+def _named(folder: Path) -> Path:
+    """Return the run that `latest` names now: after this run it names another."""
+    if folder.name != "latest" or not folder.is_symlink():
+        return folder
+    run = folder.parent / folder.readlink()
+    return run if run.is_dir() else folder
+
+
+def _beyond(quantities: Iterable[Difference | None]) -> list[Difference]:
+    """Return the differences out of tolerance; None stands for a quantity that is the same."""
+    return [quantity for quantity in quantities if quantity and not quantity.within]
+
+
+def _missing(accepted: evaluation.CaseResult) -> Difference:
+    remark = f"{accepted.scenario} no longer has this case; --accept drops it"
+    return Difference(accepted.id, "case", accepted.outcome, "missing", within=False, remark=remark)

@@ -1,0 +1,12 @@
+from .frontier import (
+    FrontierError as FrontierError,
+    FrontierSearch as FrontierSearch,
+    verdicts_of as verdicts_of,
+)
+from .summary import (
+    SweepSummary as SweepSummary,
+    summarize as summarize,
+)
+from .worst import (
+    full_cases as full_cases,
+)

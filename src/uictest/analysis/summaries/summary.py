@@ -1,0 +1,245 @@
+"""Summarise a finished sweep: its rows as one table, and its result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.analysis import validation
+from uictest.analysis.summaries.domain import DomainTally
+from uictest.analysis.summaries.frontier import UNKNOWN, Verdicts
+from uictest.analysis.summaries.histograms import HistogramCounts, reported_measures
+from uictest.analysis.summaries.maps import MapSums
+from uictest.analysis.summaries.sensitivity import sobol_sensitivities, uncertainty_note
+from uictest.analysis.summaries.spacing import logarithmic_keys
+from uictest.analysis.summaries.summary_files import summary_files
+from uictest.analysis.summaries.tails import TailDraws
+from uictest.analysis.summaries.tally import Tally
+from uictest.analysis.summaries.trends import MOST_VALUES, TrendSums
+from uictest.analysis.summaries.worst import WorstCases
+from uictest.judging.evaluation import EffectiveParts
+from uictest.plans.scenario import named_requirements
+from uictest.plans.sweeps import Plan, drawn_ranges, saltelli_sample
+from uictest.report import (
+    MET,
+    MeasureHistogram,
+    SobolSensitivity,
+    SurveyStep,
+    SweepDomain,
+    SweepResult,
+    counted,
+    domain_notes,
+    survey_notes,
+)
+from uictest.running.chunked import CaseSelection, ChunkStore, repeated_cases, survey_step
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+_WITHOUT_CSV = "every case is a row of summary.parquet; `--report csv,html` writes summary.csv, too"
+Columns = Mapping[str, NDArray[np.float64]]
+"""Measures of all cases of a plan, by name."""
+
+
+@dataclass(frozen=True)
+class SweepSummary:
+    """The result of a sweep without its worst cases and frontier, and what these are computed from.
+
+    `verdicts` holds for every case of the plan 1 if met, 0 if not met, -1 if not run. `worst_indices` are the
+    indices of the worst cases.
+    """
+
+    result: SweepResult
+    verdicts: Verdicts
+    worst_indices: list[int]
+
+
+def summarize(
+    selection: CaseSelection,
+    store: ChunkStore,
+    pair: tuple[str, str] | None,
+    measures: Sequence[str],
+    reference: validation.ValidationReference | None = None,
+    *,
+    csv: bool = True,
+) -> SweepSummary:
+    """Read all chunks: write summary.parquet and, if it is wanted, summary.csv, and compute the result.
+
+    Args:
+        selection: the cases of the sweep.
+        store: with every chunk finished.
+        pair: the two parameters of the maps, None for no map.
+        measures: columns to map and to compute sensitivities of, besides the verdict.
+        reference: validation that the cases are held against; they get a column of what lies outside.
+        csv: whether to write summary.csv.
+
+    Raises:
+        OSError: a file cannot be written.
+        MissingChunksError: a chunk is missing.
+    """
+    sums = _Sums(selection, pair, measures)
+    domain = None if reference is None else DomainTally(selection.plan, reference)
+    with summary_files(store.folder, csv=csv) as write:
+        for table in store.tables(range(selection.chunks)):
+            write(table if domain is None else domain.with_column(table))
+            sums.add(table)
+    survey = survey_step(selection.plan, sums.repeated, measures)
+    of_validity = None if domain is None else domain.result()
+    sensitivities, notes = _sensitivities(selection.plan, sums.sampled_columns())
+    result = _result(
+        sums,
+        distributions=_histograms(sums, selection, store),
+        sensitivities=sensitivities,
+        domain=of_validity,
+        survey=survey,
+        notes=(
+            *survey_notes(survey, sums.tally.cases),
+            *domain_notes(of_validity, sums.tally.cases),
+            *_requirement_notes(selection.plan),
+            *_not_judged_notes(sums.tally.outcomes),
+            *map(str, drawn_ranges(selection.plan)),
+            *notes,
+            *_selection_notes(selection),
+            *(() if csv else (_WITHOUT_CSV,)),
+        ),
+    )
+    return SweepSummary(result, sums.verdicts, sums.worst.indices())
+
+
+class _Sums:
+    """Everything that is added chunk by chunk."""
+
+    def __init__(
+        self, selection: CaseSelection, pair: tuple[str, str] | None, measures: Sequence[str]
+    ) -> None:
+        plan = selection.plan
+        self.tally, self.worst = Tally(plan), WorstCases()
+        shown, bins = reported_measures(measures, _moving_speed(plan)), self.tally.bins
+        axes = None if pair is None else (bins[pair[0]], bins[pair[1]])
+        self.maps = [MapSums(plan, *axes, name) for name in (MET, *measures)] if axes else []
+        self.trends = [
+            TrendSums(plan, each, shown) for each in bins.values() if len(each.values) <= MOST_VALUES
+        ]
+        self.histograms = [HistogramCounts(measure) for measure in shown]
+        # Of a selection of cases nothing is known of the others, so that ranks have no meaning.
+        self.tails = TailDraws(plan) if selection.selected is None else None
+        self.verdicts = np.full(plan.size, UNKNOWN, np.int8)
+        self.repeated = 0
+        """Cases of a survey that were repeated in regular steps."""
+        self._is_sample = saltelli_sample(plan) is not None and selection.selected is None
+        self._columns = {name: np.full(plan.size, np.nan) for name in (measures if self._is_sample else ())}
+
+    def add(self, table: pa.Table) -> None:
+        """Add the rows of a chunk."""
+        self.tally.add(table)
+        self.repeated += repeated_cases(table)
+        self.worst.add(table)
+        for sweep_map in self.maps:
+            sweep_map.add(table)
+        for trend in self.trends:
+            trend.note(table)
+        for histogram in self.histograms:
+            histogram.add_range(table)
+        if self.tails is not None:
+            self.tails.add(table)
+        indices = table.column("index").to_numpy()
+        self.verdicts[indices] = table.column(MET).to_numpy(zero_copy_only=False)
+        for name, values in self._columns.items():
+            values[indices] = table.column(name).to_numpy(zero_copy_only=False)
+
+    def sampled_columns(self) -> Columns:
+        """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
+        return {**self._columns, MET: self.verdicts.astype(float)} if self._is_sample else {}
+
+
+def _moving_speed(plan: Plan) -> str:
+    key = "measures.moving_speed"
+    return "moving_speed" if key in plan.keys else plan.base.scenario.measures.moving_speed.text
+
+
+def _result(
+    sums: _Sums,
+    *,
+    distributions: tuple[MeasureHistogram, ...],
+    sensitivities: tuple[SobolSensitivity, ...],
+    domain: SweepDomain | None,
+    survey: SurveyStep | None,
+    notes: tuple[str, ...],
+) -> SweepResult:
+    tally, plan = sums.tally, sums.tally.plan
+    return SweepResult(
+        name=plan.name,
+        title=plan.title,
+        cases=tally.cases,
+        met=tally.met,
+        outcomes=tally.outcomes,
+        missed=tuple(tally.missed),
+        rates={key: tally.rates(key) for key in tally.bins},
+        maps=tuple(each.map() for each in sums.maps),
+        distributions=distributions,
+        trends=tuple(trend for each in sums.trends for trend in each.trends()),
+        base=EffectiveParts().of(plan.base.scenario),
+        varied=plan.keys,
+        logarithmic=logarithmic_keys(plan),
+        requirements=named_requirements(plan.base.scenario),
+        test_case=plan.base.scenario.test_case or "",
+        worst=(),
+        subjects={},
+        sensitivities=sensitivities,
+        frontier=None,
+        quantiles=tuple(sums.tails.quantiles()) if sums.tails else (),
+        k_dry=tuple(sums.tails.k_dry()) if sums.tails else (),
+        domain_of_validity=domain,
+        survey=survey,
+        notes=notes,
+    )
+
+
+def _histograms(sums: _Sums, selection: CaseSelection, store: ChunkStore) -> tuple[MeasureHistogram, ...]:
+    """Return the histogram of each measure that any case has, and add to the trends.
+
+    Reads the chunks a second time.
+    """
+    with_cases = [each for each in sums.histograms if each.cases]
+    for histogram in with_cases:
+        histogram.open_bins()
+    for table in store.tables(range(selection.chunks)):
+        for histogram in with_cases:
+            histogram.add(table)
+        for trend in sums.trends:
+            trend.add(table)
+    return tuple(each.histogram() for each in with_cases)
+
+
+def _requirement_notes(plan: Plan) -> Iterator[str]:
+    if requirements := named_requirements(plan.base.scenario):
+        yield f"requirements that the scenario and its criteria name: {', '.join(requirements)}"
+
+
+def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
+    if count := outcomes["skipped"]:
+        yield f"{counted(count, 'case')} not judged, since no criterion applies: met by `expect: skipped`"
+    if count := outcomes["inconclusive"]:
+        yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
+
+
+def _selection_notes(selection: CaseSelection) -> Iterator[str]:
+    plan = selection.plan
+    if selection.selected is not None and (plan.quantiles or plan.k_dry):
+        yield f"no quantiles and no K_dry: only {selection.size} of {counted(plan.size, 'case')} selected"
+
+
+def _sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:
+    """Return the Sobol indices of each column, and notes on missing or uncertain ones."""
+    sensitivities: list[SobolSensitivity] = []
+    notes: list[str] = []
+    for name, values in columns.items():
+        of_column, reason = sobol_sensitivities(plan, name, values)
+        sensitivities.extend(of_column)
+        note = f"no sensitivity of {name}: {reason}" if reason else uncertainty_note(of_column)
+        notes.extend([note] if note else [])
+    return tuple(sensitivities), notes

@@ -1,0 +1,77 @@
+"""What the items of cases and of series have in common."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final, Self
+
+import pytest
+
+from uictest import report, runs
+from uictest.plans import scenario
+from uictest.running import campaign
+
+_MEANT_FOR_PYTEST: Final = frozenset(
+    {"filterwarnings", "parametrize", "skip", "skipif", "usefixtures", "xfail"}
+)
+"""Marks that change how pytest runs a test: a tag of this name stays a word for `-k`."""
+
+
+class RigItem(pytest.Item):
+    """A test of the rig: its stops are simulated in `setup`, its verdict is given in `runtest`.
+
+    What the rig cannot simulate is thereby an error of the test, and a missed expectation is a failure.
+    """
+
+    @classmethod
+    def below(cls, parent: pytest.Collector, name: str, **own: Any) -> Self:
+        """Return the item of this name, whose values in brackets pytest takes for parameters."""
+        # `--lf` finds `case[friction=0.1]` again only if the id is handed over whole.
+        item: Self = cls.from_parent(parent, name=name, nodeid=f"{parent.nodeid}::{name}", **own)
+        return item
+
+    @abstractmethod
+    def results_document(self) -> dict[str, Any] | None:
+        """Return the results that the test rests on, in JSON: cases or series; None where there are none."""
+
+    def tag(self, tags: Iterable[str]) -> None:
+        """Make tags words for `-k`, and marks for `-m`, which `--strict-markers` accepts."""
+        for tag in tags:
+            self.extra_keyword_matches.add(tag)
+            if tag not in _MEANT_FOR_PYTEST:
+                self.config.addinivalue_line("markers", f"{tag}: tag of a scenario or series")
+                self.add_marker(tag)
+
+    def record(self, properties: Mapping[str, object]) -> None:
+        """Add properties to the test: JUnit and other reports show them."""
+        self.user_properties.extend(properties.items())
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        """Return the file, its first line and the name."""
+        return self.path, 0, self.name
+
+
+def simulated(config: pytest.Config, cases: Sequence[scenario.Case]) -> list[campaign.CaseRun]:
+    """Simulate and judge cases; the workers of pytest-xdist use one thread each. Raises KeyboardInterrupt."""
+    case_runs: list[campaign.CaseRun] = []
+    jobs = 1 if hasattr(config, "workerinput") else runs.available_processors()
+    request = campaign.RecordingRequest("none")
+    strict: bool = config.getoption("uictest_strict")
+    if campaign.run_cases(
+        cases, jobs=jobs, recording=request, strict=strict, on_result=case_runs.append
+    ).interrupted:
+        raise KeyboardInterrupt
+    return case_runs
+
+
+def with_reasons_first(explanation: Sequence[str]) -> str:
+    """Return an explanation as text; its first line, which summaries show, is a reason where there is one."""
+    outcome, *reasons = explanation
+    return "\n".join([*reasons, outcome])
+
+
+def numbers_in(measures: Mapping[str, float] | None) -> dict[str, Any]:
+    """Return the measures that have a value, with five significant digits."""
+    return {name: report.number(value) for name, value in (measures or {}).items() if value == value}

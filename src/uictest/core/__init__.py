@@ -1,0 +1,1 @@
+"""What everything else is built on: physics, measures, recordings, units, files; knows no scenario."""

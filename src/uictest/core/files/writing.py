@@ -1,0 +1,144 @@
+"""Atomic writing: a file appears whole or not at all, written beside its place and renamed into it."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path, PurePath
+from typing import BinaryIO
+
+from uictest.core.files.listing import add_to_list
+from uictest.core.files.place import is_partial, names_in, opened, partial_name
+
+
+@contextlib.contextmanager
+def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = True) -> Iterator[BinaryIO]:
+    """Lend a file to write, which appears as `folder/name` if the block succeeds.
+
+    If the block raises, a file of this name stays as it was, no other is left, and the exception propagates.
+
+    Args:
+        folder: as the user named it; it may be a link.
+        name: of the file, or its path below the folder, through no link; missing folders are made.
+        private: whether only this user can read and write it, in a folder of uictest's own: whatever stands
+            in its place is replaced.
+        listed: whether it is added to the list of the folder, where there is one.
+
+    Raises:
+        OSError: the folder is missing, full or not writable; it names `folder/name`.
+
+    """
+    below, last, temporary = str(PurePath(name).parent), PurePath(name).name, partial_name()
+    with (
+        _errors_about(folder, name, temporary),
+        _made_folders(folder, below),
+        opened(folder, below, make=True) as place,
+    ):
+        if last in ("", ".."):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
+        if not private:
+            _require_replaceable(place, last)
+        flags, mode = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600 if private else 0o666
+        descriptor = os.open(temporary, flags, mode, dir_fd=place)
+        try:
+            # Some writers close what they are given; the descriptor stays open.
+            with os.fdopen(os.dup(descriptor), "w+b") as file:
+                yield file
+            os.fsync(descriptor)
+            if listed:
+                add_to_list(folder, name, descriptor)
+            os.replace(temporary, last, src_dir_fd=place, dst_dir_fd=place)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary, dir_fd=place)
+            raise
+        finally:
+            os.close(descriptor)
+
+
+@contextlib.contextmanager
+def _made_folders(folder: Path, below: str) -> Iterator[None]:
+    """Remove the folders down to `below` that the block has made, should it raise."""
+    names = [str(each) for each in (PurePath(below), *PurePath(below).parents) if str(each) != "."]
+    missing = [name for name in names if not os.path.lexists(folder / name)]
+    try:
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError), opened(folder) as place:
+            for name in missing:
+                os.rmdir(name, dir_fd=place)
+        raise
+
+
+def _require_replaceable(place: int, name: str) -> None:
+    """Raise FileExistsError for a device or a pipe: a rename would put a file in the place of `/dev/null`."""
+    with contextlib.suppress(FileNotFoundError):
+        mode = os.lstat(name, dir_fd=place).st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode) or stat.S_ISDIR(mode)):
+            raise FileExistsError(errno.EEXIST, "no file, and not replaced by one", name)
+
+
+def write(
+    folder: Path, name: str, content: bytes | str, *, private: bool = False, listed: bool = True
+) -> None:
+    """Write a file as `new_file` does: bytes, or a text as UTF-8 with its line ends. Raises OSError."""
+    with new_file(folder, name, private=private, listed=listed) as file:
+        file.write(content if isinstance(content, bytes) else content.encode("utf-8"))
+
+
+def write_to(path: Path, content: bytes | str) -> None:
+    """Write a file that the user named; no list of its folder gets it.
+
+    Raises OSError, also for a link: `/dev/stdout` is one, and a rename would put a file in its place.
+    """
+    if path.is_symlink():
+        raise FileExistsError(errno.EEXIST, "is a link, and not replaced by a file", str(path))
+    write(path.parent, path.name, content, listed=False)
+
+
+def append(path: Path, text: str) -> None:
+    """Append to a file that the user named. Raises OSError."""
+    with path.open("a", encoding="utf-8") as file:
+        file.write(text)
+
+
+def make_folder(folder: Path, mode: int = 0o777) -> list[Path]:
+    """Make a folder that the user named, and return those that were missing, outermost first.
+
+    Raises OSError.
+    """
+    missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
+    for place in missing:
+        place.mkdir(mode, exist_ok=True)
+    if not missing and not folder.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
+    return missing
+
+
+def remove(folder: Path, name: str) -> None:
+    """Remove a file of uictest, which its name tells, below a folder that the user named. Raises OSError."""
+    with opened(folder, str(PurePath(name).parent)) as place, contextlib.suppress(FileNotFoundError):
+        os.unlink(PurePath(name).name, dir_fd=place)
+
+
+def remove_partial_files(folder: Path, below: str = "") -> None:
+    """Remove files that interrupted writers left in a folder where nobody writes now. Raises OSError."""
+    with opened(folder, below) as place:
+        for name in names_in(place):
+            if is_partial(place, name):
+                os.unlink(name, dir_fd=place)
+
+
+@contextlib.contextmanager
+def _errors_about(folder: Path, name: str, temporary: str) -> Iterator[None]:
+    """Name the file that was to be written in errors about it or its folder, and in those that name none."""
+    try:
+        yield
+    except OSError as error:
+        about = (None, temporary, str(folder), *PurePath(name).parts, name)
+        if error.errno is None or (error.filename not in about and error.filename != folder):
+            raise
+        raise OSError(error.errno, error.strerror, str(folder / name)) from error

@@ -1,0 +1,79 @@
+"""What the brake and its controller make of a fault."""
+
+from __future__ import annotations
+
+from uictest.core.measures.measure import (
+    Measure,
+    MeasureValue,
+    RecordedData,
+    Wheelsets,
+    is_nan,
+    one_value,
+    unavailable,
+)
+from uictest.core.measures.records import StopMeasures
+
+_NO_FAULT = "no fault began while the train moved"
+_FAULTS = RecordedData(("faults of the brake",), when="never")
+
+
+def longest_lock_of_sound_wheelsets(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
+    """Return the longest lock (s) of any wheelset that has had no fault of its own."""
+    if is_nan(stop.fault_time):
+        return unavailable(_NO_FAULT)
+    locks = [float(wheelset.longest_lock) for wheelset in wheelsets if not wheelset.faulty]
+    return one_value(max(locks)) if locks else unavailable("every wheelset has had a fault")
+
+
+def longest_release(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
+    """Return the longest time (s) for which a wheelset with a faulty speed sensor was without brake force."""
+    releases = [float(wheelset.longest_release) for wheelset in wheelsets]
+    known = [release for release in releases if not is_nan(release)]
+    return one_value(max(known)) if known else unavailable("no speed sensor was faulty while the train moved")
+
+
+def reference_excess(stop: StopMeasures) -> MeasureValue:
+    """Return by how much (m/s) the estimate of the train's speed was too high since the first fault."""
+    if is_nan(stop.fault_time):
+        return unavailable(_NO_FAULT)
+    if is_nan(stop.reference_excess):
+        return unavailable("the controller gives no reference speed")
+    return one_value(stop.reference_excess)
+
+
+MEASURES = (
+    Measure(
+        name="longest_lock_of_sound_wheelsets",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="longest time at a stretch that a wheelset without a fault of its own is locked",
+        read=lambda stop, wheelsets, definition: longest_lock_of_sound_wheelsets(stop, wheelsets),
+        observed_by=("locked_speed", "moving_speed"),
+        of_faults=True,
+        recorded=_FAULTS,
+    ),
+    Measure(
+        name="longest_release",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="longest time at a stretch that a wheelset with a faulty speed sensor is without brake force,"
+        " once the brake is developed",
+        read=lambda stop, wheelsets, definition: longest_release(stop, wheelsets),
+        observed_by=("moving_speed", "developed_time", "released_share"),
+        of_faults=True,
+        recorded=_FAULTS,
+    ),
+    Measure(
+        name="reference_excess",
+        kind="speed",
+        unit="km/h",
+        course="grows",
+        meaning="largest excess of the controller's reference speed over the train's since the first fault",
+        read=lambda stop, wheelsets, definition: reference_excess(stop),
+        observed_by=("moving_speed",),
+        of_faults=True,
+        recorded=_FAULTS,
+    ),
+)

@@ -1,0 +1,163 @@
+"""How far and how long the wheelsets slide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from uictest.core.measures.measure import (
+    DefinitionValues,
+    Measure,
+    MeasureValue,
+    RecordedData,
+    StopColumn,
+    WheelsetColumn,
+    Wheelsets,
+    is_nan,
+    plain,
+    unavailable,
+    value_per_wheelset,
+)
+from uictest.core.measures.records import END_SPEEDS, SLOW_SHARES, StopMeasures
+from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
+
+SLIDE_CLASS: Final = 10.0 * KILOMETRE_PER_HOUR
+"""m/s: `maximum_slide_above[k]` counts while the train runs faster than k of these (10 km/h each)."""
+
+SLOW_SHARE_CLASS: Final = 5.0 * PERCENT
+"""Times spent sliding are kept for shares of the train's speed that are multiples of it, 85 to 95 %."""
+
+_WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))
+_SHARED = RecordedData(("speed", "wheel_speed_{n}"), bounded=False)
+
+
+def maximum_slide_above_cutoff(
+    stop: StopMeasures, wheelsets: Wheelsets, low_speed_cutoff: float
+) -> MeasureValue:
+    """Return the largest slide (share; 1 = locked) of each wheelset above the cut-off.
+
+    Slides count while the train runs faster than `low_speed_cutoff` (m/s), a multiple of 10 km/h, as the
+    measures keep one value per such class. There is no value for a train that never ran faster.
+    """
+    k = round(low_speed_cutoff / SLIDE_CLASS)
+    slides = tuple(plain(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
+    if not stop.initial_speed > low_speed_cutoff or all(map(is_nan, slides)):
+        return unavailable(f"the train never ran faster than the cut-off of {10 * k} km/h")
+    return MeasureValue(slides)
+
+
+def sliding_share(stop: StopMeasures, definition: DefinitionValues) -> MeasureValue:
+    """Return the share of time in which at least half of the wheelsets slide at once.
+
+    Time runs from the brake command to the first sample at or below `end_speed` (m/s); a wheelset slides
+    while it turns slower than the share `sliding_below` of the train's speed (TB/T 3009-2019, clause 3,
+    second-hand).
+    """
+    return _sliding_shares(stop, definition, [stop.half_slow_time])
+
+
+def sliding_share_of_wheelsets(
+    stop: StopMeasures, wheelsets: Wheelsets, definition: DefinitionValues
+) -> MeasureValue:
+    """Return the share of time in which each wheelset slides, else as :func:`sliding_share`."""
+    return _sliding_shares(stop, definition, [wheelset.slow_time for wheelset in wheelsets])
+
+
+def _sliding_shares(
+    stop: StopMeasures, definition: DefinitionValues, tables: Sequence[Sequence[float]]
+) -> MeasureValue:
+    k = round(definition["end_speed"] / SLIDE_CLASS) - 1
+    j = round((definition["sliding_below"] - SLOW_SHARES[0]) / SLOW_SHARE_CLASS)
+    end = f"{_kilometres_per_hour(definition['end_speed'])}, down to which sliding counts"
+    if not stop.initial_speed > END_SPEEDS[k]:
+        why = f"the train did not run faster than {end}"
+        return MeasureValue(unavailable_reason=why, whatever_follows=True)
+    if is_nan(stop.reached_time[k]):
+        return unavailable(f"the train did not come down to {end}")
+    duration = plain(stop.reached_time[k])
+    places = range(k * len(SLOW_SHARES) + j, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
+    return MeasureValue(tuple(sum(plain(table[place]) for place in places) / duration for table in tables))
+
+
+def _down_to_end_speed(definition: DefinitionValues) -> str:
+    return f"from the brake command to {_kilometres_per_hour(definition['end_speed'])}"
+
+
+def _kilometres_per_hour(speed: float) -> str:
+    return f"{10 * round(speed / SLIDE_CLASS)} km/h"
+
+
+def _share_or_nan(stop: StopMeasures, definition: DefinitionValues) -> float:
+    return next(iter(sliding_share(stop, definition).values), float("nan"))
+
+
+MEASURES = (
+    Measure(
+        name="maximum_slide_above_cutoff",
+        kind="share",
+        unit="%",
+        course="grows",
+        meaning="largest slide (v - r omega)/v while the train runs faster than the low-speed cut-off",
+        read=lambda stop, wheelsets, definition: maximum_slide_above_cutoff(
+            stop, wheelsets, definition["low_speed_cutoff"]
+        ),
+        of_wheelsets=True,
+        definitions=("low_speed_cutoff",),
+        speed_range=lambda definition: f"above {_kilometres_per_hour(definition['low_speed_cutoff'])}",
+        observed_by=("moving_speed",),
+        recorded=_WHEEL_SPEEDS,
+        column=WheelsetColumn(
+            "maximum_slide",
+            "1",
+            meaning="largest slide (v - r omega)/v as a share, 1 where locked, at all speeds above"
+            " `moving_speed`: criteria bound the largest above their own cut-off,"
+            " `maximum_slide_above_cutoff`",
+            read=lambda wheelset: wheelset.maximum_slide,
+        ),
+        finite_field="maximum_slide",
+    ),
+    Measure(
+        name="sliding_duration",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="time the wheelset slides in all",
+        read=lambda stop, wheelsets, definition: value_per_wheelset(w.sliding_duration for w in wheelsets),
+        of_wheelsets=True,
+        observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
+        recorded=_WHEEL_SPEEDS,
+        column=WheelsetColumn("sliding_time_s", "s", read=lambda wheelset: wheelset.sliding_duration),
+        finite_field="sliding_duration",
+    ),
+    Measure(
+        name="sliding_share",
+        kind="share",
+        unit="%",
+        course="settles",
+        meaning="share of the time from the brake command to `end_speed` in which at least half of the"
+        " wheelsets turn, at once, below the share `sliding_below` of the train's speed",
+        read=lambda stop, _, definition: sliding_share(stop, definition),
+        definitions=("sliding_below", "end_speed"),
+        speed_range=_down_to_end_speed,
+        recorded=_SHARED,
+        column=StopColumn(
+            "sliding_share",
+            "1",
+            read=_share_or_nan,
+            defaults={"sliding_below": 90.0 * PERCENT, "end_speed": 60.0 * KILOMETRE_PER_HOUR},
+        ),
+    ),
+    Measure(
+        name="sliding_share_of_wheelsets",
+        kind="share",
+        unit="%",
+        course="settles",
+        meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
+        " the share `sliding_below` of the train's speed",
+        read=sliding_share_of_wheelsets,
+        of_wheelsets=True,
+        definitions=("sliding_below", "end_speed"),
+        speed_range=_down_to_end_speed,
+        recorded=_SHARED,
+    ),
+)

@@ -1,0 +1,91 @@
+"""Braking distance, braking time, mean deceleration and standstill."""
+
+from __future__ import annotations
+
+import math
+
+from uictest.core.measures.measure import (
+    Measure,
+    MeasureValue,
+    RecordedData,
+    StopColumn,
+    one_value,
+    unavailable,
+)
+from uictest.core.measures.records import StopMeasures
+
+
+def braking_distance(stop: StopMeasures) -> MeasureValue:
+    """Return the distance (m) from the brake command to standstill or, before standstill, up to now.
+
+    The distance is not corrected for the initial speed.
+    """
+    return one_value(stop.braking_distance if stop.stopped else stop.end_distance)
+
+
+def braking_time(stop: StopMeasures) -> MeasureValue:
+    """Return the time (s) from the brake command to standstill or, before standstill, up to now."""
+    return one_value(stop.braking_time if stop.stopped else stop.end_time)
+
+
+def mean_deceleration(stop: StopMeasures) -> MeasureValue:
+    """Return v0^2 / (2 s) in m/s2, s the braking distance (up to now) from the initial speed v0."""
+    (distance,) = braking_distance(stop).values
+    return one_value(constant_deceleration(stop.initial_speed, distance))
+
+
+def constant_deceleration(speed: float, distance: float) -> float:
+    """Return the deceleration (m/s2) that stops a train from a speed (m/s) within a distance (m)."""
+    return speed**2 / (2.0 * distance) if distance else math.inf
+
+
+def standstill(stop: StopMeasures) -> MeasureValue:
+    """Return 1 where the train came to a standstill."""
+    return one_value(1.0) if stop.stopped else unavailable("no standstill")
+
+
+MEASURES = (
+    Measure(
+        name="braking_distance",
+        kind="length",
+        unit="m",
+        course="grows",
+        meaning="distance from the brake command to standstill, not corrected for the initial speed",
+        read=lambda stop, wheelsets, definition: braking_distance(stop),
+        recorded=RecordedData(("speed", "distance"), when="ends"),
+        column=StopColumn("braking_distance_m", "m", read=lambda stop, definition: stop.braking_distance),
+    ),
+    Measure(
+        name="braking_time",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="time from the brake command to standstill",
+        read=lambda stop, wheelsets, definition: braking_time(stop),
+        recorded=RecordedData(("speed",), when="ends"),
+        column=StopColumn("braking_time_s", "s", read=lambda stop, definition: stop.braking_time),
+    ),
+    Measure(
+        name="mean_deceleration",
+        kind="acceleration",
+        unit="m/s2",
+        course="falls",
+        meaning="v0^2 / (2 s), s the braking distance from v0",
+        read=lambda stop, wheelsets, definition: mean_deceleration(stop),
+        recorded=RecordedData(("speed", "distance"), when="ends", bounded=False),
+        column=StopColumn(
+            "mean_deceleration_mps2",
+            "m/s2",
+            read=lambda stop, definition: mean_deceleration(stop).values[0] if stop.stopped else math.nan,
+        ),
+    ),
+    Measure(
+        name="standstill",
+        kind="number",
+        unit="1",
+        course="settles",
+        meaning="1 where the train came to a standstill",
+        read=lambda stop, wheelsets, definition: standstill(stop),
+        recorded=RecordedData(("speed",), when="end", from_command=False),
+    ),
+)

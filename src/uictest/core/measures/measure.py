@@ -1,0 +1,178 @@
+"""What declares a measure: its value for a stop, its column in results, and the data of a record it needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from uictest.core.measures.records import StopMeasures, WheelsetMeasures
+
+Course = Literal["grows", "falls", "settles"]
+"""What a value can do while the stop goes on: only grow, only fall, or no more once there is one."""
+
+When = Literal["throughout", "ends", "end", "never"]
+"""When channels must be known: throughout the stop; at the brake command and at its end; at its end; never,
+as no record holds them."""
+
+DefinitionValues = Mapping[str, float]
+"""Definition of a criterion -> its SI value."""
+
+
+Wheelsets = Iterable[WheelsetMeasures]
+"""One record per wheelset, from the leading end; may be iterated more than once."""
+
+
+@dataclass(frozen=True, slots=True)
+class MeasureValue:
+    """SI values of a measure, one for the stop or one per wheelset, as far as the stop was observed.
+
+    `unavailable_reason` says why there is no value; empty where there is one. `whatever_follows`: there will
+    be none however the stop goes on.
+    """
+
+    values: tuple[float, ...] = ()
+    unavailable_reason: str = ""
+    whatever_follows: bool = False
+
+
+Reader = Callable[[StopMeasures, Wheelsets, DefinitionValues], MeasureValue]
+"""Reads the value of one stop, or the values of several (:mod:`uictest.core.ensemble`).
+
+It runs on ensembles where it takes numbers as they are: by :func:`plain`, :func:`is_nan`, :func:`is_finite`,
+not by `float`, `math.isnan`, `math.isfinite`. Otherwise the stops of a sweep are read one by one, which takes
+longer.
+"""
+
+
+def one_value(number: float) -> MeasureValue:
+    """Return the value of a measure of the stop."""
+    return MeasureValue((plain(number),))
+
+
+def value_per_wheelset(numbers: Iterable[float]) -> MeasureValue:
+    """Return the values of a measure of the wheelsets, from the leading end."""
+    return MeasureValue(tuple(map(plain, numbers)))
+
+
+def plain(number: float) -> float:
+    """Return a number of a record as a float; numbers of several stops (an ensemble) as they are."""
+    return number if getattr(number, "ndim", 0) else float(number)
+
+
+def is_nan(number: float) -> bool:
+    """Return whether a number is NaN."""
+    return bool(number != number)  # unlike `math.isnan`, of an ensemble as well
+
+
+def is_finite(number: float) -> bool:
+    """Return whether a number is neither NaN nor infinite."""
+    return bool(abs(number) < math.inf)
+
+
+def unavailable(reason: str) -> MeasureValue:
+    """Return that a measure has no value, and why."""
+    return MeasureValue(unavailable_reason=reason)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A number that results report of every stop, whatever its criteria.
+
+    Args:
+        name: key in results.json and name of the column in tables.
+        unit: that it is reported in.
+        meaning: what it is where it is not the value that a criterion bounds.
+        whole: whether it is a count.
+
+    """
+
+    name: str
+    unit: str
+    meaning: str = ""
+    whole: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class StopColumn(Column):
+    """A column of stops.
+
+    `read` returns the number in SI units, NaN where there is none. `defaults` holds the value of each
+    definition that it uses for a stop none of whose criteria defines its own.
+    """
+
+    read: Callable[[StopMeasures, DefinitionValues], float] = field(kw_only=True)
+    defaults: DefinitionValues = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class WheelsetColumn(Column):
+    """A column of wheelsets.
+
+    `read` returns the number of one wheelset in SI units, NaN where there is none.
+    """
+
+    read: Callable[[WheelsetMeasures], float] = field(kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedData:
+    """The data that the record of a real stop must hold for a measure.
+
+    Args:
+        channels: that must be known; `{n}` stands for the number of the wheelset.
+        when: they must be known.
+        bounded: whether a part of the samples bounds the value, as that of a largest slide does.
+        from_command: whether the brake command must be in the record.
+        computed: whether a channel among them is computed rather than recorded: where a record lacks all of
+            it, criteria of the measure do not apply instead of being inconclusive.
+
+    """
+
+    channels: tuple[str, ...]
+    when: When = "throughout"
+    bounded: bool = True
+    from_command: bool = True
+    computed: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measure:
+    """One measure of a stop, or of each wheelset in it, that a criterion can bound.
+
+    Args:
+        name: in criteria files.
+        kind: of quantity that its bounds are, a key of :data:`uictest.core.units.KINDS`.
+        unit: that a criterion prints value and bounds in.
+        course: what the value can do while the stop goes on.
+        meaning: what it is, in words.
+        read: returns its value.
+        of_wheelsets: whether every wheelset has a value.
+        of_faults: whether it says something about the reaction to faults: nothing, where none began.
+        of_simulation: whether it says something about the simulation itself, nothing about a train.
+        definitions: parameters that a criterion must define before the words mean a number.
+        speed_range: says in words, by its definitions, at which train speeds it looks; None: at all of them.
+        observed_by: fields of the scenario's `measures` part that decide what is observed.
+        recorded: data of a record that it needs; None for one of a simulation.
+        column: of results that needs the same data; None where results do not report it.
+        finite_field: field of the record in which every simulated stop has a finite number; empty where NaN
+            says that something never happened.
+
+    """
+
+    name: str
+    kind: str
+    unit: str
+    course: Course
+    meaning: str
+    read: Reader
+    of_wheelsets: bool = False
+    of_faults: bool = False
+    of_simulation: bool = False
+    definitions: tuple[str, ...] = ()
+    speed_range: Callable[[DefinitionValues], str] | None = None
+    observed_by: tuple[str, ...] = ()
+    recorded: RecordedData | None = None
+    column: StopColumn | WheelsetColumn | None = None
+    finite_field: str = ""

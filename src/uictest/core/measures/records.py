@@ -1,0 +1,122 @@
+"""Measures of a stop as records: one per stop and one per wheelset.
+
+SI units; NaN where something never happened.
+"""
+
+from collections.abc import MutableSequence
+from typing import Annotated
+
+from uictest.core.record import Record, from_scenario
+
+SPEED_CLASSES = 21
+"""Classes of train speed, 10 km/h apart: the largest slide is kept above each of 0, 10, .. 200 km/h."""
+SLOW_SHARES = (0.85, 0.90, 0.95)
+"""Shares of the train's speed below which a wheelset may be said to slide, each with times of its own."""
+END_SPEEDS = tuple(50.0 * k / 18.0 for k in range(1, 11))
+"""m/s: 10, 20, .. 100 km/h, train speeds down to which the time spent sliding may count."""
+SLOW_TIMES = len(END_SPEEDS) * len(SLOW_SHARES)
+WINDOW_SECONDS = 10
+"""Whole seconds after the first sliding at which the train's speed is kept."""
+
+
+class StopMeasures(Record):
+    """Measures of a stop; pressures are gauge."""
+
+    initial_speed: float  # m/s
+    stopped: float  # 1 when the train came to a standstill
+    braking_time: float  # from the command to standstill, s
+    braking_distance: float  # from the command to standstill, m
+    previous_time: float  # last sample but one, s
+    previous_speed: float  # m/s
+    end_time: float  # last sample, s
+    end_distance: float  # m
+    end_speed: float  # m/s
+    minimum_deceleration: float  # filtered, brake developed, train moving, m/s2
+    maximum_deceleration: float  # filtered, train moving, m/s2
+    filtered_deceleration: float  # memory of the low-pass, m/s2
+    sliding_time: float  # first sliding of any wheelset, s
+    sliding_wheelset: float  # which one, 1..4
+    speed_after_sliding: Annotated[MutableSequence[float], WINDOW_SECONDS + 1]  # at 0, 1, .. s after it, m/s
+    reached_time: Annotated[MutableSequence[float], len(END_SPEEDS)]  # first sample at or below each, s
+    half_slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # at least half of the wheelsets at once, s
+    reservoir_minimum_pressure: float  # Pa
+    reservoir_margin: float  # lowest over the highest cylinder pressure, Pa
+    commanded_pressure: float  # of the brake line, Pa
+    line_pressure: float  # of the brake line at the last sample, Pa
+    rise_time: float  # when it began to rise, s
+    rise_distance: float  # m
+    rise_speed: float  # m/s
+    build_up_time: float  # equivalent, s
+    build_up_distance: float  # run until then, m
+    exploited_work: float  # of the rail on all wheelsets while it limits the brake, J
+    available_work: float  # that it could have done meanwhile, J
+    adhesion_utilisation: float  # share of the two over the whole stop
+    deceleration_bogie_1: float  # mean, given by the rail through the leading bogie, m/s2
+    deceleration_bogie_2: float
+    air_consumed: float  # taken from the reservoir, kg
+    energy_residual: float  # share of the initial kinetic energy
+    air_residual: float  # share of the air taken from the reservoir
+    air_energy_residual: float  # share of the enthalpy of that air
+    line_saturation: float  # time for which the brake line's pressure sensor is limited by its range, s
+    saturation_time: float  # first sample by which any sensor has been, s
+    compensation_misfit: float  # differences from the rig it was identified for, over tolerances
+    samples: float
+    fault_time: float  # first cycle with a fault while the train moves, s
+    reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
+
+
+class WheelsetMeasures(Record):
+    """Measures of one wheelset; slides are shares of the train's speed."""
+
+    wheel_speed: float  # circumferential, last sample, m/s
+    slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # below each share of the train's speed, s
+    slide: float  # last sample, train moving
+    maximum_slide: float  # train moving
+    maximum_slide_above: Annotated[MutableSequence[float], SPEED_CLASSES]  # train faster than 0, 10, .. km/h
+    first_sliding_time: float  # s
+    sliding: float  # 1 while it slides
+    sliding_duration: float  # s
+    slid_distance: float  # run while it slides, m
+    contact_energy: float  # turned into heat in its contacts while it slides, J
+    contact_loss: float  # until the last sample, sliding or not, J
+    rail_work: float  # of the rail on it until the last sample, J
+    exploited_work: float  # of the rail on it while the rail limits the brake, J
+    available_work: float  # that the rail could have done meanwhile, J
+    adhesion_utilisation: float  # share of the two over the whole stop
+    locked_time: float  # s
+    longest_lock: float  # s
+    lock: float  # length of the lock that lasts at present, s
+    valve_actuations: float  # openings of the vent that also closed, or last to the end
+    venting: float  # 1 while the vent is commanded open
+    maximum_clamping_force: float  # of one caliper, N
+    air_vented: float  # kg
+    pressure_saturation: float  # time for which its pressure sensor is limited by its range, s
+    loadcell_saturation: float  # the same of the loadcells of its caliper, s
+    maximum_disc_temperature: float  # of the friction surface, where modelled, K
+    faulty: float  # 1 once one of its parts has had a fault
+    release: float  # time without brake force that lasts at present, s
+    longest_release: float  # while its speed sensor was faulty, s
+
+
+class MeasureDefinition(Record):
+    """How samples become measures: the ``measures`` part of a scenario."""
+
+    # Relative slide from which a wheelset counts as sliding.
+    sliding_slide: float = from_scenario("measures.sliding_slide")
+    # Slip speed that it must have as well, m/s.
+    sliding_slip: float = from_scenario("measures.sliding_slip")
+    # Circumferential speed below which a wheelset counts as locked, m/s.
+    locked_speed: float = from_scenario("measures.locked_speed")
+    # Train speed above which all of these are observed, m/s.
+    moving_speed: float = from_scenario("measures.moving_speed")
+    # Time constant of the low-pass of the deceleration, s.
+    deceleration_filter: float = from_scenario("measures.deceleration_filter")
+    # Time after the command from which the smallest deceleration is kept, s.
+    developed_time: float = from_scenario("measures.developed_time")
+    # Shares of the commanded pressure at which the line pressure counts as rising and as developed.
+    rising_share: float = from_scenario("measures.rising_share")
+    developed_share: float = from_scenario("measures.developed_share")
+    # Share of the line pressure below which a tank counts as held down by its WSP valve.
+    reduced_share: float = from_scenario("measures.reduced_share")
+    # Share of the largest clamping force below which a wheelset counts as without brake force.
+    released_share: float = from_scenario("measures.released_share")

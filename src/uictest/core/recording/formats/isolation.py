@@ -1,0 +1,116 @@
+"""Reading in a process of its own, which may hang, crash or ask for too much without harm."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.core import files
+from uictest.core.recording.contents import Contents, Group
+from uictest.core.recording.formats.choice import format_of
+from uictest.core.recording.formats.dialect import Dialect
+from uictest.core.recording.formats.limits import LARGEST_FILE, READING_SECONDS
+from uictest.core.recording.formats.problems import (
+    MissingExtraError,
+    ReadingInterruptedError,
+    UnreadableError,
+)
+
+_MODULE = "uictest.core.recording.formats.reader"
+REJECTED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
+"""Exit codes of the reading process, besides 0."""
+_KILLED = {getattr(signal, name, None) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")}
+"""Signals that come from outside; a file that crashes its reader causes others."""
+
+
+def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = READING_SECONDS) -> Contents:
+    """Read a file of any known format. `dialect` says how a text file writes its table.
+
+    Raises:
+        UnreadableError: the file is no recording, damaged, or too large; the message says which.
+        MissingExtraError: the library for its format is not installed.
+        ReadingInterruptedError: the temporary folder is full, or the process that reads was killed.
+        OSError: the file cannot be opened.
+
+    """
+    if path.stat().st_size > LARGEST_FILE:
+        raise UnreadableError(f"larger than {LARGEST_FILE // 2**20} MiB")
+    if not path.is_file():
+        raise UnreadableError("not a file")
+    name = format_of(path)
+    with files.temporary_folder() as folder:
+        _run(name, path, dialect or Dialect(), folder, seconds)
+        return _collect(folder)
+
+
+def _read_in_process(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
+    """Return the exit code of a process that reads a file into a folder."""
+    # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
+    # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
+    flags = ["-I", "-B", "-m", _MODULE]
+    command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect))]
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        timeout=seconds,
+        check=False,
+    )
+    return done.returncode
+
+
+def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
+    try:
+        code = _read_in_process(name, path, dialect, folder, seconds)
+    except subprocess.TimeoutExpired as error:
+        raise UnreadableError(f"reading it as {name} did not end within {seconds:g} s") from error
+    if code == 0:
+        return
+    if code == EXTRA_MISSING:
+        raise MissingExtraError(_reason_in(folder))
+    if code == NO_ROOM:
+        raise ReadingInterruptedError(
+            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)} to read {path}", str(folder.parent)
+        )
+    if -code in _KILLED:
+        name = signal.Signals(-code).name
+        raise ReadingInterruptedError(
+            errno.EINTR, f"the process that reads it was killed ({name})", str(path)
+        )
+    raise UnreadableError(_reason_in(folder) or f"reading it as {name} ended abruptly: the file is damaged")
+
+
+def _reason_in(folder: Path) -> str:
+    place = folder / "refusal.txt"
+    return place.read_text(encoding="utf-8") if place.exists() else ""
+
+
+def _collect(folder: Path) -> Contents:
+    form = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
+    return Contents(tuple(_group(each, folder) for each in form["groups"]), form["metadata"], form["skipped"])
+
+
+def _group(form: Mapping[str, Any], folder: Path) -> Group:
+    def array(number: int) -> Any:
+        return np.load(folder / f"{number}.npy", allow_pickle=False)
+
+    return Group(
+        form["name"],
+        {name: array(number) for name, number in form["channels"].items()},
+        form["units"],
+        None if form["time"] is None else array(form["time"]),
+        form["first_texts"],
+    )

@@ -1,0 +1,123 @@
+"""MDF files (ASAM MDF 4, and older ones for reading), by asammdf."""
+
+from __future__ import annotations
+
+import io
+import re
+import tempfile
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.core.recording.contents import Contents, Group, Samples
+from uictest.core.recording.formats.limits import check_size
+from uictest.core.recording.formats.problems import required_module
+from uictest.core.recording.recording import TIME, Recording
+from uictest.core.recording.states import STATES, state_kind
+
+VERSION = "4.10"
+_EXTRA = "mdf"
+_COMMENT_TEXT = re.compile(r"<TX[^>]*>(.*?)</TX>", re.DOTALL)
+# A simulated stop has no date; one that is always the same keeps files of the same stop alike.
+_NO_DATE = datetime(1970, 1, 1, tzinfo=UTC)
+
+
+def read(path: Path) -> Contents:
+    """Read every channel of numbers or of the names of states.
+
+    Raises MissingExtraError without asammdf; for a damaged file whatever asammdf raises.
+    """
+    asammdf = required_module("asammdf", _EXTRA)
+    with asammdf.MDF(path, temporary_folder=Path(tempfile.gettempdir())) as mdf:
+        counts = [(len(group.channels), int(group.channel_group.cycles_nr)) for group in mdf.groups]
+        check_size(shape for channels, cycles in counts for shape in [(cycles,)] * channels)
+        skipped: dict[str, str] = {}
+        groups = tuple(group for k in range(len(mdf.groups)) for group in _group(mdf, k, skipped))
+        return Contents(groups, _facts(mdf), skipped)
+
+
+def encoded(recording: Recording) -> bytes:
+    """Return a recording as MDF 4.10: one group for its one raster, names of states, facts in the header.
+
+    Raises MissingExtraError without asammdf.
+    """
+    asammdf = required_module("asammdf", _EXTRA)
+    time = np.asarray(recording[TIME], dtype=np.float64)
+    signals = [
+        asammdf.Signal(
+            samples=np.asarray(samples),
+            timestamps=time,
+            name=name,
+            unit=recording.units[name],
+            conversion=_names_of_states(name),
+        )
+        for name, samples in recording.channels.items()
+        if name != TIME
+    ]
+    content = io.BytesIO()
+    with asammdf.MDF(version=VERSION) as mdf:
+        mdf.header.comment = "\n".join(f"{key}: {value}" for key, value in recording.metadata.items())
+        mdf.header.start_time = _NO_DATE
+        mdf.append(signals, acq_name="stop", comment="uictest", common_timebase=True)
+        mdf.save(content, overwrite=True)
+    return content.getvalue()
+
+
+def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
+    master = mdf.masters_db.get(number)
+    channels: dict[str, Samples] = {}
+    units: dict[str, str] = {}
+    time = None
+    for index, channel in enumerate(mdf.groups[number].channels):
+        if index == master:
+            continue
+        signal = mdf.get(group=number, index=index, ignore_invalidation_bits=True)
+        name = _distinct(str(channel.name), channels)
+        if signal.samples.ndim != 1 or signal.samples.dtype.kind not in "biufS":
+            skipped[name] = f"holds {signal.samples.dtype} of {signal.samples.ndim} dimensions"
+            continue
+        channels[name] = _valid(signal)
+        time = signal.timestamps if master is not None else None
+        if signal.unit:
+            units[name] = str(signal.unit)
+    if channels:
+        yield Group(str(mdf.groups[number].channel_group.acq_name or ""), channels, units, time)
+
+
+def _distinct(name: str, channels: dict[str, Samples]) -> str:
+    if name not in channels:
+        return name
+    return next(other for k in range(2, len(channels) + 3) if (other := f"{name} ({k})") not in channels)
+
+
+def _valid(signal: Any) -> Samples:
+    """Return the samples as floats, those marked invalid as NaN, or as texts."""
+    if signal.samples.dtype.kind == "S":
+        return np.char.decode(signal.samples, "utf-8", "replace")
+    samples = np.array(signal.samples, dtype=np.float64)
+    if signal.invalidation_bits is not None:
+        samples[np.asarray(signal.invalidation_bits, dtype=bool)] = np.nan
+    return samples
+
+
+def _names_of_states(name: str) -> dict[str, object] | None:
+    kind = state_kind(name)
+    if kind is None or not STATES[kind]:
+        return None
+    pairs = enumerate(STATES[kind].items())
+    return {
+        key: value
+        for k, (state, number) in pairs
+        for key, value in ((f"val_{k}", float(number)), (f"text_{k}", state))
+    }
+
+
+def _facts(mdf: Any) -> dict[str, str]:
+    comment = str(mdf.header.comment or "")
+    text = _COMMENT_TEXT.search(comment)
+    lines = (line.partition(":") for line in (unescape(text[1]) if text else comment).splitlines())
+    return {key.strip(): value.strip() for key, colon, value in lines if colon and key.strip()}

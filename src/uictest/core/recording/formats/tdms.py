@@ -1,0 +1,99 @@
+"""TDMS files (National Instruments), by npTDMS."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.core.recording.contents import Contents, Group, Samples
+from uictest.core.recording.formats.limits import check_size
+from uictest.core.recording.formats.problems import required_module
+from uictest.core.recording.recording import TIME, Recording
+from uictest.core.recording.states import STATES, state_kind
+
+_EXTRA = "tdms"
+_GROUP = "stop"
+_EVEN = 1e-9
+"""Share of the sampling interval by which samples of an even raster may miss it."""
+
+
+def read(path: Path) -> Contents:
+    """Read every channel of numbers or time stamps; channels of one group and raster belong together.
+
+    Raises MissingExtraError without npTDMS; for a damaged file whatever npTDMS raises.
+    """
+    nptdms = required_module("nptdms", _EXTRA)
+    with nptdms.TdmsFile.open(path) as tdms:
+        channels = [channel for group in tdms.groups() for channel in group.channels()]
+        check_size((len(channel),) for channel in channels)
+        skipped: dict[str, str] = {}
+        groups = tuple(group for group in tdms.groups() for group in _groups(group, skipped))
+        facts = {str(key): str(value) for key, value in tdms.properties.items()}
+        return Contents(groups, facts, skipped)
+
+
+def encoded(recording: Recording) -> bytes:
+    """Return a recording: one group with waveform properties where its raster is even, facts at the root.
+
+    Raises MissingExtraError without npTDMS.
+    """
+    nptdms = required_module("nptdms", _EXTRA)
+    raster = _waveform(recording)
+    objects = [nptdms.RootObject(properties=dict(recording.metadata)), nptdms.GroupObject(_GROUP)]
+    for name, samples in recording.channels.items():
+        properties = {"unit_string": recording.units[name], **_names_of_states(name), **raster}
+        objects.append(nptdms.ChannelObject(_GROUP, name, np.asarray(samples), properties=properties))
+    content = io.BytesIO()
+    with nptdms.TdmsWriter(content) as writer:
+        writer.write_segment(objects)
+    return content.getvalue()
+
+
+def _waveform(recording: Recording) -> dict[str, object]:
+    time = recording[TIME]
+    if len(time) < 2:
+        return {}
+    interval = (time[-1] - time[0]) / (len(time) - 1)
+    even = time[0] + interval * np.arange(len(time))
+    if np.max(np.abs(time - even)) > _EVEN * interval:
+        return {}
+    return {"wf_start_offset": float(time[0]), "wf_increment": float(interval), "wf_samples": len(time)}
+
+
+def _names_of_states(name: str) -> dict[str, object]:
+    kind = state_kind(name)
+    if kind is None or not STATES[kind]:
+        return {}
+    return {"states": ", ".join(f"{number} = {state}" for state, number in STATES[kind].items())}
+
+
+def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
+    rasters: dict[tuple[int, float, float], list[Any]] = {}
+    for channel in group.channels():
+        rasters.setdefault(_raster(channel), []).append(channel)
+    for (length, interval, start), channels in rasters.items():
+        read = {channel.name: _samples(channel) for channel in channels}
+        kept = {name: samples for name, samples in read.items() if samples is not None}
+        skipped |= {f"{group.name}/{name}": "holds no numbers" for name in read if name not in kept}
+        units = {c.name: str(u) for c in channels if (u := c.properties.get("unit_string"))}
+        time = start + interval * np.arange(length) if interval > 0.0 else None
+        if kept and length:
+            yield Group(group.name, kept, {n: u for n, u in units.items() if n in kept}, time)
+
+
+def _raster(channel: Any) -> tuple[int, float, float]:
+    interval = float(channel.properties.get("wf_increment", 0.0))
+    return len(channel), interval, float(channel.properties.get("wf_start_offset", 0.0))
+
+
+def _samples(channel: Any) -> Samples | None:
+    samples = np.asarray(channel[:])
+    if samples.dtype.kind == "M":
+        return np.asarray((samples - samples[:1]) / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
+    if samples.ndim != 1 or samples.dtype.kind not in "biuf":
+        return None
+    return samples.astype(np.float64)

@@ -1,0 +1,110 @@
+"""Plausible values of recordings of trains: beyond them a unit is wrong or a sample is faulty."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.units import BAR, KILOMETRE_PER_HOUR
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Implausible:
+    """Why samples are implausible in their unit, and the unit that is likely; empty: none fits."""
+
+    reason: str
+    likely_unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A number in SI, and its text for messages."""
+
+    value: float
+    text: str
+
+
+# All chosen, far beyond what occurs: 603 km/h is the fastest run of a train (L0 series, 2015), compressed-air
+# brakes work below 12 bar, a caliper clamps with some ten kN.
+LARGEST: Final = MappingProxyType(
+    {
+        "m/s": Limit(1000.0 * KILOMETRE_PER_HOUR, "1000 km/h"),
+        "Pa": Limit(100.0 * BAR, "100 bar"),
+        "N": Limit(1e7, "10 MN"),
+        "N m": Limit(1e6, "1000 kN m"),
+        "m": Limit(1e10, "10 million km"),
+    }
+)
+"""SI unit -> largest magnitude of a sample."""
+SHORTEST_INTERVAL: Final = Limit(1e-5, "0.01 ms")
+LONGEST_INTERVAL: Final = Limit(5.0, "5 s")
+"""Between two samples; chosen. A raster coarser than a second shows no slide."""
+LONGEST_RECORD: Final = Limit(86_400.0, "one day")
+FEW: Final = 0.1
+"""Share of samples beyond the largest that may be faults; more say that the unit is wrong; chosen."""
+
+
+def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
+    """Return which finite samples, in SI, are implausibly large."""
+    limit = LARGEST.get(si)
+    if limit is None:
+        return np.zeros(len(samples), dtype=np.bool_)
+    return np.asarray(np.isfinite(samples) & (np.abs(samples) > limit.value))
+
+
+def implausible_unit(
+    samples: Array, si: str, unit: str, sizes: Mapping[str, float], faulty: float = FEW
+) -> Implausible | None:
+    """Return why samples are implausible in a unit; None if they are plausible.
+
+    Args:
+        samples: as SI, converted from `unit`.
+        si: the SI unit.
+        unit: the stated unit of the samples; a key of `sizes`.
+        sizes: unit -> its size in SI.
+        faulty: share of samples that may be beyond the largest for other reasons.
+
+    """
+    numbers, limit = np.abs(samples[~np.isnan(samples)]), LARGEST.get(si)
+    if limit is None or not len(numbers) or np.mean(numbers > limit.value) <= faulty:
+        return None
+    largest = float(numbers.max())
+    fitting = [each for each, size in sizes.items() if largest / sizes[unit] * size <= limit.value]
+    likely = max(fitting, key=lambda each: sizes[each], default="")
+    return Implausible(
+        f"reaches {largest / sizes[unit]:.4g} {unit}; at most {limit.text} is plausible", likely
+    )
+
+
+def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> Implausible | None:
+    """Return why times, in s, are implausible; None if they are plausible or do not rise.
+
+    `unit` is their stated unit, a key of `sizes` (unit -> s).
+    """
+    rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
+    if not rising or _plausible(time, 1.0):
+        return None
+    likely = next((each for each, size in sizes.items() if _plausible(time, size / sizes[unit])), "")
+    first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], _interval(time) / sizes[unit]
+    return Implausible(
+        f"runs from {first:.6g} to {last:.6g} {unit} with a sample every {step:.4g} {unit};"
+        f" {SHORTEST_INTERVAL.text} to {LONGEST_INTERVAL.text} between samples and at most"
+        f" {LONGEST_RECORD.text} are plausible",
+        likely,
+    )
+
+
+def _plausible(time: Array, factor: float) -> bool:
+    interval, duration = _interval(time) * factor, float(time[-1] - time[0]) * factor
+    return SHORTEST_INTERVAL.value <= interval <= LONGEST_INTERVAL.value and duration <= LONGEST_RECORD.value
+
+
+def _interval(time: Array) -> float:
+    return float(np.median(np.diff(time)))

@@ -1,0 +1,88 @@
+"""Files of the cache: a digest of inputs and content, then the content."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import logging
+import os
+import stat
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from uictest.core import files
+from uictest.core.user_cache.folders import is_trusted, make_private, roots, why_unsafe
+
+_DIGEST_SIZE = hashlib.sha256().digest_size
+# A FIFO must not block the reader until somebody writes; Windows has neither it nor links that need care.
+_READ_ONLY = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
+
+
+def read(kind: str, inputs: bytes) -> bytes | None:
+    """Return the cached content of these inputs; None if there is none that is intact.
+
+    Args:
+        kind: kind of content, part of the file's name.
+        inputs: everything that the content was made of: sources, versions, options, the processor.
+    """
+    for folder in safe_folders(make=False):
+        with contextlib.suppress(OSError):
+            kept = _bytes_of(folder / name_of(kind, inputs))
+            content = kept[_DIGEST_SIZE:]
+            if kept[:_DIGEST_SIZE] == _digest(inputs, content):
+                return content
+    return None
+
+
+def write(kind: str, inputs: bytes, content: bytes) -> None:
+    """Cache content for :func:`read` in the first writable folder; warn once if there is none."""
+    for folder in safe_folders(make=True):
+        try:
+            files.write(folder, name_of(kind, inputs), _digest(inputs, content) + content, private=True)
+        except OSError as error:
+            _warn(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
+        else:
+            return
+    _warn(
+        "nothing is cached, so each run compiles again; set UICTEST_CACHE to a folder that only you can write"
+    )
+
+
+def safe_folders(*, make: bool) -> Iterator[Path]:
+    """Yield the folders of the cache that only this user can write; `make` creates missing ones."""
+    for root in roots():
+        try:
+            if make:
+                make_private(root)
+            reason = why_unsafe(root)
+        except OSError:  # a home that is missing or read-only: try the next root
+            continue
+        if reason:
+            _warn(f"the cache {str(root)!r} is not used: {reason}")
+        else:
+            yield Path(os.path.realpath(root))
+
+
+def name_of(kind: str, inputs: bytes) -> str:
+    """Return the name of the file that keeps the content of these inputs."""
+    return f"{kind}-{hashlib.sha256(inputs).hexdigest()[:20]}"
+
+
+def _digest(inputs: bytes, content: bytes) -> bytes:
+    return hashlib.sha256(hashlib.sha256(inputs).digest() + content).digest()
+
+
+def _bytes_of(path: Path) -> bytes:
+    """Return the bytes of a regular file that only this user can write. Raises OSError."""
+    with os.fdopen(os.open(path, _READ_ONLY | getattr(os, "O_BINARY", 0)), "rb") as file:
+        status = os.fstat(file.fileno())
+        if not (stat.S_ISREG(status.st_mode) and is_trusted(status)):
+            raise PermissionError(f"{path} is not a file of this user alone")
+        return file.read()
+
+
+@cache
+def _warn(text: str) -> None:
+    """Write a warning to stderr, once per text."""
+    logging.getLogger(__name__).warning("uictest: %s", text)

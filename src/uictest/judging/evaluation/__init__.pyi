@@ -1,0 +1,103 @@
+from .block import (
+    StopBlock as StopBlock,
+    evaluate_block as evaluate_block,
+)
+from .bounds import (
+    Bounds as Bounds,
+    bounds_of as bounds_of,
+)
+from .case import (
+    JUDGED_KEYS as JUDGED_KEYS,
+    error_result as error_result,
+    evaluate as evaluate,
+    evaluate_simulated as evaluate_simulated,
+)
+from .columns import (
+    Expectation as Expectation,
+    Outcome as Outcome,
+)
+from .coverage import (
+    Coverage as Coverage,
+    MissingData as MissingData,
+)
+from .definitions import (
+    definition_texts as definition_texts,
+)
+from .document import (
+    WrittenCaseResult as WrittenCaseResult,
+    cases_document as cases_document,
+    cases_of as cases_of,
+    result_document as result_document,
+    results_of as results_of,
+    to_json as to_json,
+)
+from .domain_of_validity import (
+    Deviation as Deviation,
+    DomainOfValidity as DomainOfValidity,
+)
+from .effective_parts import (
+    EffectiveParts as EffectiveParts,
+)
+from .json_values import (
+    Number as Number,
+    OptionalNumber as OptionalNumber,
+    absent_if_empty as absent_if_empty,
+    from_json_form as from_json_form,
+    json_form as json_form,
+    required as required,
+    to_json_form as to_json_form,
+)
+from .judgement import (
+    judge as judge,
+)
+from .outcome_rule import (
+    OutcomeRule as OutcomeRule,
+    seeds_text as seeds_text,
+)
+from .parameters import (
+    EffectivePart as EffectivePart,
+    Parameter as Parameter,
+    parts_document as parts_document,
+    parts_of as parts_of,
+    parts_table as parts_table,
+)
+from .program import (
+    Program as Program,
+    program_in as program_in,
+    program_of as program_of,
+)
+from .repeated_case import (
+    SimulatedRepeat as SimulatedRepeat,
+    evaluate_repeats as evaluate_repeats,
+)
+from .repeats import (
+    RepeatedStop as RepeatedStop,
+    Repeats as Repeats,
+    Spread as Spread,
+    column_medians as column_medians,
+    is_expected as is_expected,
+    spread_of as spread_of,
+)
+from .result import (
+    CaseResult as CaseResult,
+    NamedParts as NamedParts,
+    deciding_verdicts as deciding_verdicts,
+    narrowest_margin as narrowest_margin,
+    outcome_of as outcome_of,
+)
+from .result_columns import (
+    ResultColumns as ResultColumns,
+    joined as joined,
+    result_columns as result_columns,
+)
+from .verdict import (
+    READINGS as READINGS,
+    AppliedDefinition as AppliedDefinition,
+    OverStops as OverStops,
+    ReadVerdict as ReadVerdict,
+    Sensitivity as Sensitivity,
+    Status as Status,
+    Verdict as Verdict,
+    VerdictInterval as VerdictInterval,
+    WrittenVerdict as WrittenVerdict,
+)

@@ -1,0 +1,194 @@
+"""From a case and the measures of its stop to its result."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Iterator, Mapping
+from typing import Final
+
+from uictest.controllers import ResponseTimes
+from uictest.core.measures import (
+    MEASURES,
+    STOP_COLUMNS,
+    StopMeasures,
+    Wheelsets,
+    stop_column_values,
+    wheelset_column_values,
+)
+from uictest.judging.evaluation.coverage import Coverage
+from uictest.judging.evaluation.judgement import judge
+from uictest.judging.evaluation.real_time import missed_deadlines
+from uictest.judging.evaluation.result import CaseResult, outcome_of
+from uictest.plans import scenario
+
+JUDGED_KEYS = (
+    "brake.position",
+    "brake.command",
+    "rail.condition",
+    "rail.cleaning",
+    "rail.gradient",
+    "rig.topology",
+    "rig.wsp",
+    # what the reasons of failed checks of the rig name
+    "rig.caliper",
+    "rig.compensation_model",
+    "rig.sensors",
+    "brake.system.tank.volume",
+    "brake.system.wsp_valve",
+    "vehicle.wheelsets",
+    "simulation.maximum_duration",
+    "faults",
+    "criteria",
+    "measures",
+    "expect",
+    "requirements",
+    "test_case",
+)
+"""Keys of a scenario at or below which :func:`evaluate` reads; all else reaches it through the measures."""
+
+FINITE_IN_STOPS: Final = (
+    *("end_time", "end_distance", "end_speed"),
+    *(each.finite_field for each in MEASURES.values() if each.finite_field and not each.of_wheelsets),
+)
+FINITE_IN_WHEELSETS: Final = tuple(
+    each.finite_field for each in MEASURES.values() if each.finite_field and each.of_wheelsets
+)
+"""Fields of the records that hold a number after every simulated stop; the others may be NaN."""
+
+_RELATIVE_TO_THE_AIR_TAKEN: Final = frozenset({"air_residual", "air_energy_residual"})
+
+_DEFAULTS: Final = {
+    name: value for column in STOP_COLUMNS.values() for name, value in column.defaults.items()
+}
+
+
+def evaluate(
+    case: scenario.Case,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
+    duration: float = 0.0,
+    *,
+    explain: bool = True,
+    coverage: Coverage | None = None,
+    response_times: ResponseTimes | None = None,
+) -> CaseResult:
+    """Return the judged result of a case whose stop was simulated or recorded.
+
+    Args:
+        case: what was to be done.
+        measures: record of the stop, SI.
+        wheelset_measures: one record per wheelset from the leading end, SI.
+        duration: wall clock the simulation took, s.
+        explain: as for :func:`judge`.
+        coverage: as for :func:`judge`.
+        response_times: of the controller in a stop that was paced by the clock.
+
+    """
+    verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
+    verdicts = [*verdicts, *missed_deadlines(response_times)]
+    outcome, reason = outcome_of(verdicts)
+    of_stop = stop_column_values(measures, column_definition(case.scenario))
+    of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
+    if coverage is not None:
+        of_stop = _without(_unknown_columns(coverage, of_wheelsets=False), of_stop)
+        unknown = _unknown_columns(coverage, of_wheelsets=True)
+        of_wheelsets = [_without(unknown, columns) for columns in of_wheelsets]
+    return CaseResult(
+        id=case.id,
+        scenario=case.path.as_posix(),
+        parameters=dict(case.parameters),
+        expect=case.scenario.expect,
+        outcome=outcome,
+        reason=reason,
+        criteria=tuple(verdicts),
+        measures=of_stop,
+        wheelsets=tuple(of_wheelsets),
+        response_times=response_times,
+        requirements=case.scenario.requirements,
+        test_case=case.scenario.test_case or "",
+        duration=duration,
+    )
+
+
+def evaluate_simulated(
+    case: scenario.Case,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
+    duration: float = 0.0,
+    *,
+    explain: bool = True,
+    response_times: ResponseTimes | None = None,
+) -> CaseResult:
+    """Return the judged result of a simulated case, outcome `error` where a measure is not finite.
+
+    Arguments as for :func:`evaluate`.
+    """
+    not_finite = list(_not_finite(measures, wheelset_measures))
+    if not_finite:
+        return error_result(case, _why_not_finite(measures, not_finite), duration)
+    return evaluate(
+        case, measures, wheelset_measures, duration, explain=explain, response_times=response_times
+    )
+
+
+def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:
+    """Return the result of a case whose simulation failed: outcome `error`, why, and nothing judged.
+
+    It names the requirements of its criteria as its own: none of them is verified.
+    """
+    return CaseResult(
+        id=case.id,
+        scenario=case.path.as_posix(),
+        parameters=dict(case.parameters),
+        expect=case.scenario.expect,
+        outcome="error",
+        reason=reason,
+        requirements=scenario.named_requirements(case.scenario),
+        test_case=case.scenario.test_case or "",
+        duration=duration,
+    )
+
+
+def column_definition(resolved: scenario.Scenario) -> dict[str, float]:
+    """Return the definitions that columns use: those of the first criterion that has them, else the defaults.
+
+    A column then agrees with the verdict of that criterion.
+    """
+    return {name: _stated(resolved, name, default) for name, default in _DEFAULTS.items()}
+
+
+def _stated(resolved: scenario.Scenario, name: str, default: float) -> float:
+    for profile in resolved.criteria:
+        for criterion in profile.criteria:
+            parameter = getattr(criterion.definition, name)
+            if parameter is not None:
+                return float(parameter.value)
+    return default
+
+
+def _unknown_columns(coverage: Coverage, *, of_wheelsets: bool) -> set[str]:
+    """Return the columns of stops or of wheelsets whose measure lacks data in a record, for any wheelset."""
+    lacking = (measure for name, measure in MEASURES.items() if name in coverage.missing)
+    return {each.column.name for each in lacking if each.column and each.of_wheelsets == of_wheelsets}
+
+
+def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:
+    return {name: math.nan if name in unknown else value for name, value in columns.items()}
+
+
+def _not_finite(measures: StopMeasures, wheelsets: Wheelsets) -> Iterator[str]:
+    yield from (name for name in FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
+    for number, wheelset in enumerate(wheelsets, start=1):
+        for name in FINITE_IN_WHEELSETS:
+            if not math.isfinite(getattr(wheelset, name)):
+                yield f"{name}_{number}"
+
+
+def _why_not_finite(measures: StopMeasures, names: list[str]) -> str:
+    if measures.air_consumed == 0.0 and _RELATIVE_TO_THE_AIR_TAKEN.issuperset(names):
+        return (
+            f"the stop ended after {measures.end_time:.3g} s, before the brake took any air, so that the"
+            " balances of the air have no value; brake from a higher speed or with a shorter dead time"
+        )
+    listed = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
+    return f"the simulation gives no finite {listed}: the numbers of the scenario do not fit together"

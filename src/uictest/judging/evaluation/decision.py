@@ -1,0 +1,173 @@
+"""One criterion decided for one choice of its definitions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from uictest.core.measures import MEASURES, Course, MeasureValue
+from uictest.core.units import in_unit, value_text, with_unit
+from uictest.judging.evaluation.bounds import Bounds, deciding
+from uictest.judging.evaluation.coverage import MissingData, ObservedStop
+from uictest.judging.evaluation.verdict import Status
+from uictest.plans import scenario
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """A status with the value that decided it (in the measure's unit; None where there is none) and why.
+
+    `side` is -1, 0 or 1: below, between or above the bounds.
+    """
+
+    status: Status
+    value: float | None
+    reason: str
+    side: int = 0
+
+
+def decide(
+    criterion: scenario.Criterion, bounds: Bounds, definition: Mapping[str, float], stop: ObservedStop
+) -> Decision:
+    """Decide a criterion that applies and has these `bounds`, with its definitions set to `definition` (SI).
+
+    Where data are missing, each value is known to lie in an interval: from the value so far upwards for a
+    measure that can only grow, downwards for one that can only fall, anywhere without data that bound it. The
+    criterion passes or fails only if it does so wherever in their intervals the values lie.
+    """
+    unit, course = criterion.unit, criterion.course
+    observed = read_measure(criterion, definition, stop)
+    values = list(observed.values)
+    settled = course == "settles" and not observed.unavailable_reason
+    missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
+    if observed.unavailable_reason:
+        starts_late = stop.coverage is not None and stop.coverage.no_initial_speed
+        final = observed.whatever_follows and not starts_late
+        return _without_value(observed.unavailable_reason, () if final else missing)
+    needed = criterion.wheelsets_needed(len(values))
+    if not 1 <= needed <= len(values):
+        return too_few_wheelsets(len(values))
+    where = criterion.speed_range(definition)
+    if missing:
+        return _PartlyKnown(values, missing, course, bounds, needed, unit, where).decision()
+    value = deciding(values, bounds, needed)
+    status: Status = "pass" if bounds.hold(value) else "fail"
+    return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit, where))
+
+
+def read_measure(
+    criterion: scenario.Criterion, definition: Mapping[str, float], stop: ObservedStop
+) -> MeasureValue:
+    """Return the value of a criterion's measure in the criterion's unit."""
+    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
+    values = tuple(in_unit(number, criterion.unit) for number in observed.values)
+    return replace(observed, values=values)
+
+
+def too_few_wheelsets(count: int) -> Decision:
+    """Return the decision on a stop in which not as many wheelsets as needed have a value."""
+    return Decision("inconclusive", None, f"the record holds {count} wheelsets")
+
+
+@dataclass(frozen=True, slots=True)
+class _PartlyKnown:
+    """Values of a measure, in `unit`, some of which lack data; `needed` of them must keep the bounds.
+
+    `where` says at which train speeds the measure looks.
+    """
+
+    values: Sequence[float]
+    missing: Sequence[MissingData | None]
+    course: Course
+    bounds: Bounds
+    needed: int
+    unit: str
+    where: str = ""
+
+    def decision(self) -> Decision:
+        """Return the decision that holds wherever the values lie; inconclusive where there is none."""
+        holds = list(map(self._holds, self.values, self.missing))
+        keeping = [value for value, held in zip(self.values, holds, strict=True) if held]
+        breaking = [value for value, held in zip(self.values, holds, strict=True) if held is False]
+        possible = len(self.values) - len(breaking)
+        of_wheelsets, demand = f"of {len(self.values)} wheelsets", self.bounds.demand(self.unit)
+        if len(keeping) >= self.needed:
+            count = f"{len(keeping)} {of_wheelsets} {demand} ({self.needed} needed)"
+            return self._decided("pass", deciding(keeping, self.bounds, self.needed), count)
+        if possible < self.needed:
+            count = f"{len(breaking)} {of_wheelsets} not {demand} ({self.needed} needed)"
+            return self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
+        return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must be {demand}")
+
+    def _holds(self, value: float, gap: MissingData | None) -> bool | None:
+        """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
+        if gap is None:
+            return self.bounds.hold(value)
+        known = _known(value, gap)
+        lowest = value if known and self.course == "grows" else -math.inf
+        highest = value if known and self.course == "falls" else math.inf
+        return self.bounds.hold_throughout(lowest, highest)
+
+    def _decided(self, status: Status, value: float, count: str) -> Decision:
+        texts = [
+            value_text(value, "1") if _known(value, gap) else "-"
+            for value, gap in zip(self.values, self.missing, strict=True)
+        ]
+        reasons = _listed([gap for gap in self.missing if gap])
+        if set(texts) == {"-"}:
+            return _decided(status, value, self.bounds, reasons)
+        so_far = f"{_looking(with_unit(', '.join(texts), self.unit), self.where)} so far; {reasons}"
+        reason = so_far if len(self.values) == 1 else f"{count}: {so_far}"
+        return _decided(status, value, self.bounds, reason)
+
+
+def _decided(status: Status, value: float, bounds: Bounds, reason: str) -> Decision:
+    if math.isnan(value):
+        return Decision(status, None, reason)
+    return Decision(status, value, reason, bounds.side(value))
+
+
+def _without_value(why: str, missing: Sequence[MissingData | None]) -> Decision:
+    gaps = [gap for gap in missing if gap]
+    if not gaps:
+        return Decision("not_applicable", None, why)
+    bounded = all(gap.bounded for gap in gaps)
+    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed(gaps)]))
+
+
+def _known(value: float, gap: MissingData | None) -> bool:
+    return gap is None or (gap.bounded and not math.isnan(value))
+
+
+def _listed(missing: Sequence[MissingData]) -> str:
+    return "; ".join(dict.fromkeys(gap.reason for gap in missing))
+
+
+def why_decided(
+    values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str, where: str = ""
+) -> str:
+    """Return why known values, in `unit`, keep or miss their bounds.
+
+    `value` is the one that decides, `where` says at which train speeds its measure looks.
+    """
+    if len(values) > 1:
+        kept = sum(map(bounds.hold, values))
+        listed = _looking(with_unit(", ".join(value_text(number, "1") for number in values), unit), where)
+        return f"{kept} of {len(values)} wheelsets {bounds.demand(unit)} ({needed} needed): {listed}"
+    demand = with_unit(str(bounds), unit)
+    if not bounds.hold(value):
+        return _missed(value, bounds, demand, unit, where)
+    margin = value_text(bounds.margin(value), unit)
+    return f"{_looking(value_text(value, unit), where)} keeps {demand} by {margin}" if where else ""
+
+
+def _looking(text: str, where: str) -> str:
+    return f"{text} ({where})" if where else text
+
+
+def _missed(value: float, bounds: Bounds, demand: str, unit: str, where: str) -> str:
+    if not math.isfinite(value):
+        return f"{value} never keeps {demand}"
+    short = value_text(-bounds.margin(value), unit)
+    return f"{_looking(value_text(value, unit), where)} misses {demand} by {short}"

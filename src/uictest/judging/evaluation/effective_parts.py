@@ -1,0 +1,173 @@
+"""The effective parameters of a case, computed from its resolved scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any, Final
+
+from uictest.judging.evaluation.parameters import EffectivePart, Parameter
+from uictest.plans.scenario import DESCRIPTIVE, PART_KEYS, PART_KINDS, Scenario, Value, mark_of, values_in
+from uictest.plans.scenario.yaml import Key, Model, Part, Quantity, dotted
+
+_PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PART_KEYS[key].several}
+"""Kind of a part -> where it stands in a scenario."""
+
+_CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
+"""Keys that describe a recorded stop, besides rail condition, criteria and measures."""
+
+_SECTIONS: Final = ("brake", "rail", "rig", "simulation")
+_RAIL_OVERRIDES: Final = ("friction", "cleaning")
+"""Keys of the rail that replace what the rail condition has under the same name."""
+
+
+class EffectiveParts:
+    """Computes the effective parts of scenarios; a part that many scenarios share is computed once."""
+
+    def __init__(self) -> None:
+        # Keyed by identity: holding the part keeps Python from giving its identity to another object.
+        self._computed: dict[tuple[int, Key], tuple[Part, EffectivePart]] = {}
+
+    def of(self, scenario: Scenario) -> dict[str, EffectivePart]:
+        """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
+        parts = {"scenario": EffectivePart("scenario", "", "", None, tuple(_stop(scenario)))}
+        for name in ("brake", "rail", "rig"):
+            own = tuple(_section(scenario, name))
+            parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
+        for kind, key in _PARTS.items():
+            overridden = _overridden(scenario) if kind == "rail" else ()
+            parts[kind] = self.part(_at(scenario, key), kind, key, overridden)
+        return parts | self._criteria(scenario.judged_by)
+
+    def of_recorded(self, scenario: Scenario) -> dict[str, EffectivePart]:
+        """Return the parts of a recorded stop: conditions, measures and criteria, nothing of a rig."""
+        condition = scenario.rail.condition
+        stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
+        for name in ("brake", "rail", "rig"):
+            stated += [row for row in _section(scenario, name) if row.key in _CONDITIONS]
+        return {
+            "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
+            "measures": self.part(scenario.measures, "measures", "measures"),
+            **self._criteria(scenario.criteria),
+        }
+
+    def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
+        """Return one part that stands at `key`, without the keys that the scenario overrides."""
+        kept = self._computed.get((id(part), overridden))
+        if kept is None:
+            kept = part, _effective(part, kind, key, overridden)
+            self._computed[id(part), overridden] = kept
+        return kept[1]
+
+    def _criteria(self, profiles: Iterable[Part]) -> dict[str, EffectivePart]:
+        return {
+            f"criteria.{place}": self.part(profile, "criteria", "") for place, profile in enumerate(profiles)
+        }
+
+
+def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePart:
+    values, original = (
+        {place: value for place, value in values_in(each) if place[0] not in overridden}
+        for each in (part, part.original)
+    )
+    above = f"{key}." if key else ""
+    library = original if part.original else None
+    parameters = tuple(
+        _as_declared(
+            part, place, _parameter(above, place, value, library, _mark(part, place, value, original))
+        )
+        for place, value in values.items()
+    )
+    removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
+    used = {parameter.source for parameter in parameters if parameter.source}
+    sources = {name: source.text for name, source in part.sources.items() if name in used}
+    return EffectivePart(kind, key, part.label, part.based_on, parameters, removed, sources)
+
+
+def _overridden(scenario: Scenario) -> Key:
+    return tuple(name for name in _RAIL_OVERRIDES if getattr(scenario.rail, name) is not None)
+
+
+def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list[Key]:
+    """Return the keys of its original that a part lacks; of a section that it lacks, the section alone."""
+    kept = {place[:depth] for place in values for depth in range(len(place) + 1)}
+    return list(
+        dict.fromkeys(
+            next(place[:depth] for depth in range(len(place) + 1) if place[:depth] not in kept)
+            for place in original
+            if place not in values
+        )
+    )
+
+
+def _mark(part: Part, place: Key, value: Value, original: Mapping[Key, Value]) -> str:
+    if isinstance(value, Quantity):
+        return mark_of(value, part.sources)
+    return "" if original.get(place) == value else "user"
+
+
+def _as_declared(part: Part, place: Key, parameter: Parameter) -> Parameter:
+    """Return a parameter of a controller from outside with its unit, marked where it has its default."""
+    declared = getattr(part, "declared_parameters", {}).get(place[1]) if place[0] == "parameters" else None
+    if declared is None:
+        return parameter
+    is_default = parameter.mark == "user" and getattr(part, "parameters", {})[place[1]] == declared.default
+    return replace(parameter, unit=declared.unit, mark="default" if is_default else parameter.mark)
+
+
+def _stop(scenario: Scenario) -> Iterator[Parameter]:
+    yield from _own(scenario, "", {})
+    yield from _own(scenario.simulation, "simulation.", {})
+
+
+def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
+    # What the rail leaves out is the condition's.
+    of_condition = _RAIL_OVERRIDES if name == "rail" else ()
+    defaults = {key: getattr(scenario.rail.condition, key) for key in of_condition}
+    return _own(getattr(scenario, name), f"{name}.", defaults)
+
+
+def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
+    """Yield the parameters that stand in the scenario file; optional ones are compared with their default."""
+    for name, declared in type(model).model_fields.items():
+        value = getattr(model, name)
+        if name in DESCRIPTIVE or (name in _SECTIONS and isinstance(value, Model)):
+            continue
+        default = None if declared.is_required() else dict(values_in(defaults.get(name, declared.default)))
+        setting = "user" if name in model.model_fields_set else "default"
+        for place, part_value in values_in(value, (name,)):
+            mark = mark_of(part_value, {}) if isinstance(part_value, Quantity) else setting
+            below = None if default is None else {(name, *key): other for key, other in default.items()}
+            yield _parameter(above, place, part_value, below, mark)
+
+
+def _parameter(
+    above: str, place: Key, value: Value, library: Mapping[Key, Value] | None, mark: str
+) -> Parameter:
+    """Return a parameter compared with the library part; `library` is None without such a part."""
+    source = value.source if isinstance(value, Quantity) and mark not in ("user", "default") else ""
+    other = None if library is None else library.get(place)
+    key, unit = f"{above}{dotted(place)}", value.unit if isinstance(value, Quantity) else ""
+    own = (key, _plain(value), unit, _written(value), mark, source)
+    if library is None or other == value:
+        return Parameter(*own)
+    if other is None:
+        return Parameter(*own, differs=True)
+    return Parameter(*own, differs=True, library_value=_plain(other), library_written=_written(other))
+
+
+def _plain(value: Value) -> float | str:
+    return float(value) if isinstance(value, float) else value
+
+
+def _written(value: Value) -> str:
+    if isinstance(value, Quantity):
+        return value.text
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _at(scenario: Scenario, key: str) -> Any:
+    value: Any = scenario
+    for element in key.split("."):
+        value = getattr(value, element)
+    return value

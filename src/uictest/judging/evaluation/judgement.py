@@ -1,0 +1,244 @@
+"""Criteria applied to the measures of a stop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Final
+
+from uictest.core.measures import StopMeasures, Wheelsets, is_nan
+from uictest.judging.evaluation.bounds import Bounds, bounds_of
+from uictest.judging.evaluation.coverage import Coverage, ObservedStop, why_cut_off
+from uictest.judging.evaluation.decision import Decision, decide
+from uictest.judging.evaluation.definitions import applied_definitions, definition_texts
+from uictest.judging.evaluation.rig_reasons import why_rig_fails
+from uictest.judging.evaluation.sensitivity import sensitivity
+from uictest.judging.evaluation.verdict import READINGS, ReadVerdict, Sensitivity, Verdict, VerdictInterval
+from uictest.plans import scenario
+from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_conditions
+
+DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
+"""Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
+_NO_RIG: Final = (
+    "not known: rig.compensation_model does not list the rig that it was identified for,"
+    " or states other numbers than were identified"
+)
+
+
+def judge(
+    resolved: scenario.Scenario,
+    measures: StopMeasures,
+    wheelset_measures: Wheelsets,
+    *,
+    explain: bool = True,
+    coverage: Coverage | None = None,
+) -> list[Verdict]:
+    """Judge one stop by every criterion of its scenario, in the order written, then by the checks of the rig.
+
+    Args:
+        resolved: scenario with the conditions of the stop and the criteria.
+        measures: record of the stop, SI.
+        wheelset_measures: one record per wheelset from the leading end, SI.
+        explain: whether the verdicts also list their definitions and whether another value in their range
+            would change them, which takes most of the time.
+        coverage: what the record of a real stop lacks; None for a simulation.
+
+    Returns:
+        One verdict per criterion, those of the rig for simulated stops alone:
+        `not_applicable` where the criterion does not apply to such a stop,
+        `inconclusive` where data to judge it are missing, both with the reason. NaN never passes.
+
+    """
+    conditions = test_conditions_of(resolved)
+    cut_off = why_cut_off(resolved, measures, coverage)
+    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
+    verdicts = []
+    for profile in resolved.judged_by if coverage is None else resolved.criteria:
+        for criterion in profile.criteria:
+            verdict = _judge(criterion, conditions, stop, resolved.measures, explain=explain)
+            if verdict.layer == "rig" and verdict.status == "fail":
+                why = why_rig_fails(criterion, resolved, measures, list(wheelset_measures))
+                verdict = replace(verdict, reason=why or verdict.reason)
+            if explain:
+                verdict = with_definitions(verdict, criterion, profile, resolved.measures)
+            verdicts.append(verdict)
+    return verdicts
+
+
+def _judge(
+    criterion: scenario.Criterion,
+    conditions: TestConditions,
+    stop: ObservedStop,
+    observation: scenario.MeasureDefinitions,
+    *,
+    explain: bool,
+) -> Verdict:
+    bounds = bounds_of(criterion)
+    decided = undecided(criterion, conditions, stop, observation)
+    if decided is not None:
+        return verdict_of(criterion, bounds, decided)
+
+    def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
+        if read is criterion:
+            return decide(criterion, bounds, definition, stop)
+        without_value = undecided(read, conditions, stop, observation)
+        return without_value or decide(read, bounds_of(read), definition, stop)
+
+    return verdict_by(criterion, bounds, decide_by, explain=explain)
+
+
+def verdict_by(
+    criterion: scenario.Criterion,
+    bounds: Bounds,
+    decide_by: DecideBy,
+    *,
+    explain: bool,
+) -> Verdict:
+    """Return the verdict of a criterion that applies, without definitions."""
+    stated = criterion.definition.stated()
+    decision = decide_by(criterion, stated)
+    verdict = verdict_of(criterion, bounds, decision)
+    if not explain:
+        return verdict
+    if decision.status != "inconclusive":
+        verdict = replace(verdict, sensitivity=tuple(_sensitivities(criterion, stated, decide_by)))
+    if not criterion.readings:
+        return verdict
+    readings = tuple(_readings(criterion, verdict, decide_by))
+    turns = [_over_readings(readings)] if decision.status != "inconclusive" else []
+    return replace(verdict, readings=readings, sensitivity=(*verdict.sensitivity, *turns))
+
+
+def _readings(criterion: scenario.Criterion, own: Verdict, decide_by: DecideBy) -> Iterator[ReadVerdict]:
+    """Yield what each reading says: that of the criterion itself, which decides, then the others."""
+    yield _read_verdict(criterion.reading, replace(own, sensitivity=()), decides=True)
+    for reading in criterion.readings:
+        read = criterion.read_as(reading)
+        verdict = verdict_by(read, bounds_of(read), decide_by, explain=True)
+        yield _read_verdict(reading.id, verdict, decides=False)
+
+
+def _read_verdict(reading: str, verdict: Verdict, *, decides: bool) -> ReadVerdict:
+    names = ("status", "measure", "value", "unit", "lower", "upper", "margin", "reason", "sensitivity")
+    return ReadVerdict(reading, decides, **{name: getattr(verdict, name) for name in names})
+
+
+def _over_readings(readings: Sequence[ReadVerdict]) -> Sensitivity:
+    """Return the readings as the range of a definition: the verdict flips where they do not all agree."""
+    intervals = (VerdictInterval(k, k, each.status, each.id) for k, each in enumerate(readings, start=1))
+    return Sensitivity(READINGS, "", 1, len(readings), tuple(intervals))
+
+
+def with_definitions(
+    verdict: Verdict,
+    criterion: scenario.Criterion,
+    profile: scenario.Criteria,
+    observation: scenario.MeasureDefinitions,
+) -> Verdict:
+    """Return a verdict with the definitions that it depends on."""
+    return replace(
+        verdict,
+        definition=definition_texts(criterion, profile, observation),
+        definitions=applied_definitions(criterion, profile, observation),
+        readings=tuple(_defined_readings(verdict.readings, criterion, profile, observation)),
+    )
+
+
+def _defined_readings(
+    readings: Sequence[ReadVerdict],
+    criterion: scenario.Criterion,
+    profile: scenario.Criteria,
+    observation: scenario.MeasureDefinitions,
+) -> Iterator[ReadVerdict]:
+    """Yield what each reading says with its source and, but for the deciding one, its definitions."""
+    others = {each.id: each for each in criterion.readings}
+    for read in readings:
+        other = others.get(read.id)
+        source = profile.sources.get(other.source if other else criterion.reading_source)
+        texts = definition_texts(criterion.read_as(other), profile, observation) if other else {}
+        mark, text = (source.mark, source.text) if source else ("user", "")
+        yield replace(read, mark=mark, source=text, definition=texts)
+
+
+def undecided(
+    criterion: scenario.Criterion,
+    conditions: TestConditions,
+    stop: ObservedStop,
+    observation: scenario.MeasureDefinitions,
+) -> Decision | None:
+    """Return the decision on a criterion that its measure has no part in; None where it has."""
+    if criterion.needs_series:
+        return Decision("not_applicable", None, "judged over the stops of a series")
+    return _not_applicable(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
+
+
+def _not_applicable(
+    criterion: scenario.Criterion, conditions: TestConditions, stop: ObservedStop
+) -> Decision | None:
+    """Return the decision on a criterion that does not apply, or may not apply; None where it applies."""
+    unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed
+    initial_speed = None if unknown else stop.measures.initial_speed
+    if unmet := unmet_conditions(criterion.applies, conditions, initial_speed):
+        return Decision("not_applicable", None, "; ".join(map(str, unmet)))
+    if criterion.of_simulation and stop.coverage is not None:
+        return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
+    if stop.coverage is not None and (absent := stop.coverage.not_computed.get(criterion.measure)):
+        return Decision("not_applicable", None, f"not recorded: {absent}")
+    if unknown and criterion.applies.initial_speed is not None:
+        return Decision("inconclusive", None, unknown)
+    if criterion.of_faults and conditions.has_faults and is_nan(stop.measures.fault_time):
+        return Decision("inconclusive", None, "no fault of the scenario began while the train moved")
+    if criterion.measure == "compensation_misfit" and is_nan(stop.measures.compensation_misfit):
+        return Decision("inconclusive", None, _NO_RIG)
+    return None
+
+
+def _unobserved(
+    criterion: scenario.Criterion, observation: scenario.MeasureDefinitions, stop: ObservedStop
+) -> Decision | None:
+    """Return the decision on a measure that was never observed: its zero says nothing; else None."""
+    if stop.coverage is not None and stop.coverage.no_initial_speed:
+        return None
+    moving_speed = observation.moving_speed
+    if "moving_speed" not in criterion.observed_by:
+        return None
+    # The deceleration is kept from the first sample at this speed on.
+    if stop.measures.initial_speed < moving_speed and is_nan(stop.measures.maximum_deceleration):
+        reason = f"the train never reached `moving_speed` ({moving_speed.text}), above which this is observed"
+        return Decision("not_applicable", None, reason)
+    return None
+
+
+def _sensitivities(
+    criterion: scenario.Criterion,
+    stated: dict[str, float],
+    decide_by: DecideBy,
+) -> Iterator[Sensitivity]:
+    for name, parameter in criterion.definition.parameters().items():
+
+        def at(value: float, name: str = name) -> Decision:
+            return decide_by(criterion, {**stated, name: value})
+
+        lower, upper = parameter.range
+        yield sensitivity(name, parameter.unit, lower, upper, parameter.step, at)
+
+
+def verdict_of(criterion: scenario.Criterion, bounds: Bounds, decision: Decision) -> Verdict:
+    """Return a decision as a verdict, without definitions and what depends on them."""
+    return Verdict(
+        id=criterion.id,
+        layer=criterion.layer,
+        value=decision.value,
+        unit=criterion.unit,
+        lower=bounds.lower,
+        upper=bounds.upper,
+        margin=_margin(decision, bounds),
+        status=decision.status,
+        reason=decision.reason,
+        measure=criterion.measure,
+        requirements=criterion.requirements,
+    )
+
+
+def _margin(decision: Decision, bounds: Bounds) -> float | None:
+    return None if decision.value is None else bounds.margin(decision.value)

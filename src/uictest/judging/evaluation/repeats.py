@@ -1,0 +1,158 @@
+"""The stops of a case that repeats its stop under further seeds, and what they come to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median, quantiles
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
+
+from uictest.core import statistics as proportions
+from uictest.judging.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
+from uictest.judging.evaluation.json_values import OptionalNumber, json_form, required
+from uictest.judging.evaluation.verdict import Verdict, WrittenVerdict
+
+Rule = Literal["all", "median", "at_least"]
+"""What the outcome of a repeated case is: that of all its stops, that at the median of each value, or that of
+a share of its stops."""
+
+
+@dataclass(frozen=True, slots=True)
+class RepeatedStop:
+    """One stop of a repeated case: how it came out under its seed, and its measures as those of a case.
+
+    Verdicts are without definitions. `measures` is None and `wheelsets` empty when the simulation failed.
+    """
+
+    seed: int
+    outcome: Outcome
+    reason: str = ""
+    criteria: tuple[WrittenVerdict, ...] = ()
+    measures: CaseMeasures | None = None
+    wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
+
+    def verdict(self, criterion: str) -> Verdict | None:
+        """Return the verdict of a criterion on this stop; None where there is none."""
+        return next((verdict for verdict in self.criteria if verdict.id == criterion), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """Median and spread of the values that stops have: lowest, quartiles and highest; `count` values."""
+
+    count: int
+    lowest: float
+    lower_quartile: float
+    median: float
+    upper_quartile: float
+    highest: float
+
+
+@dataclass(frozen=True, slots=True)
+class Repeats:
+    """The stops of a repeated case in the order of their seeds, and the rule for the outcome of the case.
+
+    `required_share` is the least share of stops that the rule `at_least` asks for, from 0 to 1; None for
+    another rule.
+    """
+
+    rule: Rule
+    stops: Annotated[
+        tuple[Annotated[RepeatedStop, required("criteria", "measures", "wheelsets")], ...],
+        Field(min_length=1),
+    ]
+    required_share: OptionalNumber = None
+
+    @property
+    def passed(self) -> int:
+        """The number of stops that came out as `pass`."""
+        return sum(stop.outcome == "pass" for stop in self.stops)
+
+    @property
+    def none_judged(self) -> bool:
+        """Whether every stop was skipped: then there is no share of stops that pass."""
+        return all(stop.outcome == "skipped" for stop in self.stops)
+
+    @property
+    def share(self) -> float:
+        """The share of stops that came out as `pass`; NaN where none was judged."""
+        return math.nan if self.none_judged else self.passed / len(self.stops)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The interval of that share with a confidence of 95 %; NaN where none was judged."""
+        if self.none_judged:
+            return math.nan, math.nan
+        return proportions.proportion_interval(self.passed, len(self.stops))
+
+    @property
+    def turns(self) -> bool:
+        """Whether the stops did not all come out alike."""
+        return len({stop.outcome for stop in self.stops}) > 1
+
+    def as_expected(self, expect: Expectation) -> int:
+        """Return the number of stops with the expected outcome."""
+        return sum(is_expected(stop.outcome, expect) for stop in self.stops)
+
+    def seeds(self, outcome: Outcome) -> list[int]:
+        """Return the seeds of the stops with this outcome."""
+        return [stop.seed for stop in self.stops if stop.outcome == outcome]
+
+    def values(self, column: str, wheelset: int | None = None) -> list[float]:
+        """Return a column of stops, or of one wheelset (1 leads), in the order of the seeds.
+
+        Stops that ended in an error are left out.
+        """
+        if wheelset is not None:
+            return [stop.wheelsets[wheelset - 1][column] for stop in self.stops if stop.wheelsets]
+        return [stop.measures[column] for stop in self.stops if stop.measures is not None]
+
+
+def is_expected(outcome: Outcome, expect: Expectation) -> bool:
+    """Return whether an outcome is the expected one: nothing that was not judged counts as `pass`."""
+    return outcome == expect
+
+
+def spread_of(values: Iterable[float]) -> Spread | None:
+    """Return median and spread of the numbers among values; None where all are NaN.
+
+    Quartiles are those of the values taken as a whole (R's type 7).
+    """
+    numbers = sorted(value for value in values if value == value)
+    if not numbers:
+        return None
+    if len(numbers) == 1:
+        return Spread(1, *(numbers * 5))
+    quartiles = quantiles(numbers, n=4, method="inclusive")
+    return Spread(len(numbers), numbers[0], quartiles[0], median(numbers), quartiles[2], numbers[-1])
+
+
+def column_medians(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the median of each column over rows: over those that have a number there, NaN where none has."""
+    columns = {name: spread_of(row[name] for row in rows) for name in (rows[0] if rows else {})}
+    return {name: float("nan") if spread is None else spread.median for name, spread in columns.items()}
+
+
+_DERIVED: Final = ("passed", "share", "interval")
+
+
+def _with_derived(repeats: Repeats, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = write(repeats)
+    stops = form.pop("stops")
+    share = {} if repeats.required_share is None else {"required_share": form["required_share"]}
+    derived = {"passed": repeats.passed, "share": repeats.share, "interval": repeats.interval}
+    return {"rule": repeats.rule, **share, **json_form(derived), "stops": stops}
+
+
+def _without_derived(content: object) -> object:
+    if isinstance(content, Mapping):
+        return {name: value for name, value in content.items() if name not in _DERIVED}
+    return content
+
+
+WrittenRepeats = Annotated[Repeats, WrapSerializer(_with_derived), BeforeValidator(_without_derived)]
+"""In JSON the number of stops that passed, their share and its interval stand beside the stops, for readers
+that need no more."""

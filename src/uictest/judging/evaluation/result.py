@@ -1,0 +1,192 @@
+"""The result of one case: outcome, verdicts and measures, in the units a brake engineer reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Final, Protocol, TypeVar
+
+from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
+
+from uictest.controllers import ResponseTimes
+from uictest.judging.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
+from uictest.judging.evaluation.domain_of_validity import DomainOfValidity
+from uictest.judging.evaluation.parameters import EffectivePart
+from uictest.judging.evaluation.repeats import WrittenRepeats, is_expected
+from uictest.judging.evaluation.verdict import (
+    Layer,
+    Status,
+    Verdict,
+    WrittenVerdict,
+    relative_margin,
+    with_outcome_of,
+)
+
+
+def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
+    return {role: part.id for role, part in parts.items()}
+
+
+def _parts_by_role(part_ids: object, info: ValidationInfo) -> dict[str, EffectivePart]:
+    """Return the parts that a case names by their ids; the context of the validation holds all by id."""
+    if not isinstance(part_ids, Mapping):
+        raise ValueError("Input should be a mapping from roles to ids of parts")
+    parts: Mapping[str, EffectivePart] = info.context or {}
+    if missing := [part_id for part_id in part_ids.values() if part_id not in parts]:
+        raise ValueError(f"the document has no part {missing[0]!r}")
+    return {role: parts[part_id] for role, part_id in part_ids.items()}
+
+
+NamedParts = Annotated[
+    Mapping[str, EffectivePart], PlainValidator(_parts_by_role), PlainSerializer(_part_ids)
+]
+"""In JSON a case names its parts by their ids: the document holds each part once."""
+
+
+@dataclass(frozen=True, slots=True)
+class CaseResult:
+    """One case, judged. `scenario` is the file as the case names it (forward slashes).
+
+    `reason` says why the outcome is what it is. `measures` is None and `wheelsets` empty when the simulation
+    failed. `parts` maps a role (`controller`, ...) to the part that the case was run with; it is empty where
+    an earlier version wrote the result. `response_times` are those of a controller in a stop that was paced
+    by the clock. `controller_version` is what a controller from outside said of itself in this stop, and
+    `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
+    `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
+    `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
+    simulated stop met, together with its seed, see :mod:`uictest.rig.noise_key`. `domain_of_validity` says
+    whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
+    is not met either where one of its verdicts is not settled. The document has these eight, and `repeats`,
+    only where there is something in them. `duration` (seconds of wall clock) is for
+    progress and JUnit only, never part of the document: a result must not depend on the machine.
+
+    A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
+    them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
+    """
+
+    id: str
+    scenario: str
+    parameters: dict[str, str]
+    expect: Expectation
+    outcome: Outcome
+    reason: str = ""
+    criteria: tuple[WrittenVerdict, ...] = ()
+    measures: CaseMeasures | None = None
+    wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
+    parts: NamedParts = field(default_factory=dict)
+    response_times: ResponseTimes | None = None
+    controller_version: str = ""
+    case_sha256: str = ""
+    requirements: tuple[str, ...] = ()
+    test_case: str = ""
+    noise_key: str = ""
+    repeats: WrittenRepeats | None = None
+    domain_of_validity: DomainOfValidity | None = None
+    strict: bool = False
+    duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the outcome is the expected one."""
+        return is_expected(self.outcome, self.expect)
+
+    @property
+    def unsettled(self) -> tuple[Verdict, ...]:
+        """The verdicts for which `strict` does not count the case as met; none without it."""
+        return tuple(each for each in self.criteria if self.strict and not each.settled)
+
+    @property
+    def met(self) -> bool:
+        """Whether the outcome is the expected one and, if `strict`, every verdict is settled."""
+        return self.as_expected and not self.unsettled
+
+    @property
+    def drawn_stop(self) -> CaseResult:
+        """The result of the stop that is recorded and drawn: of a repeated case the first, else this."""
+        if self.repeats is None:
+            return self
+        first = self.repeats.stops[0]
+        pairs = ((verdict, first.verdict(verdict.id)) for verdict in self.criteria)
+        return replace(
+            self,
+            outcome=first.outcome,
+            reason=first.reason,
+            criteria=tuple(with_outcome_of(verdict, own) for verdict, own in pairs if own is not None),
+            measures=first.measures,
+            wheelsets=first.wheelsets,
+            repeats=None,
+        )
+
+
+def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
+    """Return the outcome of a stop and why."""
+    outcome, deciding = deciding_verdicts(verdicts)
+    return outcome, reason_of(outcome, ((verdict.id, verdict.reason) for verdict in deciding))
+
+
+def reason_of(outcome: Outcome, deciding: Iterable[tuple[str, str]]) -> str:
+    """Return why a stop has an outcome, from the ids of the verdicts that decide it and their reasons."""
+    reasons = "; ".join(f"{criterion}: {reason}" for criterion, reason in deciding)
+    return reasons or ("no criterion" if outcome == "skipped" else "")
+
+
+_JUDGING: Final[tuple[Layer, ...]] = ("validity", "requirement")
+"""Layers whose criteria judge a stop."""
+
+
+class Decided(Protocol):
+    """What of a verdict decides the outcome."""
+
+    @property
+    def layer(self) -> Layer:
+        """What its criterion is for."""
+
+    @property
+    def status(self) -> Status:
+        """What the criterion says of the stop."""
+
+
+AnyDecided = TypeVar("AnyDecided", bound=Decided)
+
+
+def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[AnyDecided]]:
+    """Return the outcome of a stop and the verdicts that decide it, none where it passes.
+
+    A failed check of the rig or a failed validity criterion makes the stop invalid: it does not count as a
+    test, whatever its requirements. Checks of the rig decide nothing else. Otherwise a failed requirement
+    fails the stop, unless a validity criterion is inconclusive: the stop may be no test. Any other
+    inconclusive criterion makes the stop inconclusive. A stop that no criterion of validity or requirement
+    could judge is skipped.
+    """
+    verdicts = list(verdicts)
+    failed = [*_with_status(verdicts, ("fail",), "rig"), *_with_status(verdicts, ("fail",), "validity")]
+    if failed:
+        return "invalid", failed
+    verdicts = [verdict for verdict in verdicts if verdict.layer in _JUDGING]
+    failed = _with_status(verdicts, ("fail",), "requirement")
+    if failed and not _with_status(verdicts, ("inconclusive",), "validity"):
+        return "fail", failed
+    if _with_status(verdicts, ("inconclusive",)):
+        return "inconclusive", _with_status(verdicts, ("fail", "inconclusive"))
+    if not _with_status(verdicts, ("pass",)):
+        return "skipped", _with_status(verdicts, ("not_applicable",))
+    return "pass", []
+
+
+def _with_status(
+    verdicts: Sequence[AnyDecided], statuses: Sequence[Status], layer: Layer | None = None
+) -> list[AnyDecided]:
+    return [verdict for verdict in verdicts if verdict.status in statuses and layer in (None, verdict.layer)]
+
+
+def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
+    """Return the smallest relative margin of a case and the id of its criterion; None and "" without any.
+
+    Checks of the rig have no part in it.
+    """
+    margins = [
+        (margin, verdict.id)
+        for verdict in result.criteria
+        if verdict.layer != "rig" and (margin := relative_margin(verdict)) is not None
+    ]
+    return min(margins, default=(None, ""))

@@ -1,0 +1,42 @@
+"""Why a check of the rig fails, in words that name the part of the rig."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Final
+
+from uictest.core.units import value_text
+from uictest.plans import scenario
+
+_SATURATIONS: Final = ("loadcell_saturation", "pressure_saturation")
+
+
+def why_rig_fails(
+    criterion: scenario.Criterion, resolved: scenario.Scenario, measures: Any, wheelsets: Sequence[Any]
+) -> str:
+    """Return which sensors are limited, or what the compensation was not identified for; else nothing."""
+    if criterion.measure == "compensation_misfit":
+        return "; ".join(map(str, scenario.misfits(resolved)))
+    if criterion.measure not in _SATURATIONS:
+        return ""
+    limited = list(_limited(criterion.measure, resolved, measures, wheelsets))
+    other = next(each for each in _SATURATIONS if each != criterion.measure)
+    both = any(_limited(other, resolved, measures, wheelsets))
+    first = "the first of any kind" if both else "the first"
+    return f"{'; '.join(limited)}; {first} by {value_text(float(measures.saturation_time), 's')}"
+
+
+def _limited(
+    measure: str, resolved: scenario.Scenario, measures: Any, wheelsets: Sequence[Any]
+) -> Iterator[str]:
+    sensors = resolved.rig.sensors
+    of_force = measure == "loadcell_saturation"
+    what, reach = (
+        ("loadcells", sensors.loadcell.range) if of_force else ("pressure sensor", sensors.pressure.range)
+    )
+    times = {f"wheelset {n}": float(getattr(each, measure)) for n, each in enumerate(wheelsets, start=1)}
+    if not of_force:
+        times["the brake line"] = float(measures.line_saturation)
+    for place, time in times.items():
+        if time > 0.0:
+            yield f"{what} of {place} limited to {reach.text} for {value_text(time, 's')}"

@@ -1,0 +1,20 @@
+from .counting import (
+    SeriesStop as SeriesStop,
+    observed_stops as observed_stops,
+)
+from .document import (
+    SCHEMA as SCHEMA,
+    series_document as series_document,
+    series_results_of as series_results_of,
+)
+from .judgement import (
+    judge_series as judge_series,
+)
+from .result import (
+    SeriesCase as SeriesCase,
+    SeriesResult as SeriesResult,
+    SeriesVerdict as SeriesVerdict,
+    SpeedResult as SpeedResult,
+    StopCounts as StopCounts,
+    UncountedStop as UncountedStop,
+)

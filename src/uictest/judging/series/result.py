@@ -1,0 +1,190 @@
+"""The result of a series: its stops, its measures with their confidence, its verdicts and its outcome."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
+
+from uictest.core.series_measures import Rail
+from uictest.judging.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty, is_expected
+from uictest.judging.series.forms import WrittenEstimate, WrittenValue
+from uictest.plans.series import Role
+
+NOT_COUNTED = ("invalid", "inconclusive", "skipped", "error")
+"""Outcomes of stops that do not count: no test, not judged, or failed to run."""
+
+
+def _case_named(name: object, info: ValidationInfo) -> CaseResult:
+    """Return the case of an id; the context of the validation holds all by id."""
+    cases: Mapping[object, CaseResult] = info.context or {}
+    if not isinstance(name, str) or name not in cases:
+        raise ValueError(f"the document has no case {name!r}")
+    return cases[name]
+
+
+def _id_of(case: CaseResult) -> str:
+    return case.id
+
+
+NamedCase = Annotated[CaseResult, PlainValidator(_case_named), PlainSerializer(_id_of)]
+"""In JSON a series names its cases by their ids."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesCase:
+    """The result of one case of a series; a repeated case holds several stops."""
+
+    role: Role
+    speed_kmh: float
+    case: NamedCase
+    rail: Rail = ""
+
+
+@dataclass(frozen=True, slots=True)
+class StopCounts:
+    """How many stops were run, and how many of them count."""
+
+    run: int
+    counted: int
+
+    @property
+    def share(self) -> float:
+        """The share of stops that count; 0 without any."""
+        return self.counted / self.run if self.run else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class UncountedStop:
+    """A stop that does not count as a test of its series, and why. `seed` is None where it has no repeats."""
+
+    case: str
+    role: Role
+    seed: int | None
+    outcome: Outcome
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedResult:
+    """What the stops from one nominal initial speed (km/h) show.
+
+    `dry` and `wet` count the stops; `measures` maps the name of a measure of series to its value. Where the
+    wet stops of a series are on several kinds of rail, each has a result of its own, and `rail` names it.
+    """
+
+    speed_kmh: float
+    dry: StopCounts
+    wet: StopCounts
+    measures: Mapping[str, WrittenValue]
+    rail: Rail = ""
+
+    @property
+    def place(self) -> str:
+        """The speed, and the rail where there are several, as text."""
+        return place_text(self.speed_kmh, self.rail)
+
+
+def place_text(speed_kmh: float | None, rail: str) -> str:
+    """Return a speed, and the rail where there are several: `120 km/h, cleaned rail`; empty without both."""
+    if speed_kmh is None:
+        return f"all speeds, {rail} rail" if rail else ""
+    return f"{speed_kmh:g} km/h{f', {rail} rail' if rail else ''}"
+
+
+WrittenVerdict = Annotated[Verdict, absent_if_empty("requirements", "over_stops")]
+"""In JSON what only some verdicts have is absent from the others."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesVerdict:
+    """The verdict of one criterion over a series.
+
+    Args:
+        verdict: status, value, bounds, margin and reason, as for a stop.
+        estimate: the value with its interval, in the unit of the verdict; None where there is none.
+        confident: whether the whole interval says the same; None without an interval.
+        speed_kmh: the initial speed that decides; None where all do.
+        rail: the kind of rail that decides, where the series has several and not all do.
+        kept: for a criterion of stops: how many of the stops keep it that count and that it applies to.
+        stops: of how many.
+        of_dry_stop: whether value and bounds are in % of the dry stop.
+
+    """
+
+    verdict: WrittenVerdict
+    estimate: WrittenEstimate | None = None
+    confident: bool | None = None
+    speed_kmh: float | None = None
+    kept: int | None = None
+    stops: int | None = None
+    of_dry_stop: bool = False
+    rail: Rail = ""
+
+    @property
+    def place(self) -> str:
+        """The speed and rail that decide, as text; empty where all do."""
+        return place_text(self.speed_kmh, self.rail)
+
+
+_WrittenSpeed = Annotated[SpeedResult, absent_if_empty("rail")]
+_WrittenCase = Annotated[SeriesCase, absent_if_empty("rail")]
+_WrittenVerdict = Annotated[SeriesVerdict, absent_if_empty("rail")]
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesResult:
+    """One series, judged.
+
+    `file` is shown with forward slashes. `confidence` is that of all intervals, `valid_stops` the least share
+    of wet stops that must count; both are shares of 1. `speed_tolerance_kmh` is that of the initial speed.
+    `measures` are those of the whole series. `requirements` are the ids of those that the series verifies as
+    a whole; its criteria may verify others. `test_case` is its id in a test management tool. `bypassed_k_wet`
+    is K_wet of the same wet stops with the WSP bypassed, where K_wet is judged. The document has these three
+    only where there is something in them.
+    """
+
+    id: str
+    file: str
+    title: str
+    parameters: Mapping[str, str]
+    expect: Expectation
+    outcome: Outcome
+    reason: str
+    confidence: Annotated[float, Field(gt=0.0, lt=1.0)]
+    valid_stops: Annotated[float, Field(gt=0.0, le=1.0)]
+    speed_tolerance_kmh: Annotated[float, Field(ge=0.0)]
+    criteria: tuple[_WrittenVerdict, ...]
+    measures: Mapping[str, WrittenValue]
+    speeds: tuple[_WrittenSpeed, ...]
+    not_counted: tuple[UncountedStop, ...]
+    cases: tuple[_WrittenCase, ...]
+    requirements: tuple[str, ...] = ()
+    test_case: str = ""
+    bypassed_k_wet: WrittenValue | None = None
+
+    @property
+    def wet_stops(self) -> StopCounts:
+        """How many wet stops of all speeds were run, and how many count."""
+        wet = [speed.wet for speed in self.speeds]
+        return StopCounts(sum(each.run for each in wet), sum(each.counted for each in wet))
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the outcome is the expected one."""
+        return is_expected(self.outcome, self.expect)
+
+    @property
+    def unsettled(self) -> tuple[tuple[str, Verdict], ...]:
+        """What keeps a strict series from being met: the id of a case, or of the series, and the verdict."""
+        strict = any(each.case.strict for each in self.cases)
+        own = [(self.id, each.verdict) for each in self.criteria if strict and not each.verdict.settled]
+        judged = [each.case for each in self.cases if each.role != "bypassed"]
+        return (*own, *((case.id, verdict) for case in judged for verdict in case.unsettled))
+
+    @property
+    def met(self) -> bool:
+        """Whether the outcome is the expected one and, if cases are `strict`, every verdict is settled."""
+        return self.as_expected and not self.unsettled

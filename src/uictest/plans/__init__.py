@@ -1,0 +1,1 @@
+"""What a user writes: scenarios, sweeps, series, validations, and the library they refer to."""

@@ -1,0 +1,110 @@
+from .applicability import (
+    TestConditions as TestConditions,
+    UnmetCondition as UnmetCondition,
+    applies_to as applies_to,
+    test_conditions_of as test_conditions_of,
+    unmet_conditions as unmet_conditions,
+)
+from .choice import chosen_case as chosen_case
+from .compensation_fit import (
+    FIT_KEYS as FIT_KEYS,
+    RIG_SOURCE as RIG_SOURCE,
+    misfit as misfit,
+    misfits as misfits,
+    rig_as_built as rig_as_built,
+    rig_differences as rig_differences,
+    with_listed_rig as with_listed_rig,
+)
+from .controller_loading import load_controller as load_controller
+from .declared_parameters import with_parameters as with_parameters
+from .discovery import (
+    OTHER_SCHEMAS as OTHER_SCHEMAS,
+    SERIES_SUFFIXES as SERIES_SUFFIXES,
+    SWEEP_SUFFIXES as SWEEP_SUFFIXES,
+    link_outside as link_outside,
+    may_be_scenario as may_be_scenario,
+)
+from .expansion import (
+    EXPANSION_KEYS as EXPANSION_KEYS,
+    Setting as Setting,
+    Variant as Variant,
+    distinct as distinct,
+    expand as expand,
+)
+from .files import Files as Files, Roots as Roots
+from .identifiers import (
+    LONGEST as LONGEST,
+    case_id as case_id,
+    controller_labels as controller_labels,
+    short_keys as short_keys,
+    value_label as value_label,
+)
+from .json_schema import (
+    SCHEMA_DRAFT as SCHEMA_DRAFT,
+    SchemaGenerator as SchemaGenerator,
+    as_draft_07 as as_draft_07,
+    json_schema as json_schema,
+    quantity_definitions as quantity_definitions,
+    schema_of as schema_of,
+)
+from .library_parts import (
+    SourcedNumber as SourcedNumber,
+    load_part as load_part,
+    load_part_file as load_part_file,
+    numbers as numbers,
+)
+from .loading import load as load, load_file as load_file
+from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
+from .part_keys import (
+    PART_KEYS as PART_KEYS,
+    PART_KINDS as PART_KINDS,
+    with_default_parts as with_default_parts,
+)
+from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
+from .parts.applicability import Applicability as Applicability, Nominal as Nominal
+from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
+from .parts.compensation import (
+    COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
+    Compensation as Compensation,
+    ModuleAir as ModuleAir,
+)
+from .parts.criteria import Criteria as Criteria, Criterion as Criterion
+from .parts.definition import RangedDefinition as RangedDefinition
+from .parts.external_controller import ExternalController as ExternalController
+from .parts.fault import Fault as Fault
+from .parts.friction import FrictionProfile as FrictionProfile
+from .parts.measures import MeasureDefinitions as MeasureDefinitions
+from .parts.pad import PadLaw as PadLaw
+from .parts.rail import Cleaning as Cleaning, RailCondition as RailCondition
+from .parts.repeats import ShareOfStops as ShareOfStops
+from .parts.requirements import (
+    RequirementId as RequirementId,
+    RequirementIds as RequirementIds,
+    repeated_requirements as repeated_requirements,
+)
+from .parts.vehicle import Vehicle as Vehicle
+from .rail_friction import (
+    CONDITION as CONDITION,
+    changed_alone as changed_alone,
+    sets_friction as sets_friction,
+)
+from .references import Parts as Parts, is_path as is_path
+from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
+from .requirement_list import read_requirement_list as read_requirement_list
+from .resolution import resolve as resolve
+from .sections import SURVEY as SURVEY
+from .validated_file import VALIDATION_RESULT as VALIDATION_RESULT
+from .values import (
+    DESCRIPTIVE as DESCRIPTIVE,
+    Value as Value,
+    is_changed as is_changed,
+    mark_of as mark_of,
+    values_in as values_in,
+)
+from .wheelset_values import (
+    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
+    wheelset_keys as wheelset_keys,
+    wheelset_value as wheelset_value,
+)
+from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
+from .yaml.quantities import Quantity as Quantity

@@ -1,0 +1,122 @@
+"""The conditions of a stop, and whether a criterion applies under them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from uictest.core.units import in_unit, value_text
+from uictest.plans import scenario
+
+
+@dataclass(frozen=True, slots=True)
+class TestConditions:
+    """Conditions of a stop that a criterion can require.
+
+    `command` is a share of full service, `gradient` a share, positive uphill. `has_faults` tells whether the
+    scenario injects any, `rail_cleaned` whether sliding cleans its rail; None where that is not known.
+    """
+
+    rail_condition: str
+    wsp: str
+    position: str
+    command: float
+    gradient: float
+    topology: str
+    has_faults: bool = False
+    rail_cleaned: bool | None = None
+
+
+def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
+    """Return the conditions that a resolved scenario states."""
+    return TestConditions(
+        rail_condition=resolved.rail.condition.name,
+        wsp=resolved.rig.wsp,
+        position=resolved.brake.position,
+        command=resolved.brake.command,
+        gradient=resolved.rail.gradient,
+        topology=resolved.rig.topology,
+        has_faults=bool(resolved.faults),
+        rail_cleaned=resolved.rail.cleaning_in_force is not None,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class UnmetCondition:
+    """A condition of a criterion that a stop does not meet: names, or a nominal value in `unit`."""
+
+    what: str
+    value: str | float
+    accepted: Sequence[str] | scenario.Nominal
+    unit: str = ""
+
+    def in_case(self, number: int) -> UnmetCondition:
+        """Return the condition in one case of an ensemble."""
+        from uictest.core.ensemble import Ensemble  # needs numpy, and what only checks a file does not
+
+        if not isinstance(self.value, Ensemble):
+            return self
+        return replace(self, value=self.value[number].item())
+
+    def __str__(self) -> str:
+        """Return what the stop has and what the criterion is for."""
+        if not isinstance(self.accepted, scenario.Nominal):
+            return f"{self.what} is {self.value}, the criterion is for {' or '.join(self.accepted)}"
+        shown, nominal, tolerance = (
+            in_unit(float(number), self.unit)
+            for number in (self.value, self.accepted.value, self.accepted.tolerance)
+        )
+        return (
+            f"{self.what} is {value_text(shown, self.unit)}, the criterion is for {nominal:.4g} +-"
+            f" {value_text(tolerance, self.unit)}"
+        )
+
+
+def unmet_conditions(
+    applies: scenario.Applicability, conditions: TestConditions, initial_speed: float | None
+) -> list[UnmetCondition]:
+    """Return the conditions that a stop from `initial_speed` (m/s) does not meet: none where it applies.
+
+    An initial speed that is not known (None) meets every condition.
+    """
+    names = (
+        ("rail", conditions.rail_condition, applies.rail_condition),
+        ("WSP", conditions.wsp, applies.wsp),
+        ("brake position", conditions.position, applies.brake_position),
+        ("topology", conditions.topology, applies.topology),
+    )
+    numbers = (
+        ("initial speed", initial_speed, applies.initial_speed, "km/h"),
+        ("brake command", conditions.command, applies.command, "%"),
+        ("gradient", conditions.gradient, applies.gradient, "permille"),
+    )
+    unmet = [
+        *(
+            UnmetCondition(what, name, accepted)
+            for what, name, accepted in names
+            if accepted is not None and name not in accepted
+        ),
+        *(
+            UnmetCondition(what, number, accepted, unit)
+            for what, number, accepted, unit in numbers
+            if number is not None and accepted is not None and not _within(number, accepted)
+        ),
+    ]
+    if conditions.rail_condition in (applies.rail_condition_other_than or ()):
+        unmet.append(UnmetCondition("rail", conditions.rail_condition, ("any other",)))
+    cleaned = conditions.rail_cleaned
+    if cleaned is not None and applies.rail_cleaned not in (None, cleaned):
+        was, wanted = ("cleaned by sliding", "not cleaned by sliding")[:: 1 if cleaned else -1]
+        unmet.append(UnmetCondition("rail", was, (wanted,)))
+    return unmet
+
+
+def applies_to(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bool:
+    """Return whether a criterion applies to the stop that a resolved scenario states."""
+    conditions = test_conditions_of(resolved)
+    return not unmet_conditions(criterion.applies, conditions, float(resolved.initial_speed))
+
+
+def _within(value: float, accepted: scenario.Nominal) -> bool:
+    # Written so that NaN is not within; the last digits belong to unit conversion, not to the stop.
+    return abs(value - accepted.value) <= accepted.tolerance * (1.0 + 1e-9)

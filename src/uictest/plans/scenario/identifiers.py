@@ -1,0 +1,119 @@
+"""Case ids: the scenario's name and the settings of the case, in characters safe for file names."""
+
+import re
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from pathlib import PurePosixPath
+from types import MappingProxyType
+from typing import Any, Final
+
+from uictest.plans.scenario.expansion import Setting, Variant
+from uictest.plans.scenario.part_keys import PART_KEYS
+from uictest.plans.scenario.parts.external_controller import PROGRAM_FILES
+from uictest.plans.scenario.references import Parts, is_path
+from uictest.plans.scenario.yaml import Map, Node, Scalar, ScenarioErrors, Sequence
+
+LONGEST: Final = 200
+"""Longest id: with an extension it must still be a file name everywhere."""
+
+FAULTS: Final = "faults"
+"""Key of the faults of a scenario."""
+
+CONTROLLER: Final = "controller"
+"""Key of the controller of a scenario."""
+
+Labels = Mapping[int, str]
+"""What ids call controllers, by the identity of their nodes."""
+NO_LABELS: Final[Labels] = MappingProxyType({})
+_DIGITS: Final = 8
+"""Of a SHA-256 that tells two programs apart."""
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
+
+
+def case_id(name: str, variant: Variant, short: dict[str, str], labels: Labels = NO_LABELS) -> str:
+    """``name`` or ``name[friction=0.10,command=90]``; ``short`` maps swept keys to their short names."""
+    if not variant:
+        return name
+    texts = [f"{short[setting.key]}={value_label(setting, labels)}" for setting in variant]
+    return f"{name}[{','.join(texts)}]"
+
+
+def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:
+    """Return what ids call the controllers among the values of one file.
+
+    That is the name of the part. Several programs of one name are `name@version`, or, where a version is
+    unknown or that of another one, `name@` and the first digits of the SHA-256. A controller that cannot be
+    resolved has no label: its error is reported where its case is.
+    """
+    programs: dict[int, tuple[str, str, str]] = {}
+    for setting in settings:
+        node = setting.value.node
+        if setting.key == CONTROLLER and id(node) not in programs:
+            with suppress(ScenarioErrors):
+                part = parts.resolve(node, PART_KEYS[CONTROLLER,].model, (CONTROLLER,)).part
+                programs[id(node)] = _program_named(part, setting)
+    return {key: _told_apart(program, {*programs.values()}) for key, program in programs.items()}
+
+
+def _program_named(part: Any, setting: Setting) -> tuple[str, str, str]:
+    """Return name, version and digits of a controller; one that is built in has a name alone."""
+    name = part.name if "name" in part.model_fields_set else _name(setting)
+    version, program = getattr(part, "version", None) or "", part.program
+    return _safe(name), _safe(version), "" if program is None else program.sha256[:_DIGITS]
+
+
+def _told_apart(program: tuple[str, str, str], programs: set[tuple[str, str, str]]) -> str:
+    name, version, digits = program
+    versions = [other_version for other, other_version, _ in programs if other == name]
+    if len(versions) == 1:
+        return name
+    distinct = all(versions) and len(set(versions)) == len(versions)
+    return "@".join(filter(None, (name, version if distinct else digits)))
+
+
+def short_keys(keys: list[str]) -> dict[str, str]:
+    """The last part of every dotted key, or the shortest tail that is unique."""
+    return {key: _shortest_tail(key, [other for other in keys if other != key]) for key in keys}
+
+
+def _shortest_tail(key: str, others: list[str]) -> str:
+    parts = key.split(".")
+    for count in range(1, len(parts)):
+        tail = ".".join(parts[-count:])
+        if not any(other == tail or other.endswith("." + tail) for other in others):
+            return tail
+    return key
+
+
+def value_label(setting: Setting, labels: Labels = NO_LABELS) -> str:
+    """The value as written in the characters of file names; of a controller, its label."""
+    label = labels.get(id(setting.value.node)) or _safe(_name(setting))
+    return label or f"value{setting.number}"
+
+
+def _safe(text: str) -> str:
+    return _UNSAFE.sub("", text)
+
+
+def _name(setting: Setting) -> str:
+    node = setting.value.node
+    if setting.key == FAULTS and isinstance(node, Sequence):
+        return "+".join(map(_name_of_fault, node.items)) or "none"
+    if isinstance(node, Map):
+        program = next((node.get(key) for key in PROGRAM_FILES if key in node.entries), None)
+        if isinstance(program, Scalar):
+            return PurePosixPath(program.text).stem
+        node = node.get("name") or node.get("extends") or node
+    if not isinstance(node, Scalar):
+        return f"value{setting.number}"
+    return PurePosixPath(node.text).stem if is_path(node.text) else node.text
+
+
+_NAMED_BY: Final = ("part", "kind", "value", "wheelset", "at", "until")
+
+
+def _name_of_fault(node: Node) -> str:
+    """Return what tells a fault from others: `speed-sensor-stuck-2-3s`."""
+    named = (node.get(key) for key in _NAMED_BY) if isinstance(node, Map) else ()
+    return "-".join(each.text for each in named if isinstance(each, Scalar))

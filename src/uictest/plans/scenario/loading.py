@@ -1,0 +1,225 @@
+"""From files to cases."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+from uictest.plans.scenario.discovery import scenario_trees
+from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
+from uictest.plans.scenario.files import Files, Roots
+from uictest.plans.scenario.identifiers import (
+    CONTROLLER,
+    LONGEST,
+    Labels,
+    case_id,
+    controller_labels,
+    short_keys,
+)
+from uictest.plans.scenario.model import SCENARIO_SCHEMA, Case
+from uictest.plans.scenario.part_keys import PART_KEYS, with_default_parts
+from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
+from uictest.plans.scenario.references import Parts
+from uictest.plans.scenario.resolution import resolve
+from uictest.plans.scenario.yaml import (
+    Diagnostic,
+    Document,
+    Map,
+    Node,
+    Override,
+    Scalar,
+    ScenarioErrors,
+    apply_overrides,
+    as_written,
+    collecting,
+    describe,
+    display_name,
+    dotted,
+    in_reading_order,
+    inherit,
+    parse_overrides,
+    quoted,
+    single_error,
+    whole_file,
+    with_value,
+)
+
+_DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
+
+
+def load(
+    paths: Sequence[Path],
+    overrides: Sequence[str] = (),
+    seed: int | None = None,
+    trusted: Sequence[Path] = (),
+) -> list[Case]:
+    """The cases of every scenario file at or below ``paths``.
+
+    ``overrides`` are ``key=value`` texts; comma lists and ``range(first,last,step)`` become axes of the
+    matrix. ``seed`` takes the place of every scenario's own. References stay at or below the folders of
+    ``paths``, the working folder and the ``trusted`` folders. Raises ScenarioErrors with all errors of all
+    files.
+    """
+    parsed = parse_overrides(overrides, seed)
+    loader = _Loader(Files(Roots.of(paths, trusted)), parsed)
+    cases = [
+        case
+        for path, tree in scenario_trees(paths, loader.files, loader.diagnostics)
+        for case in loader.cases(path, tree)
+    ]
+    if loader.diagnostics:
+        raise ScenarioErrors(in_reading_order(loader.diagnostics))
+    return cases
+
+
+def load_file(path: Path, overrides: Sequence[Override], files: Files) -> list[Case]:
+    """The cases of one scenario file, read by `files`. Raises ScenarioErrors with all errors of it."""
+    loader = _Loader(files, tuple(overrides))
+    cases = list(loader.cases(path, files.at(path)))
+    if loader.diagnostics:
+        raise ScenarioErrors(in_reading_order(loader.diagnostics))
+    return cases
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _ScenarioFile:
+    """One scenario file: what its cases share, and the case of every id."""
+
+    path: Path
+    tree: Map
+    documents: tuple[Document, ...]
+    short: dict[str, str]
+    labels: Labels
+    ids: dict[str, Variant] = field(default_factory=dict)
+
+
+class _Loader:
+    """Loads one scenario after another and collects the errors of all."""
+
+    def __init__(self, files: Files, overrides: tuple[Override, ...]) -> None:
+        self.files = files
+        self.parts = Parts(files)
+        self.overrides = overrides
+        self.diagnostics: list[Diagnostic] = []
+        self.file_of_id: dict[str, _ScenarioFile] = {}
+
+    def cases(self, path: Path, tree: Map) -> Iterator[Case]:
+        """Yield the cases of one file, as far as they are without errors."""
+        file, variants = None, list[Variant]()
+        with collecting(self.diagnostics, whole_file(path)):
+            file, variants = self._read(path, tree)
+        for variant in variants if file is not None else ():
+            case = None
+            with collecting(self.diagnostics, whole_file(path)):
+                case = self._case(file, variant)
+            if case is not None:
+                yield case
+
+    def _read(self, path: Path, tree: Map) -> tuple[_ScenarioFile, list[Variant]]:
+        _require_scenario_schema(tree)
+        own_name = tree.entries.get("name")
+        merged, documents = inherit(
+            tree, self._parent, lambda parent, child: self.diagnostics.extend(changed_alone(parent, child))
+        )
+        # Every scenario has its own name: an inherited one would not be unique.
+        merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
+        merged = with_default_parts(merged)
+        self.diagnostics.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
+        merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
+        base = merged.without(*EXPANSION_KEYS)
+        # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
+        variants = expand_valid(merged, self.diagnostics)
+        if self.overrides:
+            # Cases that differed only in a key that the command line sets are the same now.
+            variants = distinct(variants)
+        settings = [setting for variant in variants for setting in variant]
+        short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
+        labels = controller_labels(settings, self.parts)
+        return _ScenarioFile(path, base, documents, short, labels), variants
+
+    def _parent(self, reference: Scalar) -> Map:
+        tree = self.files.beside(reference, "extends")
+        _require_scenario_schema(tree)
+        return tree
+
+    def _case(self, file: _ScenarioFile, variant: Variant) -> Case:
+        scenario, documents = resolve(self._varied(file.tree, variant), self.parts)
+        return Case(
+            id=self._claimed(case_id(scenario.name, variant, file.short, file.labels), file, variant),
+            scenario=scenario,
+            path=Path(display_name(file.path)),
+            parameters={setting.key: as_written(setting.value.node) for setting in variant},
+            inputs=_inputs((*file.documents, *documents)),
+        )
+
+    def _varied(self, base: Map, variant: Variant) -> Map:
+        """The tree with the values of one case; settings that fail are reported and skipped."""
+        tree = base
+        # From the outside in, so that a part is named before something inside it is changed.
+        for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
+            try:
+                tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
+            except ScenarioErrors as errors:
+                self.diagnostics.extend(errors.diagnostics)
+        self.diagnostics.extend(changed_alone(base, tree))
+        return tree
+
+    def _claimed(self, identifier: str, file: _ScenarioFile, variant: Variant) -> str:
+        """The id. Raises ScenarioErrors if it is too long or another case has it."""
+        name = file.tree.entries["name"].node.place
+        place = variant[-1].value.node.place if variant else name
+        if len(identifier) > LONGEST:
+            raise single_error(
+                place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
+            )
+        other = self.file_of_id.setdefault(identifier, file)
+        if other is not file:
+            message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
+            raise single_error(name, message, "name", "give every scenario a name of its own")
+        if identifier in file.ids:
+            raise _duplicate_id(identifier, variant, file.ids[identifier])
+        file.ids[identifier] = variant
+        return identifier
+
+
+def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
+    """The error of a second case with the same id: at the value that a list repeats, else at the case."""
+    of_first = {setting.key: setting for setting in first}
+    pairs = [(setting, of_first[setting.key]) for setting in variant if setting.key in of_first]
+    others = [(one, other) for one, other in pairs if one.value.node is not other.value.node]
+    setting, twin = others[0]
+    message, key = f"a second case {quoted(identifier)}", ""
+    if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
+        message, key = _twice(setting.value.node, twin.value.node), setting.key
+    hint = f"remove one; the first is in line {twin.value.node.place.line}"
+    if key == CONTROLLER:
+        hint += "; or give each a `name` or a `version` of its own"
+    return single_error(setting.value.node.place, message, key, hint)
+
+
+def _twice(node: Node, twin: Node) -> str:
+    one, other = quoted(as_written(node)), quoted(as_written(twin))
+    return f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
+
+
+_COMMANDS = {
+    "uictest/sweep/1": "a sweep is run with `uictest sweep`",
+    "uictest/bench/1": "a bench test is run with `uictest bench`",
+    "uictest/validation/1": "a validation is run with `uictest validate`",
+    "uictest/series/1": "a series is in a file that ends in .series.yaml",
+}
+"""Schema of another kind of file -> how to run it."""
+
+
+def _require_scenario_schema(tree: Map) -> None:
+    schema = tree.get("schema")
+    if schema is None:
+        raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
+    if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
+        hint = _COMMANDS.get(schema.text, "") if isinstance(schema, Scalar) else ""
+        raise single_error(schema.place, f"expected {SCENARIO_SCHEMA}, found {schema_text}", "schema", hint)
+
+
+def _inputs(documents: Iterable[Document]) -> dict[str, str]:
+    return {each.display: each.sha256 for each in documents if each.sha256}

@@ -1,0 +1,291 @@
+"""The scenario: what a user writes, defaults filled in, units canonical; and the case: one of its stops."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
+from uictest.core.physics import LONGEST_DELAY_CYCLES
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.faults import MOST_FAULTS
+from uictest.plans.scenario.compensation_steps import unresolved_air, unresolved_cylinder
+from uictest.plans.scenario.faults import impossible_faults, line_leak, tank_leak
+from uictest.plans.scenario.feasibility import (
+    BrakedWheelset,
+    braking_force,
+    largest_clamping_force,
+    stopping_time_at_least,
+)
+from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
+from uictest.plans.scenario.parts.controller import Controller
+from uictest.plans.scenario.parts.criteria import Criteria
+from uictest.plans.scenario.parts.fault import Fault
+from uictest.plans.scenario.parts.measures import MeasureDefinitions
+from uictest.plans.scenario.parts.repeats import OutcomeOfRepeats, Repeat, seeds_too_large
+from uictest.plans.scenario.parts.requirements import RequirementId, RequirementIds, repeated_requirements
+from uictest.plans.scenario.parts.vehicle import Vehicle
+from uictest.plans.scenario.pole_wheels import impossible_pole_wheels
+from uictest.plans.scenario.rig_checks import RIG_CHECKS, rig_checks
+from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
+from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
+from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_values, wheelset_value
+from uictest.plans.scenario.yaml import (
+    DEFAULT_SOURCE,
+    Inconsistency,
+    Model,
+    PartReference,
+    Quantity,
+    of_kind,
+    quoted,
+)
+
+SCENARIO_SCHEMA = "uictest/scenario/1"
+Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
+
+
+class Scenario(Model):
+    """One stop of the car on the rig, and what is expected of it."""
+
+    schema_id: Literal["uictest/scenario/1"] = Field(
+        alias="schema", description="What the file holds and in which version: uictest/scenario/1."
+    )
+    name: Slug = Field(
+        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
+    )
+    title: str = Field(
+        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+    )
+    description: str = Field(
+        default="",
+        max_length=5000,
+        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
+        description="What the scenario is for.",
+    )
+    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select scenarios (-m).")
+    requirements: RequirementIds = Field(
+        default=(), description="Ids of the requirements that the stop verifies."
+    )
+    test_case: RequirementId | None = Field(
+        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+    )
+    extends: str | None = Field(
+        default=None, description="Relative path of the parent scenario; maps merge, lists replace."
+    )
+    validated: str | None = Field(
+        default=None,
+        description="Relative path of the validation.json of a validation: cases outside of it are flagged.",
+    )
+    vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = Field(
+        description="The vehicle: a library name, a relative path or an inline mapping."
+    )
+    initial_speed: Annotated[Quantity, of_kind("speed", above="1 km/h", at_most="600 km/h")] = Field(
+        description="Train speed at which the brake command is given."
+    )
+    brake: Brake = Field(description="Brake system, command and position.")
+    rail: Rail = Field(description="Rail condition, friction and gradient.")
+    rig: Rig = Field(description="Topology of the rig, compensation, WSP.")
+    controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = Field(
+        description="The WSP controller under test: a library name, a relative path or an inline mapping."
+    )
+    faults: tuple[Fault, ...] = Field(
+        default=(),
+        max_length=MOST_FAULTS,
+        description="Faults during the stop; where two act on one number, the later in the list acts last.",
+    )
+    criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = Field(
+        description="One profile of criteria or a list of them."
+    )
+    measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = Field(
+        description="Definitions of the measures: a library name, a relative path or an inline mapping."
+    )
+    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
+        default="pass",
+        description="The expected outcome; skipped: no criterion is to judge the stop.",
+    )
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
+    repeat: Repeat = 1
+    outcome_of_repeats: OutcomeOfRepeats = "all"
+    simulation: Simulation = Field(default=Simulation(), description="Step and longest duration.")
+    matrix: dict[str, Any] | None = Field(
+        default=None,
+        description="Lists of values by dotted key; every combination is a case, first key slowest.",
+    )
+    zip: dict[str, Any] | None = Field(
+        default=None, description="Lists of equal length by dotted key; values at the same place make a case."
+    )
+    include: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Further cases, each a mapping of dotted keys to values."
+    )
+    exclude: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Cases to leave out: those with exactly these values."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield values of different sections that do not fit together."""
+        yield from repeated_requirements(self.requirements)
+        steps = self.controller.cycle_time / self.simulation.time_step
+        if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
+            yield Inconsistency(
+                ("simulation", "time_step"),
+                f"{self.simulation.time_step.text} does not divide the controller cycle of"
+                f" {self.controller.cycle_time.text}",
+                "take a whole part of the cycle, such as 0.5 ms of 10 ms",
+            )
+        if COMPENSATION_SETTINGS[self.rig.compensation].pressure == "filter":
+            yield from unresolved_cylinder(self)
+        yield from unresolved_air(self)
+        yield from self._criteria_of_the_same_name()
+        yield from self._delay_too_long()
+        if self.tank_volume_with_caliper > 0.0:
+            yield from self._step_too_long()
+        else:
+            yield Inconsistency(
+                ("brake", "system"), "the balls leave no air in the tank of the caliper's module"
+            )
+        yield from self._calipers_that_are_not_there()
+        yield from impossible_pole_wheels(self)
+        yield from seeds_too_large(self.seed, self.repeat)
+        yield from impossible_faults(self)
+        yield from self._brake_too_strong()
+        shortest = stopping_time_at_least(
+            self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
+        )
+        if shortest > self.simulation.maximum_duration:
+            yield self._stop_without_end(shortest)
+
+    def _delay_too_long(self) -> Iterator[Inconsistency]:
+        """Yield a switching delay of the valve that is longer than the rig remembers commands."""
+        cycle, step = self.controller.cycle_time, self.simulation.time_step
+        for key, delay in distinct_values(self, "wsp_valve.switching_delay"):
+            if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
+                yield Inconsistency(
+                    key,
+                    f"{delay.text} is too long for controller cycles of {cycle.text}",
+                    f"less than {LONGEST_DELAY_CYCLES + 1} cycles are accepted",
+                )
+
+    def _step_too_long(self) -> Iterator[Inconsistency]:
+        """Yield a step that cannot follow the car on its springs, or the air behind its valves."""
+        system = self.brake.system
+        smallest_tank = min(system.tank.volume, self.tank_volume_with_caliper)
+        valves = [
+            ValveConductances(
+                wheelset_value(self, number, "wsp_valve.fill_conductance"),
+                wheelset_value(self, number, "wsp_valve.vent_conductance") + tank_leak(self, number),
+            )
+            for number in WHEELSET_NUMBERS
+        ]
+        step = self.simulation.time_step
+        for key, limit in (
+            (("vehicle",), limit_of_vehicle(self.vehicle)),
+            (
+                ("brake", "system"),
+                limit_of_air(system, self.rig.caliper, smallest_tank, valves, line_leak(self)),
+            ),
+        ):
+            if step > limit.longest:
+                yield Inconsistency(
+                    key if step.source == DEFAULT_SOURCE else ("simulation", "time_step"),
+                    f"a step of {step.text} is too long for {limit.of}: the simulation could become unstable",
+                    limit.hint,
+                )
+
+    def _brake_too_strong(self) -> Iterator[Inconsistency]:
+        """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
+        position = self.brake.system.positions.get(self.brake.position)
+        if position is None:
+            return  # reported by the brake itself
+        pressure = self.brake.command * position.maximum_pressure
+        force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
+        braking = self.brake.pad.largest_factor * braking_force(
+            self.brake.system.disc, self._wheelsets(), force
+        )
+        deceleration = braking / self.vehicle.total_mass
+        if deceleration > STANDARD_GRAVITY:
+            yield Inconsistency(
+                ("brake",),
+                f"the brake would slow this car of {self.vehicle.total_mass / 1000.0:.4g} t by"
+                f" {deceleration:.3g} m/s2; no rail carries more than {STANDARD_GRAVITY:.3g} m/s2",
+                "compare disc, pad, caliper, compensation_model and maximum_pressure with the mass of the"
+                " vehicle",
+            )
+
+    def _wheelsets(self) -> Iterator[BrakedWheelset]:
+        for number in WHEELSET_NUMBERS:
+            yield BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
+
+    def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
+        """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""
+        profile_of: dict[str, str] = {}
+        if all(profile.name != RIG_CHECKS for profile in self.criteria):
+            profile_of |= {criterion.id: RIG_CHECKS for criterion in rig_checks().criteria}
+        for number, profile in enumerate(self.criteria):
+            for index, criterion in enumerate(profile.criteria):
+                if criterion.id in profile_of:
+                    yield Inconsistency(
+                        ("criteria", number, "criteria", index, "id"),
+                        f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
+                        f" {quoted(profile_of[criterion.id])} as well",
+                        "leave one profile out, or give the criterion another id",
+                    )
+            profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
+
+    def _calipers_that_are_not_there(self) -> Iterator[Inconsistency]:
+        """Yield values of a wheelset's own caliper where its module is a tank: nothing would read them."""
+        if self.rig.topology != "one-caliper":
+            return
+        for number in WHEELSET_NUMBERS[1:]:
+            own = self.vehicle.wheelsets[str(number)].caliper
+            for name in sorted(own.model_fields_set):
+                yield Inconsistency(
+                    ("vehicle", "wheelsets", str(number), "caliper", name),
+                    f"wheelset {number} has no caliper in the rig with one caliper: its module is a tank",
+                    "write `rig.topology: four-caliper`, or leave it out",
+                )
+
+    def _stop_without_end(self, shortest: float) -> Inconsistency:
+        limit = self.simulation.maximum_duration
+        least = (
+            "this car never stops"
+            if shortest == math.inf
+            else f"no brake stops this car within {shortest:.0f} s"
+        )
+        return Inconsistency(
+            ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
+            f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
+            f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
+        )
+
+    @property
+    def judged_by(self) -> tuple[Criteria, ...]:
+        """The profiles that judge a simulated stop: those that are named, and the checks of the rig."""
+        if any(profile.name == RIG_CHECKS for profile in self.criteria):
+            return self.criteria
+        return (*self.criteria, rig_checks())
+
+    @property
+    def tank_volume_with_caliper(self) -> float:
+        """Air volume of the caliper's module with the piston at the disc, m3."""
+        tank, extra = self.brake.system.tank, self.brake.system.caliper_tank
+        stroke = self.rig.caliper.piston_area * self.rig.caliper.clearance
+        return tank.volume - extra.ball_volume + extra.hose_and_dead_volume + stroke
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One stop on the rig."""
+
+    id: str
+    """Unique among the cases loaded together; safe as a file name."""
+    scenario: Scenario
+    """Resolved: every reference to a part replaced by the part."""
+    path: Path
+    """The file it comes from, as shown to users."""
+    parameters: dict[str, str]
+    """Swept dotted keys and their values as written, in order."""
+    inputs: dict[str, str]
+    """Every file read for it, by shown name, and its SHA-256."""

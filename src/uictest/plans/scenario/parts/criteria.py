@@ -1,0 +1,289 @@
+"""Criteria: bounds on the measures of a stop, when they apply, and the definitions of their words."""
+
+from collections.abc import Iterator, Mapping
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.core.measures import MEASURES, Course, Measure
+from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
+from uictest.plans.scenario.parts.applicability import Applicability
+from uictest.plans.scenario.parts.bounded_measure import (
+    MEASURES_OF,
+    WITH_DRY_VALUE,
+    Bound,
+    MeasureName,
+    Scope,
+)
+from uictest.plans.scenario.parts.definition import Definition
+from uictest.plans.scenario.parts.dry_bound import DryBound
+from uictest.plans.scenario.parts.reading import (
+    ID,
+    AtLeast,
+    Reading,
+    WheelsetsThatKeep,
+    definition_problems,
+    wheelsets_problems,
+)
+from uictest.plans.scenario.parts.requirements import RequirementIds, repeated_requirements
+from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
+
+
+class Criterion(Model):
+    """One bound on one measure."""
+
+    id: str = Field(pattern=ID, description="Name of the criterion in every report.")
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    source: str = Field(
+        default=SCENARIO_SOURCE,
+        description="A key of the part's `sources`: where the bound is stated.",
+    )
+    clause: str = Field(
+        default="unverified", max_length=200, description="Clause of the source, or `unverified`."
+    )
+    requirements: RequirementIds = Field(
+        default=(), description="Ids of the requirements that the criterion verifies."
+    )
+    layer: Literal["rig", "validity", "requirement"] = Field(
+        description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails;"
+        " rig: a check of the rig, which makes the stop invalid and judges nothing else."
+    )
+    applies: Applicability = Field(
+        default=Applicability(),
+        description="Stops that the criterion applies to; of a series the wet ones that are judged.",
+    )
+    scope: Scope = Field(
+        default="stop",
+        description="stop: the criterion bounds a measure of each stop; series: one of a series of stops.",
+    )
+    measure: MeasureName = Field(description="The measure that is bounded.")
+    lower: Bound | None = Field(
+        default=None,
+        description="Lower bound: a quantity of the measure's kind, or such as `90 % of the dry stop`.",
+    )
+    upper: Bound | None = Field(
+        default=None,
+        description="Upper bound: a quantity of the measure's kind, or such as `125 % of the dry stop`.",
+    )
+    strict: bool = Field(
+        default=False, strict=True, description="Whether a value at the bound itself does not pass."
+    )
+    wheelsets: WheelsetsThatKeep = Field(
+        default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
+    )
+    definition: Definition = Field(
+        default=Definition(), description="The definitions that the measure needs."
+    )
+    reading: str = Field(
+        default="",
+        max_length=100,
+        description="Name of what the criterion itself reads, where there are others.",
+    )
+    reading_source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where that reading comes from."
+    )
+    readings: tuple[Reading, ...] = Field(
+        default=(),
+        description="Other readings of the same words, which never decide: where one comes out otherwise,"
+        " the verdict turns.",
+    )
+
+    def read_as(self, reading: Reading) -> "Criterion":
+        """Return the criterion with the measure and the definitions of another of its readings."""
+        own = {name: getattr(reading, name) for name in ("measure", "wheelsets", "definition")}
+        return self.model_copy(update={**own, "readings": ()})
+
+    @property
+    def of_dry_stop(self) -> bool:
+        """Whether the bounds are shares of the dry stop; values are then in % of it."""
+        return isinstance(self.lower, DryBound) or isinstance(self.upper, DryBound)
+
+    @property
+    def needs_series(self) -> bool:
+        """Whether only a series of stops can be judged by the criterion."""
+        return self.scope == "series" or self.of_dry_stop
+
+    @property
+    def unit(self) -> str:
+        """The unit value and bounds are printed in."""
+        return "%" if self.of_dry_stop else self._measure.unit
+
+    @property
+    def meaning(self) -> str:
+        """What the measure is, in words."""
+        return self._measure.meaning
+
+    @property
+    def observed_by(self) -> tuple[str, ...]:
+        """The fields of the scenario's `measures` part that decide what was observed."""
+        return () if self.scope == "series" else self._declared.observed_by
+
+    @property
+    def course(self) -> Course:
+        """What the measure's value can do while the stop goes on."""
+        return self._declared.course
+
+    def speed_range(self, definition: Mapping[str, float]) -> str:
+        """Return in words at which train speeds the criterion looks; empty: at all of them.
+
+        `definition` holds the SI value of each of its definitions.
+        """
+        said = self._declared.speed_range
+        return said(definition) if said else ""
+
+    @property
+    def of_faults(self) -> bool:
+        """Whether the measure describes the reaction to faults."""
+        return self._declared.of_faults
+
+    @property
+    def of_simulation(self) -> bool:
+        """Whether the measure describes the simulation itself, not a train."""
+        return self._declared.of_simulation
+
+    @property
+    def aggregation(self) -> str:
+        """Which wheelsets must keep the bounds, in words; empty for a measure of the stop."""
+        if isinstance(self.wheelsets, AtLeast):
+            return f"at least {self.wheelsets.at_least}"
+        return self.wheelsets or ""
+
+    def wheelsets_needed(self, count: int) -> int:
+        """Return how many of `count` values must keep the bounds (1 for a measure of the stop)."""
+        if isinstance(self.wheelsets, AtLeast):
+            return (count + 1) // 2 if self.wheelsets.at_least == "half" else self.wheelsets.at_least
+        return count if self.wheelsets == "all" else 1
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield missing or crossed bounds, a wrong number of wheelsets, missing or unused definitions."""
+        yield from repeated_requirements(self.requirements)
+        yield from self._bound_problems()
+        yield from self._dry_bound_problems()
+        if self.scope == "series":
+            yield from self._series_problems()
+        else:
+            yield from wheelsets_problems(self.measure, self.wheelsets)
+            yield from definition_problems(self.measure, self.definition)
+            yield from self._reading_problems()
+
+    @property
+    def _measure(self) -> Measure | SeriesMeasure:
+        return MEASURES_OF[self.scope][self.measure]
+
+    @property
+    def _declared(self) -> Measure:
+        """The measure of a criterion of stops."""
+        return MEASURES[self.measure]
+
+    def _bound_problems(self) -> Iterator[Inconsistency]:
+        if self.lower is None and self.upper is None:
+            yield Inconsistency(
+                (), f"criterion {quoted(self.id)} has no bound", "write 'lower', 'upper' or both"
+            )
+        elif self.lower is not None and self.upper is not None and self.lower > self.upper:
+            yield Inconsistency(
+                ("lower",), f"the lower bound {self.lower.text} is above the upper bound {self.upper.text}"
+            )
+
+    def _dry_bound_problems(self) -> Iterator[Inconsistency]:
+        """Yield a share of the dry stop beside another bound, or of a measure that has no dry value."""
+        bounds = {"lower": self.lower, "upper": self.upper}
+        shares = [name for name, bound in bounds.items() if isinstance(bound, DryBound)]
+        if not shares:
+            return
+        if other := [name for name, bound in bounds.items() if bound is not None and name not in shares]:
+            message = f"{quoted(other[0])} is no share of the dry stop, {quoted(shares[0])} is one"
+            yield Inconsistency((other[0],), message, "write two criteria, or both bounds in the same way")
+        if self.scope == "stop" and self.layer != "requirement":
+            which = f"a criterion of {self.layer} cannot refer to the dry stop"
+            message = f"{which}: which stops count decides that one"
+            yield Inconsistency(("layer",), message, "write `layer: requirement`")
+        if not self._of_single_stops():
+            yield Inconsistency(
+                (shares[0],),
+                f"{quoted(self.measure)} has no value of the dry stop to refer to",
+                self._measures_with_dry_value(),
+            )
+
+    def _of_single_stops(self) -> bool:
+        """Return whether the measure is one number of each stop, which results report."""
+        if self.scope == "series":
+            return SERIES_MEASURES[self.measure].figure is not None
+        return self.measure in WITH_DRY_VALUE
+
+    def _measures_with_dry_value(self) -> str:
+        if self.scope == "stop":
+            return f"measures that have one: {', '.join(WITH_DRY_VALUE)}"
+        return "medians and worst values of single stops have one, such as `median_braking_distance`"
+
+    def _series_problems(self) -> Iterator[Inconsistency]:
+        """Yield what says something of a stop in a criterion of a series."""
+        for name in ("wheelsets", "definition", "readings"):
+            if name in self.model_fields_set:
+                message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
+                yield Inconsistency((name,), message, "leave it out")
+
+    def _reading_problems(self) -> Iterator[Inconsistency]:
+        """Yield a missing name of the criterion's own reading, repeated names, other kinds of quantity."""
+        if self.readings and not self.reading:
+            message = f"criterion {quoted(self.id)} has other readings, its own has no name"
+            yield Inconsistency((), message, "write 'reading'")
+        if self.readings and self.of_dry_stop:
+            yield Inconsistency(
+                ("readings",), "shares of the dry stop have no other readings", "leave them out"
+            )
+        seen = {self.reading}
+        for index, reading in enumerate(self.readings):
+            if reading.id in seen:
+                message = f"a second reading is called {quoted(reading.id)}"
+                yield Inconsistency(("readings", index, "id"), message)
+            if MEASURES[reading.measure].kind != self._declared.kind:
+                message = (
+                    f"{quoted(reading.measure)} is a {MEASURES[reading.measure].kind}, but"
+                    f" {quoted(self.measure)} a {self._declared.kind}: the same bounds cannot hold for both"
+                )
+                yield Inconsistency(("readings", index, "measure"), message)
+            seen.add(reading.id)
+
+
+class Criteria(Part):
+    """A profile: criteria that belong together."""
+
+    folder: ClassVar[str] = "criteria"
+
+    schema_id: Literal["uictest/criteria/1"] = Field(
+        default="uictest/criteria/1", alias="schema", description="What the file holds: uictest/criteria/1."
+    )
+    # Not min_length: pydantic would also call a list too short all of whose criteria are wrong.
+    criteria: tuple[Criterion, ...] = Field(
+        description="The criteria, judged in this order.", json_schema_extra={"minItems": 1}
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield sources that are not described and criteria of the same name."""
+        yield from super().inconsistencies()
+        yield from self._undescribed_sources()
+        if not self.criteria:
+            yield Inconsistency(("criteria",), "the profile has no criterion", "write at least one")
+        seen: set[str] = set()
+        for index, criterion in enumerate(self.criteria):
+            if criterion.id in seen:
+                yield Inconsistency(
+                    ("criteria", index, "id"), f"a second criterion is called {quoted(criterion.id)}"
+                )
+            seen.add(criterion.id)
+
+    def _undescribed_sources(self) -> Iterator[Inconsistency]:
+        for index, criterion in enumerate(self.criteria):
+            named: list[tuple[tuple[str | int, ...], str]] = [
+                (("source",), criterion.source),
+                (("reading_source",), criterion.reading_source),
+                *((("readings", k, "source"), each.source) for k, each in enumerate(criterion.readings)),
+            ]
+            for key, source in named:
+                if source not in {SCENARIO_SOURCE, *self.sources}:
+                    yield Inconsistency(
+                        ("criteria", index, *key),
+                        f"unknown source {quoted(source)}",
+                        suggestion(source, self.sources) or "describe it under 'sources'",
+                    )

@@ -1,0 +1,214 @@
+"""Controllers from outside: the program under test and what it is given."""
+
+import json
+import re
+from pathlib import PurePosixPath
+from typing import Annotated, Any, ClassVar, Final
+
+from pydantic import Field, GetJsonSchemaHandler, WithJsonSchema
+from pydantic.functional_validators import PlainValidator
+from pydantic_core import CoreSchema, PydanticCustomError
+
+from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind
+from uictest.plans.scenario.parts.controller_part import ControllerPart
+from uictest.plans.scenario.parts.declared_parameter import DeclaredParameter
+from uictest.plans.scenario.parts.parameter_value import ParameterValue
+from uictest.plans.scenario.parts.program_file import ProgramFile
+from uictest.plans.scenario.yaml import Quantity, default, of_kind, quoted
+
+ADDRESS_PATTERN: Final = r"^tcp://[A-Za-z0-9.\-]+:([0-9]{1,5})$"
+_LARGEST_PORT: Final = 65535
+
+
+def _file(value: object) -> ProgramFile:
+    if isinstance(value, str):
+        return value if isinstance(value, ProgramFile) else ProgramFile(value)
+    context = {"message": "expected the path of a file", "hint": "write it relative to this file"}
+    raise PydanticCustomError("program_file", "{message}", context)
+
+
+ProgramPath = Annotated[
+    ProgramFile, PlainValidator(_file), WithJsonSchema({"type": "string", "minLength": 1})
+]
+
+
+def _address(value: object) -> str:
+    match = re.fullmatch(ADDRESS_PATTERN, value) if isinstance(value, str) else None
+    if match is None:
+        context = {"message": f"{quoted(str(value))} is not an address", "hint": "write tcp://HOST:PORT"}
+        raise PydanticCustomError("address", "{message}", context)
+    if not 0 < int(match[1]) <= _LARGEST_PORT:
+        context = {"message": f"there is no port {match[1]}", "hint": f"choose one from 1 to {_LARGEST_PORT}"}
+        raise PydanticCustomError("address", "{message}", context)
+    return match[0]
+
+
+_ADDRESS: Final[dict[str, Any]] = {"type": "string", "pattern": ADDRESS_PATTERN}
+Address = Annotated[str, PlainValidator(_address), WithJsonSchema(_ADDRESS)]
+
+
+class ExternalController(ControllerPart):
+    """A controller that is no part of this package; see docs/controllers.md."""
+
+    kind: ClassVar[Kind]
+
+    cycle_time: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="1 s")] = Field(
+        default=default("10 ms", "time"), description="Time between two decisions."
+    )
+    time_limit: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="600 s")] = Field(
+        default=default("5 s", "time"),
+        description="Longest time for one answer; a controller that takes longer ends its case as an error.",
+    )
+    version: str | None = Field(
+        default=None,
+        min_length=1,
+        max_length=LONGEST_VERSION,
+        description="Version of the program, for reports; default: what its file or package states, if any.",
+    )
+    parameters: dict[str, ParameterValue] = Field(
+        default_factory=dict, description="Handed to the controller as JSON, before a stop."
+    )
+    declared_parameters: dict[str, DeclaredParameter] = Field(
+        default_factory=dict,
+        description="The parameters that it knows; default: what its file declares. Others are errors.",
+    )
+    free_parameters: bool = Field(
+        default=False, description="Whether parameters that nobody has declared are accepted."
+    )
+
+    @property
+    def reference(self) -> str:
+        """What names the program: the value of the key that is called as the kind."""
+        return str.__str__(getattr(self, self.kind))
+
+    @property
+    def label(self) -> str:
+        """Its name; without one, what the program is called."""
+        return self.name if "name" in self.model_fields_set else self.program_name
+
+    @property
+    def program_name(self) -> str:
+        """What the program is called: its file without folder and ending, unless a kind says it better."""
+        return PurePosixPath(self.reference).stem
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What only this kind has."""
+        return {}
+
+    @property
+    def _knowledge(self) -> str:
+        """What is known of its parameters: any are accepted, they are declared, or it is asked in a run."""
+        return "free" if self.free_parameters else "declared" if self.declared_parameters else "asked"
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Require what names the program, but for a mapping that extends another one."""
+        schema = super().__get_pydantic_json_schema__(core, handler)
+        required = [field.alias or name for name, field in cls.model_fields.items() if field.is_required()]
+        schema["anyOf"] = [{"required": required}, {"required": ["extends"]}]
+        return schema
+
+    @property
+    def program(self) -> ControllerProgram:
+        """What is loaded."""
+        value = getattr(self, self.kind)
+        return ControllerProgram(
+            kind=self.kind,
+            location=getattr(value, "location", "") or str(value),
+            sha256=getattr(value, "sha256", ""),
+            parameters=json.dumps(self.parameters),
+            options={**self.options, "parameters": self._knowledge},
+            time_limit=float(self.time_limit),
+        )
+
+
+class PythonController(ExternalController):
+    """A class in a Python file."""
+
+    kind: ClassVar[Kind] = "python"
+    tag: ClassVar[str] = "controller of kind python"
+
+    python: ProgramPath = Field(description="Path of the Python file, relative to this file.")
+    class_name: str = Field(alias="class", description="Name of the class in that file.", min_length=1)
+
+    @property
+    def program_name(self) -> str:
+        """The name of the class."""
+        return self.class_name
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The name of the class."""
+        return {"class": self.class_name}
+
+
+class LibraryController(ExternalController):
+    """A shared library with the functions of uictest_controller.h."""
+
+    kind: ClassVar[Kind] = "library"
+    tag: ClassVar[str] = "controller of kind library"
+
+    library: ProgramPath = Field(description="Path of the shared library, relative to this file.")
+
+
+class FmuController(ExternalController):
+    """A functional mock-up unit for co-simulation, FMI 2.0 or 3.0."""
+
+    kind: ClassVar[Kind] = "fmu"
+    tag: ClassVar[str] = "controller of kind fmu"
+
+    fmu: ProgramPath = Field(description="Path of the FMU, relative to this file.")
+    variables: dict[str, str] = Field(
+        default_factory=dict,
+        description="Names of its variables by ours, such as wheel_speed: axle_speed_%d; %d stands for the"
+        " number of the wheelset. A variable that is left out has our name with _%d.",
+    )
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The names of its variables."""
+        return {"variables": dict(self.variables)}
+
+
+class SocketController(ExternalController):
+    """A program that listens on a TCP port."""
+
+    kind: ClassVar[Kind] = "connect"
+    tag: ClassVar[str] = "controller of kind connect"
+
+    connect: Address = Field(description="Where it listens, such as tcp://127.0.0.1:5025.")
+
+    @property
+    def program_name(self) -> str:
+        """Its address."""
+        return self.connect
+
+
+class RegisteredController(ExternalController):
+    """A controller of an installed package, by its name in the entry points uictest.controllers."""
+
+    kind: ClassVar[Kind] = "registered"
+    tag: ClassVar[str] = "controller of kind registered"
+
+    registered: str = Field(description="Name that the package has registered.", min_length=1)
+
+    @property
+    def program_name(self) -> str:
+        """The name that the package has registered."""
+        return self.registered
+
+
+EXTERNAL_MODELS: Final[dict[str, type[ExternalController]]] = {
+    model.kind: model
+    for model in (
+        PythonController,
+        LibraryController,
+        FmuController,
+        SocketController,
+        RegisteredController,
+    )
+}
+"""Models by the key that names the program."""
+PROGRAM_FILES: Final = ("python", "library", "fmu")
+"""Keys that name a file."""

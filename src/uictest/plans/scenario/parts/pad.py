@@ -1,0 +1,187 @@
+"""The brake pad: how its friction depends on speed, force and temperature."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from uictest.core.physics import MOST_PAD_POINTS, quotient_scale
+from uictest.plans.scenario.parts.friction import out_of_order
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
+
+Factor = Annotated[Quantity, of_kind("number", at_least="0.1", at_most="5")]
+FrictionSpeed = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="1000 km/h")]
+PadForce = Annotated[Quantity, of_kind("force", at_least="0 kN", at_most="500 kN")]
+SpeedOffset = Annotated[Quantity, of_kind("speed", at_least="1 km/h", at_most="1000 km/h")]
+ForceOffset = Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="1000 kN")]
+DiscTemperature = Annotated[Quantity, of_kind("temperature", at_least="-60 degC", at_most="1200 degC")]
+
+_POINTS = "Points in order, with straight lines between; the ends go on unchanged."
+
+
+class PadLaw(Section):
+    """A factor on pad friction over one quantity: that of its table times that of its quotient."""
+
+    @property
+    def table(self) -> tuple[tuple[float, float], ...]:
+        """Values of the quantity, SI, and factors."""
+        return ((0.0, 1.0),)
+
+    @property
+    def quotient(self) -> tuple[float, float, float]:
+        """The value at which (x + a)/(x + b) is scaled to 1, then a and b, SI."""
+        return 0.0, 1.0, 1.0
+
+    @property
+    def largest_factor(self) -> float:
+        """Largest factor anywhere: of the table, and of the quotient, which is monotonic, at either end."""
+        reference, numerator, denominator = self.quotient
+        scale = quotient_scale(reference, numerator, denominator)
+        return max(factor for _, factor in self.table) * scale * max(numerator / denominator, 1.0)
+
+
+class PadSpeedPoint(Model):
+    """The factor on pad friction at one speed."""
+
+    speed: FrictionSpeed = Field(description="Speed of the disc at the mean radius of the pads.")
+    factor: Factor = Field(description="Factor on `pad_friction` there.")
+
+
+class PadSpeedTable(PadLaw):
+    """Pad friction over speed: a table."""
+
+    points: tuple[PadSpeedPoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
+
+    @property
+    def table(self) -> tuple[tuple[float, float], ...]:
+        """Speeds in m/s and factors."""
+        return tuple((float(point.speed), float(point.factor)) for point in self.points)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield points out of order."""
+        yield from out_of_order([point.speed for point in self.points], "speed")
+
+
+class PadForcePoint(Model):
+    """The factor on pad friction under one clamping force."""
+
+    force: PadForce = Field(description="Clamping force of one pad.")
+    factor: Factor = Field(description="Factor on `pad_friction` there.")
+
+
+class PadForceTable(PadLaw):
+    """Pad friction over clamping force: a table."""
+
+    points: tuple[PadForcePoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
+
+    @property
+    def table(self) -> tuple[tuple[float, float], ...]:
+        """Forces in N and factors."""
+        return tuple((float(point.force), float(point.factor)) for point in self.points)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield points out of order."""
+        yield from out_of_order([point.force for point in self.points], "force")
+
+
+class PadTemperaturePoint(Model):
+    """The factor on pad friction at one temperature."""
+
+    temperature: DiscTemperature = Field(description="Temperature of the friction surface of the disc.")
+    factor: Factor = Field(description="Factor on `pad_friction` there.")
+
+
+class PadTemperatureTable(PadLaw):
+    """Pad friction over the temperature of the disc: a table."""
+
+    points: tuple[PadTemperaturePoint, ...] = Field(
+        min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS
+    )
+
+    @property
+    def table(self) -> tuple[tuple[float, float], ...]:
+        """Temperatures in K and factors."""
+        return tuple((float(point.temperature), float(point.factor)) for point in self.points)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield points out of order."""
+        yield from out_of_order([point.temperature for point in self.points], "temperature")
+
+
+class PadSpeedQuotient(PadLaw):
+    """Pad friction over the speed of the disc at the mean radius, as a quotient of straight lines."""
+
+    numerator: SpeedOffset = Field(description="Speed added in the numerator.")
+    denominator: SpeedOffset = Field(description="Speed added in the denominator.")
+    reference: FrictionSpeed = Field(description="Speed at which the factor is 1.")
+
+    @property
+    def quotient(self) -> tuple[float, float, float]:
+        """Reference, numerator and denominator, SI."""
+        return float(self.reference), float(self.numerator), float(self.denominator)
+
+
+class PadForceQuotient(PadLaw):
+    """Pad friction over the clamping force of one pad, as a quotient of straight lines."""
+
+    numerator: ForceOffset = Field(description="Force added in the numerator.")
+    denominator: ForceOffset = Field(description="Force added in the denominator.")
+    reference: PadForce = Field(description="Force under which the factor is 1.")
+
+    @property
+    def quotient(self) -> tuple[float, float, float]:
+        """Reference, numerator and denominator, SI."""
+        return float(self.reference), float(self.numerator), float(self.denominator)
+
+
+def _form(value: object) -> str:
+    if isinstance(value, dict):
+        lines = value.keys() & {"numerator", "denominator", "reference"}
+        return "quotient" if lines and "points" not in value else "table"
+    return "quotient" if isinstance(value, PadSpeedQuotient | PadForceQuotient) else "table"
+
+
+SpeedLaw = Annotated[
+    Annotated[PadSpeedTable, Tag("table")] | Annotated[PadSpeedQuotient, Tag("quotient")],
+    Discriminator(_form),
+]
+ForceLaw = Annotated[
+    Annotated[PadForceTable, Tag("table")] | Annotated[PadForceQuotient, Tag("quotient")],
+    Discriminator(_form),
+]
+
+
+class Pad(Part):
+    """How the friction of a pad departs from the brake system's `disc.pad_friction`: a product of factors."""
+
+    folder: ClassVar[str] = "pads"
+
+    schema_id: Literal["uictest/pad/1"] = Field(
+        default="uictest/pad/1", alias="schema", description="What the file holds: uictest/pad/1."
+    )
+    speed: SpeedLaw | None = Field(
+        default=None,
+        description="Factor over the speed of the disc at the mean radius: points, or numerator, denominator"
+        " and reference of (v + numerator)/(v + denominator); 1 if left out.",
+    )
+    force: ForceLaw | None = Field(
+        default=None,
+        description="Factor over the clamping force of one pad: points, or numerator, denominator and"
+        " reference of (F + numerator)/(F + denominator); 1 if left out.",
+    )
+    temperature: PadTemperatureTable | None = Field(
+        default=None,
+        description="Factor over the temperature of the friction surface: points; 1 if left out.",
+    )
+
+    @property
+    def varies(self) -> bool:
+        """Whether the friction depends on anything."""
+        return not (self.speed is None and self.force is None and self.temperature is None)
+
+    @property
+    def largest_factor(self) -> float:
+        """Upper bound of the product of all factors."""
+        laws = (self.speed, self.force, self.temperature)
+        return math.prod(law.largest_factor for law in laws if law is not None)

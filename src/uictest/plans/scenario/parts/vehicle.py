@@ -1,0 +1,185 @@
+"""The vehicle: one car on two bogies and four wheelsets, in the vertical plane along the track.
+
+The ranges catch a wrong unit or digit; they do not judge a design. They are chosen: about ten times beyond
+the cars of the library, so that the lightest tram and half of the heaviest six-axle locomotive are accepted.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from uictest.plans.scenario.parts.wheelsets import ALIKE, Radius, Wheelsets
+from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section, of_kind
+
+Height = Annotated[Quantity, of_kind("length", at_least="1 cm", at_most="5 m")]
+Stiffness = Annotated[Quantity, of_kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
+Damping = Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")]
+
+LOWEST_FREQUENCY = 0.3
+"""Hz, chosen: half the lowest natural frequency of the library's cars (0.66 Hz, bounce of the CRH380A)."""
+
+
+class Body(Section):
+    """The car body."""
+
+    mass: Annotated[Quantity, of_kind("mass", at_least="1 t", at_most="200 t")] = Field(
+        description="Mass of the car body, loaded as tested."
+    )
+    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="1e3 kg m2", at_most="1e8 kg m2")] = Field(
+        description="Moment of inertia in pitch about the centre of gravity."
+    )
+    height: Height = Field(description="Height of the centre of gravity above the rail.")
+
+
+class Bogie(Section):
+    """One of the two bogies, without its wheelsets."""
+
+    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="50 t")] = Field(
+        description="Mass of one bogie without wheelsets."
+    )
+    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="10 kg m2", at_most="1e6 kg m2")] = Field(
+        description="Moment of inertia in pitch about the centre of gravity."
+    )
+    height: Height = Field(description="Height of the centre of gravity above the rail.")
+    half_wheelbase: Annotated[Quantity, of_kind("length", above="0.3 m", at_most="5 m")] = Field(
+        description="Half the distance between the axles of a bogie."
+    )
+
+
+class Wheelset(Section):
+    """One of the four wheelsets, with its brake discs."""
+
+    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="10 t")] = Field(
+        description="Mass of one wheelset with axle boxes."
+    )
+    rotational_inertia: Annotated[Quantity, of_kind("inertia", at_least="1 kg m2", at_most="1e4 kg m2")] = (
+        Field(description="Moment of inertia about the axle.")
+    )
+    radius: Radius = Field(description="Rolling radius.")
+
+
+class PrimarySuspension(Section):
+    """Springs and dampers between axle box and bogie frame, per axle box."""
+
+    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per axle box.")
+    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per axle box.")
+    longitudinal_damping: Damping = Field(description="Longitudinal damping per axle box.")
+    vertical_damping: Damping = Field(description="Vertical damping per axle box.")
+
+
+class SecondarySuspension(Section):
+    """Springs and dampers between bogie and body, per side of a bogie."""
+
+    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per side of a bogie.")
+    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per side of a bogie.")
+    longitudinal_damping: Damping = Field(description="Longitudinal damping per side of a bogie.")
+    vertical_damping: Damping = Field(description="Vertical damping per side of a bogie.")
+    height: Height = Field(description="Height above the rail at which the longitudinal force acts.")
+
+
+class TractionLink(Section):
+    """The rod that carries longitudinal force between a bogie and the body."""
+
+    stiffness: Stiffness = Field(description="Longitudinal stiffness of the link of one bogie.")
+    damping: Damping = Field(description="Longitudinal damping of the link of one bogie.")
+    height: Height = Field(description="Height of the link above the rail.")
+
+
+class RunningResistance(Section):
+    """Resistance of the whole car: constant + linear v + quadratic v2."""
+
+    constant: Annotated[Quantity, of_kind("force", at_least="0 N", at_most="100 kN")] = Field(
+        description="Part that does not depend on speed."
+    )
+    linear: Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="10 kN s/m")] = Field(
+        description="Part that grows with speed."
+    )
+    quadratic: Annotated[
+        Quantity, of_kind("quadratic resistance", at_least="0 N s2/m2", at_most="1000 N s2/m2")
+    ] = Field(description="Part that grows with the square of speed (air drag).")
+
+
+class Vehicle(Part):
+    """A car of two bogies and four wheelsets."""
+
+    folder: ClassVar[str] = "vehicles"
+
+    schema_id: Literal["uictest/vehicle/1"] = Field(
+        default="uictest/vehicle/1", alias="schema", description="What the file holds: uictest/vehicle/1."
+    )
+    body: Body = Field(description="The car body.")
+    bogie: Bogie = Field(description="One bogie; both are alike.")
+    half_pivot_distance: Annotated[Quantity, of_kind("length", above="0.5 m", at_most="20 m")] = Field(
+        description="Half the distance between the bogie pivots."
+    )
+    wheelset: Wheelset = Field(description="One wheelset; `wheelsets` says where one differs.")
+    wheelsets: Wheelsets = Field(
+        default_factory=lambda: dict(ALIKE),
+        description="What single wheelsets have of their own, by their number from the leading end.",
+    )
+    primary: PrimarySuspension = Field(description="Primary suspension, per axle box.")
+    secondary: SecondarySuspension = Field(description="Secondary suspension, per side of a bogie.")
+    traction_link: TractionLink = Field(description="Traction rod between bogie and body, one per bogie.")
+    running_resistance: RunningResistance = Field(description="Running resistance of the whole car.")
+
+    @property
+    def wheel_radii(self) -> tuple[float, ...]:
+        """Rolling radius of each wheelset, m."""
+        own = (each.wheel_radius for each in self.wheelsets.values())
+        return tuple(self.wheelset.radius if radius is None else radius for radius in own)
+
+    @property
+    def total_mass(self) -> float:
+        """Mass of the car, kg."""
+        return self.body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield impossible vehicles: wheels or bogies that overlap, more inertia than the mass allows."""
+        yield from super().inconsistencies()
+        yield from self._impossible_wheels(self.wheelset.radius, ("wheelset", "radius"))
+        for number, own in self.wheelsets.items():
+            if own.wheel_radius is not None:
+                yield from self._impossible_wheels(own.wheel_radius, ("wheelsets", number, "wheel_radius"))
+        yield from self._springs_too_soft()
+
+    def _impossible_wheels(self, radius: float, place: Key) -> Iterator[Inconsistency]:
+        """Yield wheels of a radius, given at a key, that overlap or have too much inertia."""
+        name, regular = ".".join(map(str, place)), place[0] == "wheelset"
+        if self.bogie.half_wheelbase <= radius:
+            yield Inconsistency(
+                ("bogie", "half_wheelbase") if regular else place,
+                f"the wheels of a bogie overlap: half_wheelbase must exceed {name}",
+            )
+        if self.half_pivot_distance <= self.bogie.half_wheelbase + radius:
+            yield Inconsistency(
+                ("half_pivot_distance",) if regular else place,
+                f"the bogies overlap: it must exceed bogie.half_wheelbase + {name}",
+            )
+        if self.wheelset.rotational_inertia > self.wheelset.mass * radius**2:
+            yield Inconsistency(
+                ("wheelset", "rotational_inertia") if regular else place,
+                "no wheelset of this mass and radius has this inertia",
+                f"at most mass x radius2 = {self.wheelset.mass * radius**2:.4g} kg m2",
+            )
+
+    def _springs_too_soft(self) -> Iterator[Inconsistency]:
+        """Yield springs on which the car would oscillate more slowly than any real car."""
+        body, sprung = self.body.mass, self.body.mass + 2.0 * self.bogie.mass
+        primary, secondary, link = self.primary, self.secondary, self.traction_link
+        pull = 2.0 * link.stiffness + 4.0 * secondary.longitudinal_stiffness
+        for key, stiffness, mass in (
+            (("primary", "longitudinal_stiffness"), 8.0 * primary.longitudinal_stiffness, sprung),
+            (("primary", "vertical_stiffness"), 8.0 * primary.vertical_stiffness, sprung),
+            (("secondary", "vertical_stiffness"), 4.0 * secondary.vertical_stiffness, body),
+            (("traction_link", "stiffness"), pull, body),
+        ):
+            frequency = (stiffness / mass) ** 0.5 / math.tau
+            if frequency < LOWEST_FREQUENCY:
+                yield Inconsistency(
+                    key,
+                    f"too soft: {mass / 1000.0:.4g} t swing at {frequency:.2g} Hz on these springs",
+                    f"at least {LOWEST_FREQUENCY} Hz are accepted, a stiffness"
+                    f" {(LOWEST_FREQUENCY / frequency) ** 2:.3g} times as large",
+                )

@@ -1,0 +1,187 @@
+"""The sections of a scenario: brake, rail, rig and simulation."""
+
+from collections.abc import Iterator
+from typing import Annotated, Final, Literal
+
+from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
+
+from uictest.plans.scenario.parts.brake import BrakeSystem
+from uictest.plans.scenario.parts.caliper import Caliper
+from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.friction import FactorProfile, FrictionProfile
+from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
+from uictest.plans.scenario.parts.rail import Cleaning, Friction, RailCondition
+from uictest.plans.scenario.parts.sensors import Sensors
+from uictest.plans.scenario.yaml import (
+    Inconsistency,
+    Model,
+    PartReference,
+    Quantity,
+    default,
+    of_kind,
+    quoted,
+    suggestion,
+)
+
+
+def _friction_form(value: object) -> str:
+    points = isinstance(value, tuple) and any(isinstance(point, dict) for point in value)
+    return "profile" if points or isinstance(value, dict | FrictionProfile) else "number"
+
+
+class Brake(Model):
+    """The brake of the car and the command it gets."""
+
+    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
+        description="The brake system: a library name, a relative path or an inline mapping."
+    )
+    command: Annotated[Quantity, of_kind("share", at_least="1 %", at_most="100 %")] = Field(
+        default=default("100 %", "share"), description="Share of the full service command."
+    )
+    position: str = Field(
+        default="R", description="Brake position; one of the positions of the brake system."
+    )
+    pad: Annotated[Pad, PartReference(Pad, "constant")] = Field(
+        description="How pad friction varies: a library name, a relative path or an inline mapping."
+    )
+    disc_temperature: Literal["constant", "modelled"] | None = Field(
+        default=None,
+        description="Whether the discs warm up; if left out, they do where the pad's friction depends on it.",
+    )
+    initial_disc_temperature: DiscTemperature | None = Field(
+        default=None,
+        description="Temperature of the discs at the brake command; that of the air if left out.",
+    )
+
+    @property
+    def commanded_pressure(self) -> float:
+        """Pressure of the brake line once the brake is fully applied, gauge, Pa."""
+        return self.command * self.system.positions[self.position].maximum_pressure
+
+    @property
+    def models_disc_temperature(self) -> bool:
+        """Whether the temperature of the discs is modelled."""
+        if self.disc_temperature is None:
+            return self.pad.temperature is not None
+        return self.disc_temperature == "modelled"
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a position that the system does not have."""
+        if self.position not in self.system.positions:
+            yield Inconsistency(
+                ("position",),
+                f"unknown brake position {quoted(self.position)}",
+                suggestion(self.position, self.system.positions),
+            )
+        if self.models_disc_temperature and self.system.disc.thermal is None:
+            yield Inconsistency(
+                ("pad",) if self.disc_temperature is None else ("disc_temperature",),
+                "brake.system.disc.thermal is missing: what the discs warm up by is not known",
+                "add system.disc.thermal, or write disc_temperature: constant",
+            )
+
+
+class Rail(Model):
+    """The rail under the car."""
+
+    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = Field(
+        description="Rail condition: dry, wet, a relative path or an inline mapping."
+    )
+    friction: (
+        Annotated[
+            Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
+            Discriminator(_friction_form),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="Initial friction coefficient, or points along the track; the condition's if left out.",
+    )
+    friction_over_time: FactorProfile | None = Field(
+        default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
+    )
+    cleaning: Cleaning | None = Field(
+        default=None, description="How sliding cleans the rail; as the condition says if left out."
+    )
+    gradient: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = (
+        Field(
+            default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
+        )
+    )
+
+    @property
+    def highest_friction(self) -> float:
+        """The highest friction coefficient anywhere, at any time."""
+        factor = (
+            1.0
+            if self.friction_over_time is None
+            else max(at.factor for at in self.friction_over_time.points)
+        )
+        if isinstance(self.friction, FrictionProfile):
+            return factor * max(at.friction for at in self.friction.points)
+        return factor * (self.condition.friction if self.friction is None else self.friction)
+
+    @property
+    def cleaning_in_force(self) -> Cleaning | None:
+        """How sliding cleans the rail, or None where it does not."""
+        return self.condition.cleaning if self.cleaning is None else self.cleaning
+
+    @property
+    def highest_friction_after_cleaning(self) -> float:
+        """The highest friction coefficient that a wheelset can meet."""
+        cleaning = self.cleaning_in_force
+        found = self.highest_friction
+        return found if cleaning is None else max(found, cleaning.recovered_friction)
+
+
+class Rig(Model):
+    """How the rig is built up."""
+
+    topology: Literal["one-caliper", "four-caliper"] = Field(
+        default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
+    )
+    compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = Field(
+        default="thermal",
+        description="What the modules without a caliper compute: hysteresis with the air of the caliper's"
+        " module (thermal); or, as in the paper, hysteresis, cylinder dynamics, both (full) or none.",
+    )
+    wsp: Literal["active", "bypassed"] = Field(
+        default="active", description="Whether the WSP valves obey the controller or always fill."
+    )
+    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = Field(
+        description="The caliper: a library name, a relative path or an inline mapping."
+    )
+    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = Field(
+        description="The compensation: a library name, a relative path or an inline mapping."
+    )
+    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = Field(
+        description="The sensors: a library name, a relative path or an inline mapping."
+    )
+
+
+SURVEY: Final = "survey"
+"""The time step of a whole sweep whose results are to come fast, with a known bias."""
+
+
+def _no_survey(value: object) -> object:
+    if value == SURVEY:
+        hint = f"uictest sweep ... --set simulation.time_step={SURVEY}, or alone under `grid` of a sweep file"
+        context = {"message": f"{quoted(SURVEY)} is the time step of a whole sweep", "hint": hint}
+        raise PydanticCustomError("survey", "{message}", context)
+    return value
+
+
+class Simulation(Model):
+    """How the stop is simulated."""
+
+    time_step: Annotated[
+        Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms"), BeforeValidator(_no_survey)
+    ] = Field(
+        default=default("0.5 ms", "time"),
+        description="Base step; a whole number of them makes a controller cycle.",
+    )
+    maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
+        default=default("180 s", "time"),
+        description="Simulated time after which a stop is aborted; what is undecided then is inconclusive.",
+    )

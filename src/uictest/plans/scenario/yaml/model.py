@@ -1,0 +1,203 @@
+"""Base classes of all models of files: frozen, no unknown keys, all inconsistencies reported at once."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final, Literal, NamedTuple, Self
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    PrivateAttr,
+    model_validator,
+)
+from pydantic_core import CoreSchema, PydanticCustomError
+
+from uictest.plans.scenario.yaml.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
+from uictest.plans.scenario.yaml.wording import quoted, suggestion
+
+Key = tuple[str | int, ...]
+
+NAME_PATTERN: Final = r"^[a-z0-9][a-z0-9._-]{0,99}$"
+"""What the name of a part looks like."""
+
+
+class Inconsistency(NamedTuple):
+    """Values that are valid one by one but impossible together; ``key`` is relative to the model."""
+
+    key: Key
+    message: str
+    hint: str = ""
+
+
+class Model(BaseModel):
+    """A mapping of a scenario or of a library file."""
+
+    tag: ClassVar[str] = ""
+    """Names the model in a union that a function tells apart; no key of a file may be called so."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield values that are impossible together."""
+        yield from ()
+
+    def undescribed(self) -> Iterator[Inconsistency]:
+        """Yield references to descriptions that are missing."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        inconsistencies = [*self.undescribed(), *self.inconsistencies()]
+        if inconsistencies:
+            context = {"message": inconsistencies[0].message, "inconsistencies": inconsistencies}
+            raise PydanticCustomError("inconsistency", "{message}", context)
+        return self
+
+
+class Section(Model):
+    """A mapping inside a part; an inline mapping with ``extends`` may leave out some of its keys."""
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        schema = handler.resolve_ref_schema(handler(core))
+        schema.pop("required", None)
+        return schema
+
+
+class Source(Model):
+    """Where a number comes from."""
+
+    mark: Literal["stated", "published", "identified", "chosen"] = Field(
+        description="stated: in the text of Lee and Kang (2015); published: elsewhere; identified: from a "
+        "record; chosen: by us."
+    )
+    text: str = Field(
+        description="The publication and the place in it, the record, or why a chosen value is plausible.",
+        min_length=1,
+    )
+
+
+class Part(Model):
+    """A part of the rig: a library file, a user's file, or an inline mapping of a scenario."""
+
+    folder: ClassVar[str]
+    """Folder of the library that holds parts of this kind."""
+
+    schema_id: str | None = Field(
+        default=None,
+        alias="schema",
+        description="What the file holds and which version of it, e.g. uictest/vehicle/1.",
+    )
+    name: str = Field(
+        default="inline",
+        pattern=NAME_PATTERN,
+        description="Name of the part: lower case, no blanks.",
+    )
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    sources: dict[str, Source] = Field(
+        default_factory=dict,
+        description="Where the numbers come from; each number names a key of this mapping.",
+    )
+
+    # Beside the fields, so that a copy with other numbers still knows what it was changed from.
+    _based_on: str | None = PrivateAttr(default=None)
+    _original: "Part | None" = PrivateAttr(default=None)
+
+    @property
+    def based_on(self) -> str | None:
+        """Name of the library part at the root of `extends`, else of the file there.
+
+        A library part is based on itself. None for a part that extends nothing.
+        """
+        return self._based_on
+
+    @property
+    def original(self) -> "Part | None":
+        """The part called `based_on` as its file has it; None where that file is not a whole part."""
+        return self._original
+
+    @property
+    def label(self) -> str:
+        """What reports call the part."""
+        return self.name
+
+    def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
+        """Return a copy that knows the part it is based on."""
+        part = self.model_copy()
+        part._based_on, part._original = based_on, original
+        return part
+
+    def undescribed(self) -> Iterator[Inconsistency]:
+        """Yield every number whose source is not described."""
+        known = {SCENARIO_SOURCE, DEFAULT_SOURCE, *self.sources}
+        for key, quantity in quantities_in(self):
+            if quantity.source not in known:
+                yield Inconsistency(
+                    (*key, "source"),
+                    f"unknown source {quoted(quantity.source)}",
+                    suggestion(quantity.source, self.sources) or "describe it under 'sources'",
+                )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Let an inline mapping extend a library part and override only what it names."""
+        schema = handler.resolve_ref_schema(handler(core))
+        schema.pop("required", None)
+        schema["properties"]["extends"] = {
+            "type": "string",
+            "description": "Library name or relative path of the part that this mapping changes.",
+        }
+        return schema
+
+
+_LIBRARY_NAME_OR_PATH = {
+    "type": "string",
+    "minLength": 1,
+    "description": "A library name, or a relative path ending in .yaml.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class PartReference:
+    """Marks a field that refers to a part; ``default`` is the library name used if the key is missing.
+
+    With ``several``, the field also accepts a list of references.
+    """
+
+    model: Any
+    default: str
+    several: bool = False
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return handler(source)
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        if not self.several:
+            return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, handler(core)]}
+        inline = handler(core)["items"]
+        listed = {"type": "array", "minItems": 1, "items": {"anyOf": [_LIBRARY_NAME_OR_PATH, inline]}}
+        return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, inline, listed]}
+
+
+_WITHOUT_QUANTITIES: Final = frozenset({type(None), bool, int, float, str})
+"""Types of most fields; every part is searched when it is read."""
+
+
+def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]]:
+    """Yield every quantity inside a model, tuple or mapping with its key."""
+    if isinstance(value, Quantity):
+        yield key, value
+        return
+    inside: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, tuple):
+        inside = enumerate(value)
+    elif isinstance(value, dict):
+        inside = value.items()
+    elif isinstance(value, BaseModel):
+        inside = value.__dict__.items()
+    for name, inner in inside:
+        if type(inner) not in _WITHOUT_QUANTITIES:
+            yield from quantities_in(inner, (*key, name))

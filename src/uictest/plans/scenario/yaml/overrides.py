@@ -1,0 +1,169 @@
+"""`--set key=value`: values from the command line; lists and ranges become axes of the matrix."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+from typing import Final
+
+from uictest.plans.scenario.yaml.assignment import with_value
+from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, single_error
+from uictest.plans.scenario.yaml.parsing import parse
+from uictest.plans.scenario.yaml.tree import (
+    COMMAND_LINE,
+    Document,
+    Entry,
+    Map,
+    Node,
+    Place,
+    Scalar,
+    Sequence as List,
+)
+from uictest.plans.scenario.yaml.wording import quoted
+
+MOST_VALUES: Final = 10_000
+
+_RANGE = re.compile(r"\s*range\((.*)\)\s*")
+_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15}))\s*(.*?)\s*", re.DOTALL)
+_OPENING, _CLOSING, _QUOTES = "([{", ")]}", "\"'"
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """A dotted key and the values it takes instead of those in the files.
+
+    Several values are an axis of the matrix; with `swept` a single one is, too, so that the ids of cases
+    tell it.
+    """
+
+    key: str
+    place: Place
+    values: tuple[Node, ...]
+    swept: bool = False
+
+
+def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
+    """Read ``--set`` options and the ``--seed`` option. Raises ScenarioErrors with the errors of all."""
+    diagnostics: list[Diagnostic] = []
+    overrides: list[Override] = []
+    for text in texts:
+        try:
+            overrides.append(_parse(Document(COMMAND_LINE, Path(), text)))
+        except ScenarioErrors as errors:
+            diagnostics.extend(errors.diagnostics)
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
+    if seed is not None:
+        place = Place(Document("--seed", Path(), str(seed)))
+        overrides.append(Override("seed", place, (Scalar(seed, str(seed), place),)))
+    return tuple(overrides)
+
+
+def _parse(document: Document) -> Override:
+    key, equals, value = document.text.partition("=")
+    if not equals or not key.strip():
+        hint = "write --set key=value, for example --set rail.friction=0.10"
+        raise single_error(Place(document), f"{quoted(document.text)} is not a key and a value", hint=hint)
+    values = [
+        node for start, piece in _pieces(value) for node in _values(document, len(key) + 2 + start, piece)
+    ]
+    return Override(key.strip(), Place(document), tuple(values))
+
+
+def _pieces(text: str) -> Iterator[tuple[int, str]]:
+    """Split at commas outside brackets and quotes; yield each piece with its offset."""
+    start, depth, quote = 0, 0, ""
+    for at, char in enumerate(text):
+        if quote:
+            quote = "" if char == quote else quote
+        elif char in _QUOTES:
+            quote = char
+        elif char in _OPENING:
+            depth += 1
+        elif char in _CLOSING:
+            depth -= 1
+        elif char == "," and depth == 0:
+            yield start, text[start:at]
+            start = at + 1
+    yield start, text[start:]
+
+
+def _values(document: Document, column: int, piece: str) -> Iterator[Node]:
+    place = Place(document, 1, column)
+    if not piece.strip():
+        raise single_error(place, "an empty value", hint="write null for nothing")
+    match = _RANGE.fullmatch(piece)
+    if match is None:
+        yield parse(document, 1, column, piece)
+        return
+    for text in _range(match[1], place):
+        yield parse(document, 1, column, text)
+
+
+def _range(arguments: str, place: Place) -> list[str]:
+    """The values of ``range(first,last,step)`` as texts, with the last one where a step lands on it."""
+    parts = [_NUMBER_AND_UNIT.fullmatch(part) for part in arguments.split(",")]
+    if len(parts) != 3 or not all(parts):
+        raise single_error(
+            place, "not a range of numbers", hint="write range(first,last,step): range(0.09,0.12,0.01)"
+        )
+    numbers, units = zip(*((Decimal(part[1]), part[2]) for part in parts if part), strict=True)
+    first, last, step = numbers
+    if len(set(units)) != 1:
+        raise single_error(place, "the three numbers of a range must have the same unit")
+    if step == 0 or (last - first) / step < 0:
+        raise single_error(place, f"a step of {step} never leads from {first} to {last}")
+    count = int((last - first) / step) + 1
+    if count > MOST_VALUES:
+        raise single_error(place, f"a range of {count} values; at most {MOST_VALUES} are accepted")
+    digits = max(0, *(-int(number.as_tuple().exponent) for number in (first, step)))
+    return [f"{first + index * step:.{digits}f} {units[0]}".strip() for index in range(count)]
+
+
+def apply_overrides(tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]) -> Map:
+    """The scenario's tree with the values of the command line in place of its own."""
+    for override in overrides:
+        tree = without_axis(tree, override.key)
+        if len(override.values) == 1 and not override.swept:
+            tree = with_value(tree, override.key, Entry(override.place, override.values[0]), part_keys)
+        else:
+            tree = _with_axis(tree, override)
+    return tree
+
+
+def _with_axis(tree: Map, override: Override) -> Map:
+    matrix = tree.get("matrix")
+    if not isinstance(matrix, Map):
+        matrix = Map({}, override.place)
+    axis = Entry(override.place, List(override.values, override.place))
+    return tree.with_entry("matrix", Entry(override.place, matrix.with_entry(override.key, axis)))
+
+
+def without_axis(tree: Map, key: str) -> Map:
+    """The tree without ``key`` in its sweep sections: the command line sets its value."""
+    for section in ("matrix", "zip", "include", "exclude"):
+        entry = tree.entries.get(section)
+        if entry is None or not _mentions(entry.node, key):
+            continue
+        rest = _section_without(entry.node, key, section)
+        tree = tree.without(section) if rest is None else tree.with_entry(section, Entry(entry.key, rest))
+    return tree
+
+
+def _mentions(node: Node, key: str) -> bool:
+    if isinstance(node, List):
+        return any(_mentions(item, key) for item in node.items)
+    return isinstance(node, Map) and key in node.entries
+
+
+def _section_without(node: Node, key: str, section: str) -> Node | None:
+    """A section without ``key``: included cases lose it, exclusions by it are dropped."""
+    if isinstance(node, Map):
+        return node.without(key) if len(node.entries) > 1 else None
+    assert isinstance(node, List)
+    kept = [item for item in node.items if not _mentions(item, key)]
+    if section == "include":
+        kept = [item.without(key) if isinstance(item, Map) else item for item in node.items]
+        kept = [item for item in kept if not isinstance(item, Map) or item.entries]
+    return List(tuple(kept), node.place) if kept else None

@@ -1,0 +1,164 @@
+"""Physical quantities: a number in an SI unit that remembers how it was written and where it comes from."""
+
+import math
+import re
+import unicodedata
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Final, Self
+
+from uictest.core.units import KINDS, Kind
+from uictest.plans.scenario.yaml.wording import nearest, quoted
+
+SCENARIO_SOURCE: Final = "scenario"
+"""Source of a number that a user wrote in a scenario."""
+DEFAULT_SOURCE: Final = "default"
+"""Source of a number that nobody wrote: the default of a field."""
+
+# Bounded digits and exponent: an exact fraction of 1e999999999 would fill the memory.
+NUMBER_PATTERN: Final = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
+_WRITTEN = re.compile(rf"\s*({NUMBER_PATTERN})(?![0-9.])\s*(\S.*)?", re.DOTALL)
+_NOT_FINITE = re.compile(r"\s*[-+]?\.?(?:nan|inf|infinity)\b", re.IGNORECASE)
+_DECIMAL_COMMA = re.compile(r"\s*[-+]?[0-9]+,[0-9]+")
+
+
+class Quantity(float):
+    """A float in its canonical SI unit.
+
+    ``text`` is the value as written, ``unit`` the canonical unit, ``source`` a key of the part's ``sources``
+    or ``"scenario"`` or ``"default"``.
+    """
+
+    __slots__ = ("source", "text", "unit")
+
+    text: str
+    unit: str
+    source: str
+
+    def __new__(cls, value: float, text: str, unit: str, source: str = SCENARIO_SOURCE) -> Self:
+        """A quantity of ``value`` in the canonical ``unit``, written as ``text``."""
+        quantity = super().__new__(cls, value)
+        quantity.text = text
+        quantity.unit = unit
+        quantity.source = source
+        return quantity
+
+    def __getnewargs__(self) -> tuple[float, str, str, str]:  # type: ignore[override]
+        return float(self), self.text, self.unit, self.source
+
+
+class QuantityError(ValueError):
+    """A text that is not a quantity of the kind asked for; ``hint`` says what would be accepted."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+Accepts = Callable[[float], bool]
+"""Whether a value, in the canonical unit, is in the range of its field."""
+
+
+def parse_quantity(
+    text: str, kind: str, source: str = SCENARIO_SOURCE, accepts: Accepts = math.isfinite
+) -> Quantity:
+    """Read ``text`` (number and unit, blanks between them optional) as a quantity of the named kind.
+
+    ``accepts`` decides which units the hint names when there is none. Raises QuantityError when the text is
+    no such quantity.
+    """
+    accepted = KINDS[kind]
+    number, symbol = _split(text, accepted)
+    value = _canonical(number, symbol, accepted, text, accepts)
+    if not math.isfinite(value):
+        raise QuantityError(f"{quoted(text)} is not a finite number")
+    return Quantity(value, text.strip(), accepted.canonical, source)
+
+
+def _split(text: str, kind: Kind) -> tuple[Fraction, str]:
+    match = _WRITTEN.fullmatch(text)
+    if match is None or _DECIMAL_COMMA.match(text):
+        raise _not_a_number(text, kind)
+    return Fraction(match[1]), " ".join((match[2] or "").split())
+
+
+def _not_a_number(text: str, kind: Kind) -> QuantityError:
+    if _NOT_FINITE.match(text):
+        return QuantityError(f"{quoted(text)} is not a finite number", f"write {example(kind)}")
+    if _DECIMAL_COMMA.match(text):
+        return QuantityError(
+            f"{quoted(text)} is not a number", f"write {quoted(text.replace(',', '.'))}, with a decimal point"
+        )
+    return QuantityError(f"{quoted(text)} is not {described(kind)}", f"write {example(kind)}")
+
+
+def _canonical(number: Fraction, symbol: str, kind: Kind, text: str, accepts: Accepts) -> float:
+    if kind.bare:
+        if symbol:
+            ratio = KINDS["share"].units.get(symbol)
+            bare = _as_float(number if ratio is None else number * ratio.factor)
+            hint = f"write {bare:.10g}" if accepts(bare) else f"write {example(kind)}"
+            raise QuantityError(f"{quoted(text)} has a unit where a bare number belongs", hint)
+        return _as_float(number)
+    if not symbol:
+        raise QuantityError(
+            f"{quoted(text)} has no unit", _hint_for_bare(text.strip(), number, kind, accepts)
+        )
+    unit = kind.units.get(symbol)
+    if unit is None:
+        raise QuantityError(
+            f"unknown unit {quoted(symbol)} for {described(kind)}", _hint_for_unit(symbol, kind)
+        )
+    return _as_float(number * unit.factor + unit.offset)
+
+
+def _as_float(number: Fraction) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf
+
+
+def _hint_for_bare(text: str, number: Fraction, kind: Kind, accepts: Accepts) -> str:
+    """The units with which the number is in range, the most usual first; a share up to one is a ratio."""
+    usual = next(iter(kind.units.values()))
+    if kind.canonical == "1" and 0 < abs(number) <= 1 and accepts(_as_float(number)):
+        ratio = _as_float(number / usual.factor)
+        return f"write `{ratio:.10g} {usual.symbol}` (a bare {text} is ambiguous)"
+    in_range = [
+        f"`{text} {unit.symbol}`"
+        for unit in kind.units.values()
+        if unit.symbol != "1" and accepts(_as_float(number * unit.factor + unit.offset))
+    ]
+    return "write " + (" or ".join(in_range[:2]) or example(kind))
+
+
+def _hint_for_unit(symbol: str, kind: Kind) -> str:
+    accepted = "accepted: " + ", ".join(kind.units)
+    plain = _plain(symbol)
+    alike = [
+        unit.symbol for unit in kind.units.values() if plain in map(_plain, (unit.symbol, *unit.misspellings))
+    ]
+    guesses = alike or [each for each in (nearest(symbol, kind.units),) if each]
+    return f"did you mean {' or '.join(map(quoted, guesses))}? {accepted}" if guesses else accepted
+
+
+def _plain(symbol: str) -> str:
+    """The symbol less what people write differently: case, blanks, dots, powers."""
+    return re.sub(r"[\s*^·⋅.]", "", unicodedata.normalize("NFKC", symbol)).casefold()
+
+
+def described(kind: Kind) -> str:
+    """What a quantity of this kind is called in a message."""
+    if kind.bare:
+        return "a whole number" if kind.name == "count" else "a number"
+    article = "an" if kind.name[0] in "aeiou" else "a"
+    return f"{article} {kind.name}"
+
+
+def example(kind: Kind) -> str:
+    """A short text saying how a quantity of this kind is written."""
+    if kind.bare:
+        return "a bare number such as 4" if kind.name == "count" else "a bare number such as 0.1"
+    return f"a number with a unit ({', '.join(kind.units)})"

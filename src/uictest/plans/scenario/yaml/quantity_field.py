@@ -1,0 +1,169 @@
+"""Fields that are quantities: their validation by pydantic and their JSON Schema."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from operator import ge, gt, le, lt
+from typing import Any, Final
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from uictest.core.units import KINDS, Kind
+from uictest.plans.scenario.yaml.quantities import (
+    DEFAULT_SOURCE,
+    NUMBER_PATTERN,
+    SCENARIO_SOURCE,
+    Quantity,
+    QuantityError,
+    described,
+    example,
+    parse_quantity,
+)
+from uictest.plans.scenario.yaml.wording import quoted
+
+QUANTITY_KEYWORD: Final = "x-quantity"
+"""Keyword that stands for the definition of a kind while a JSON Schema is put together."""
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityField:
+    """Annotation of a field that is a quantity of one ``kind`` (speed, pressure, ...), within bounds."""
+
+    kind: Kind
+    above: Quantity | None = None
+    at_least: Quantity | None = None
+    at_most: Quantity | None = None
+    below: Quantity | None = None
+
+    def validate(self, value: object) -> Quantity:
+        """The quantity of a text, a number, or a mapping of value and source."""
+        try:
+            return self._within(self._read(value))
+        except QuantityError as error:
+            raise PydanticCustomError("quantity", "{message}", _context(error)) from None
+
+    def _read(self, value: object) -> Quantity:
+        if isinstance(value, Quantity):
+            return self._adopt(value)
+        if isinstance(value, dict):
+            return self._read_marked(value)
+        if isinstance(value, str) or (isinstance(value, int | float) and not isinstance(value, bool)):
+            text = getattr(value, "text", str(value))
+            return parse_quantity(text, self.kind.name, accepts=self._accepts)
+        raise QuantityError(f"expected {described(self.kind)}", f"write {example(self.kind)}")
+
+    def _read_marked(self, value: dict[str, object]) -> Quantity:
+        source = value.get("source")
+        if set(value) != {"value", "source"} or not isinstance(source, str):
+            raise QuantityError(
+                f"expected {described(self.kind)}, found a mapping",
+                f"write {example(self.kind)}, or a mapping of 'value' and 'source'",
+            )
+        bare = self._read(value["value"])
+        return Quantity(float(bare), bare.text, bare.unit, source)
+
+    def _adopt(self, value: Quantity) -> Quantity:
+        if value.unit != self.kind.canonical:
+            raise QuantityError(
+                f"{quoted(value.text)} is not {described(self.kind)}", f"write {example(self.kind)}"
+            )
+        return value
+
+    def _within(self, value: Quantity) -> Quantity:
+        if self.kind.name == "count" and not value.is_integer():
+            raise QuantityError(f"{quoted(value.text)} is not a whole number")
+        for words, bound, keeps in self._bounds():
+            if not keeps(value, bound):
+                raise QuantityError(
+                    f"{value.text} is out of range: it must be {words} {bound.text}", self._range()
+                )
+        return value
+
+    def _accepts(self, value: float) -> bool:
+        return all(keeps(value, bound) for _, bound, keeps in self._bounds())
+
+    def _bounds(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
+        named = (
+            ("above", self.above, gt),
+            ("at least", self.at_least, ge),
+            ("at most", self.at_most, le),
+            ("below", self.below, lt),
+        )
+        return [(words, bound, keeps) for words, bound, keeps in named if bound is not None]
+
+    def _range(self) -> str:
+        return "accepted: " + " and ".join(f"{words} {bound.text}" for words, bound, _ in self._bounds())
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self.validate,
+            serialization=core_schema.plain_serializer_function_ser_schema(written),
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        return self.value_or_marked() if self.kind.bare else {QUANTITY_KEYWORD: self.kind.name}
+
+    def value_or_marked(self) -> dict[str, Any]:
+        """JSON Schema of the value alone, or of a mapping of value and source."""
+        value = self._value_schema()
+        marked = {
+            "type": "object",
+            "description": "A value with its source.",
+            "properties": {
+                "value": {**value, "description": "The value itself."},
+                "source": {"type": "string", "description": "A key of the part's `sources`."},
+            },
+            "required": ["value", "source"],
+            "additionalProperties": False,
+        }
+        return {"anyOf": [value, marked]}
+
+    def _value_schema(self) -> dict[str, Any]:
+        if self.kind.bare:
+            return {"type": "integer" if self.kind.name == "count" else "number", **self._numeric_bounds()}
+        units = "|".join(re.escape(symbol).replace(r"\ ", r"\s+") for symbol in self.kind.units)
+        return {"type": "string", "pattern": rf"^\s*{NUMBER_PATTERN}\s*(?:{units})\s*$"}
+
+    def _numeric_bounds(self) -> dict[str, float]:
+        named = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.at_least,
+            "maximum": self.at_most,
+            "exclusiveMaximum": self.below,
+        }
+        return {keyword: float(bound) for keyword, bound in named.items() if bound is not None}
+
+
+def written(quantity: Quantity) -> str | dict[str, str]:
+    """The quantity as a file would write it; reads back as the same quantity."""
+    if quantity.source in (SCENARIO_SOURCE, DEFAULT_SOURCE):
+        return quantity.text
+    return {"value": quantity.text, "source": quantity.source}
+
+
+def of_kind(
+    name: str,
+    *,
+    above: str | None = None,
+    at_least: str | None = None,
+    at_most: str | None = None,
+    below: str | None = None,
+) -> QuantityField:
+    """Return the annotation of a field: a quantity of the named kind, within bounds like ``"4 bar"``."""
+
+    def bound(text: str | None) -> Quantity | None:
+        return None if text is None else parse_quantity(text, name)
+
+    return QuantityField(KINDS[name], bound(above), bound(at_least), bound(at_most), bound(below))
+
+
+def default(text: str, name: str) -> Quantity:
+    """The default of a field, written as a user would write it."""
+    return parse_quantity(text, name, DEFAULT_SOURCE)
+
+
+def _context(error: QuantityError) -> dict[str, Any]:
+    return {"message": error.message, "hint": error.hint}

@@ -1,0 +1,104 @@
+"""Bytes on disk to documents: bounded in size, UTF-8, hashed."""
+
+import hashlib
+import os
+from pathlib import Path
+from typing import Final
+
+from uictest.plans import library
+from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, single_error
+from uictest.plans.scenario.yaml.parsing import parse
+from uictest.plans.scenario.yaml.tree import Document, Map, Place
+
+LARGEST: Final = 256 * 1024
+"""Largest file that is read, bytes."""
+LIBRARY: Final = "library:"
+"""How the shown name of a library file begins."""
+_BEGINNING: Final = "start with `schema: uictest/scenario/1`"
+
+
+def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
+    """The tree of a YAML file; ``beginning`` is the hint for an empty file. Raises ScenarioErrors."""
+    display = display_name(path)
+    if not _is_unicode(display):
+        raise single_error(
+            whole_file(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
+        )
+    return _tree(display, path.parent, _content(path), beginning)
+
+
+def read_document(path: Path, largest: int, hint: str) -> Document:
+    """The text of a file of at most ``largest`` bytes, whatever it holds. Raises ScenarioErrors.
+
+    ``hint`` is shown for a larger file.
+    """
+    display, content = display_name(path), _content(path, largest, hint)
+    return Document(display, path.parent, _decoded(display, path.parent, content))
+
+
+def read_library(folder: str, name: str) -> Map:
+    """The tree of a library file."""
+    return _tree(f"{LIBRARY}{folder}/{name}.yaml", Path(), library.content(folder, name))
+
+
+def display_name(path: Path) -> str:
+    """The path as messages and manifests show it: relative to the working folder where it lies below it."""
+    absolute = Path(os.path.abspath(path))  # noqa: PTH100 - resolve() would follow links and rename what the user typed
+    working = Path.cwd()
+    shown = (
+        absolute.relative_to(working) if absolute.is_relative_to(working) else Path(os.path.normpath(path))
+    )
+    return shown.as_posix()
+
+
+def _is_unicode(name: str) -> bool:
+    # Bytes of a name that are no UTF-8 come from the system as lone surrogates.
+    return not any("\ud800" <= char <= "\udfff" for char in name)
+
+
+def whole_file(path: Path) -> Place:
+    """The place of an error of a file as a whole."""
+    return Place(Document(display_name(path), path.parent, ""))
+
+
+def unreadable_error(place: Place, error: Exception) -> ScenarioErrors:
+    """The error of a file that the operating system cannot read."""
+    return single_error(place, f"cannot be read: {getattr(error, 'strerror', None) or error}")
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a file to read; False for names that no file can have."""
+    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for names that are too long
+
+
+def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario file?") -> bytes:
+    try:
+        if not is_file(path):
+            raise single_error(whole_file(path), "not a file" if os.path.lexists(path) else "no such file")
+        with path.open("rb") as file:
+            content = file.read(largest + 1)
+    except (OSError, ValueError) as error:
+        raise unreadable_error(whole_file(path), error) from None
+    if len(content) > largest:
+        raise single_error(whole_file(path), f"larger than {largest // 1024} KiB", hint=hint)
+    return content
+
+
+def _tree(display: str, folder: Path, content: bytes, beginning: str = _BEGINNING) -> Map:
+    document = Document(
+        display, folder, _decoded(display, folder, content), hashlib.sha256(content).hexdigest()
+    )
+    root = parse(document, beginning=beginning)
+    if not isinstance(root, Map):
+        raise single_error(root.place, "the file must contain a mapping of keys to values", hint=beginning)
+    return root
+
+
+def _decoded(display: str, folder: Path, content: bytes) -> str:
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        readable = Document(display, folder, content[: error.start].decode("utf-8"))
+        place = Place(readable, len(readable.lines), len(readable.lines[-1]) + 1)
+        byte = f"0x{content[error.start]:02x}"
+        raise single_error(place, f"byte {byte} is not UTF-8 text", hint="save the file as UTF-8") from None

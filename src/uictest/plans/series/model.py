@@ -1,0 +1,134 @@
+"""The models of a series file: the dry and the wet stops, and how they are judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field
+
+from uictest.plans.scenario import Criteria, RequirementId, RequirementIds, Slug, repeated_requirements
+from uictest.plans.scenario.yaml import (
+    Inconsistency,
+    Model,
+    PartReference,
+    Quantity,
+    default,
+    of_kind,
+    quoted,
+)
+
+SERIES_SCHEMA: Final = "uictest/series/1"
+DEFAULT_CRITERIA: Final = "uictest-wsp"
+
+
+def _entries(content: object) -> object:
+    """Return the entries of a list, or of one entry alone; a text is the scenario of an entry."""
+    entries = content if isinstance(content, list | tuple) else (content,)
+    return tuple({"scenario": each} if isinstance(each, str) else each for each in entries)
+
+
+class Stops(Model):
+    """Stops of one scenario, simulated or recorded."""
+
+    scenario: str = Field(description="Relative path of the scenario.")
+    set: dict[str, Any] = Field(
+        default={},
+        description="Values by dotted key of the scenario; a list makes one stop for each of its values.",
+    )
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
+        default=None, description="How often each stop is repeated under further seeds."
+    )
+    recordings: tuple[str, ...] = Field(
+        default=(), description="Relative paths of recorded stops, for `uictest evaluate`."
+    )
+    map: str = Field(
+        default="uictest", description="Channel map of the recordings: a preset or a relative path."
+    )
+
+
+StopsField = Annotated[tuple[Stops, ...], BeforeValidator(_entries)]
+
+
+class SeriesFile(Model):
+    """A dry reference and wet stops, judged together."""
+
+    schema_id: Literal["uictest/series/1"] = Field(
+        alias="schema", description="What the file holds and in which version: uictest/series/1."
+    )
+    name: Slug = Field(
+        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
+    )
+    title: str = Field(
+        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+    )
+    description: str = Field(
+        default="",
+        max_length=5000,
+        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
+        description="What the series is for.",
+    )
+    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select series (-m).")
+    requirements: RequirementIds = Field(
+        default=(), description="Ids of the requirements that the series verifies."
+    )
+    test_case: RequirementId | None = Field(
+        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+    )
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
+        default=None, description="How often each stop is repeated under further seeds."
+    )
+    set: dict[str, Any] = Field(
+        default={}, description="Values by dotted key of the scenarios, for all stops of the series."
+    )
+    dry: StopsField = Field(
+        description="The reference: scenarios of dry stops, at least one for each initial speed."
+    )
+    wet: StopsField = Field(description="Scenarios of stops on a slippery rail.")
+    criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, DEFAULT_CRITERIA, several=True)] = (
+        Field(description="One profile of criteria or a list of them.")
+    )
+    valid_stops: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
+        default=default("80 %", "share"),
+        description="Least share of the wet stops from each speed that must count for a verdict.",
+    )
+    speed_tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
+        default=default("3 km/h", "speed"),
+        description="Largest deviation of an initial speed that counts: distances are not corrected for it.",
+    )
+    confidence: Annotated[Quantity, of_kind("share", at_least="50 %", at_most="99.99 %")] = Field(
+        default=default("95 %", "share"), description="Confidence of the intervals."
+    )
+    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
+        default="pass", description="The expected outcome; fail is for series that must not pass."
+    )
+    matrix: dict[str, Any] | None = Field(
+        default=None,
+        description="Lists of values by dotted key; every combination is a series of its own.",
+    )
+    zip: dict[str, Any] | None = Field(
+        default=None, description="Lists of equal length by dotted key; values at the same place make one."
+    )
+    include: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Further series, each a mapping of dotted keys to values."
+    )
+    exclude: tuple[dict[str, Any], ...] | None = Field(
+        default=None, description="Series to leave out: those with exactly these values."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield requirements named twice, empty lists of stops, and criteria of the same name."""
+        yield from repeated_requirements(self.requirements)
+        for name in ("dry", "wet"):
+            if not getattr(self, name):
+                yield Inconsistency((name,), "an empty list", "name at least one scenario")
+        seen: dict[str, str] = {}
+        for number, profile in enumerate(self.criteria):
+            for index, criterion in enumerate(profile.criteria):
+                if criterion.id in seen:
+                    message = (
+                        f"criterion {quoted(criterion.id)} is in profile {quoted(seen[criterion.id])} as well"
+                    )
+                    key = ("criteria", number, "criteria", index, "id")
+                    yield Inconsistency(key, message, "leave one profile out")
+            seen |= {criterion.id: profile.name for criterion in profile.criteria}

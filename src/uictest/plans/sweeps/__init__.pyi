@@ -1,0 +1,42 @@
+from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
+from .controllers import (
+    CONTROLLER as CONTROLLER,
+    programs_of as programs_of,
+)
+from .decimal_quantity import (
+    DecimalQuantity as DecimalQuantity,
+    common_unit as common_unit,
+    parse_decimal_quantity as parse_decimal_quantity,
+    quantity_text as quantity_text,
+    rounded_decimal as rounded_decimal,
+)
+from .definition import (
+    load_sweep as load_sweep,
+)
+from .nominal import (
+    drawn_ranges as drawn_ranges,
+    nominal_plan as nominal_plan,
+)
+from .plan import (
+    Group as Group,
+    ListedGroup as ListedGroup,
+    ParameterDraw as ParameterDraw,
+    Plan as Plan,
+    random_sample as random_sample,
+    saltelli_sample as saltelli_sample,
+    scenarios_with_each as scenarios_with_each,
+)
+from .scenario_values import (
+    inconsistencies as inconsistencies,
+    is_free as is_free,
+    with_values as with_values,
+)
+from .schema import (
+    sweep_schema as sweep_schema,
+)
+from .survey import (
+    REGULAR_STEP as REGULAR_STEP,
+    SURVEY_STEP as SURVEY_STEP,
+    in_survey_steps as in_survey_steps,
+)
+from .tail_model import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest

@@ -1,0 +1,97 @@
+"""The nominal case of a sample: the scenario's own values of the drawn parameters, beside their ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+from uictest.plans.scenario import Scenario, wheelset_value
+from uictest.plans.scenario.yaml import Quantity, parse_quantity
+from uictest.plans.sweeps.column import ParameterValue
+from uictest.plans.sweeps.plan import (
+    ListedGroup,
+    ParameterDraw,
+    Plan,
+    SampledGroup,
+    random_sample,
+    saltelli_sample,
+)
+from uictest.plans.sweeps.scenario_values import value_at
+
+_OF_WHEELSETS: Final = "vehicle.wheelsets."
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnRange:
+    """The bounds of a distribution, as written, and the value of the scenario itself."""
+
+    key: str
+    low: Quantity
+    high: Quantity
+    nominal: Quantity
+
+    @property
+    def contains_nominal(self) -> bool:
+        """Whether the scenario's own value can be drawn."""
+        return self.low <= self.nominal <= self.high
+
+    def __str__(self) -> str:
+        """Return one sentence."""
+        lies = "lies inside" if self.contains_nominal else "lies OUTSIDE"
+        return (
+            f"{self.key}: the scenario's own {self.nominal.text} {lies} the range"
+            f" {_shown(self.low)} .. {_shown(self.high)}"
+        )
+
+
+def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
+    """Yield the ranges of a sample whose results refer to the nominal case; a choice from a list has none.
+
+    These are samples for sensitivities, and for K_dry unless the nominal deceleration is stated.
+    """
+    sample = saltelli_sample(plan) or (random_sample(plan) if has_nominal_case(plan) else None)
+    for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
+        nominal = _nominal_value(plan.base.scenario, key)
+        if not draw.choices and isinstance(nominal, Quantity):
+            yield DrawnRange(key, *_bounds(draw), nominal)
+
+
+def has_nominal_case(plan: Plan) -> bool:
+    """Return whether the nominal case is needed: for K_dry without a stated nominal deceleration."""
+    return plan.k_dry is not None and plan.k_dry.nominal is None
+
+
+def nominal_plan(plan: Plan) -> Plan:
+    """Return the plan in which the scenario's own values replace those of the sample, its last group.
+
+    It has one case for each combination of the other groups, in their order.
+    """
+    *others, sample = plan.groups
+    assert isinstance(sample, SampledGroup)
+    values = [value_at(plan.base.scenario, key) for key in sample.keys]
+    row = tuple(ParameterValue(_text(value), value, "nominal") for value in values)
+    return replace(plan, groups=(*others, ListedGroup(sample.keys, (row,))))
+
+
+def _nominal_value(scenario: Scenario, key: str) -> Any:
+    """Return a value of the scenario; where a wheelset has none of its own, the regular one."""
+    value = value_at(scenario, key)
+    if value is None and key.startswith(_OF_WHEELSETS):
+        number, _, name = key.removeprefix(_OF_WHEELSETS).partition(".")
+        return wheelset_value(scenario, int(number), name)
+    return value
+
+
+def _text(value: Any) -> str:
+    return value.text if isinstance(value, Quantity) else str(getattr(value, "name", value))
+
+
+def _shown(quantity: Quantity) -> str:
+    number, _, unit = quantity.text.partition(" ")
+    return f"{float(number):g} {unit}".rstrip()
+
+
+def _bounds(draw: ParameterDraw) -> tuple[Quantity, Quantity]:
+    low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
+    return low, high

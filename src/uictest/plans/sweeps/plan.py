@@ -1,0 +1,223 @@
+"""The plan of a sweep: the values of each case, as a function of the number of the case alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from uictest.plans.scenario import Case, Scenario
+from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
+from uictest.plans.sweeps.model import Distribution, Method
+from uictest.plans.sweeps.scenario_values import with_values
+from uictest.plans.sweeps.tail_model import KDryRequest, QuantileRequest
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Numbers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class ListedGroup:
+    """Listed rows of values of parameters that change together; usually of one parameter."""
+
+    keys: tuple[str, ...]
+    rows: tuple[tuple[ParameterValue, ...], ...]
+
+    @property
+    def size(self) -> int:
+        """Number of rows."""
+        return len(self.rows)
+
+    @property
+    def choices(self) -> tuple[tuple[ParameterValue, ...], ...]:
+        """The values of each parameter in all rows."""
+        return tuple(zip(*self.rows, strict=True))
+
+    def at(self, numbers: Numbers) -> list[Column]:
+        """Return the values of each parameter in the rows of the given numbers."""
+        return [column.take(numbers) for column in self._columns]
+
+    @cached_property
+    def _columns(self) -> list[Column]:
+        return [listed_column(choices) for choices in self.choices]
+
+    def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
+        """Return the part of a case id for the rows of the given numbers."""
+        distinct, places = _distinct(numbers)
+        labels = [
+            ",".join(f"{short[key]}={value.label}" for key, value in zip(self.keys, row, strict=True))
+            for row in (self.rows[k] for k in distinct)
+        ]
+        return [labels[place] for place in places.tolist()]
+
+
+@dataclass(frozen=True)
+class ParameterDraw:
+    """The distribution of one parameter: of numbers with a unit, or a choice among values.
+
+    `kind` is the kind of quantity, empty for plain numbers that no part of the rig reads.
+    """
+
+    distribution: Distribution
+    unit: str = ""
+    kind: str = ""
+    choices: tuple[ParameterValue, ...] = ()
+
+    def values(self, probabilities: NDArray[np.float64]) -> Column:
+        """Return the quantiles for the given probabilities (0 up to 1)."""
+        from uictest.plans.sweeps.distribution import quantile  # numpy, which checking a sweep does not need
+
+        numbers = quantile(self.distribution)(probabilities)
+        if self.choices:
+            return listed_column(self.choices).take(numbers.astype(int))
+        return drawn_column(numbers, self.unit, self.kind)
+
+
+@dataclass(frozen=True)
+class SampledGroup:
+    """Parameters drawn together, point by point."""
+
+    keys: tuple[str, ...]
+    draws: tuple[ParameterDraw, ...]
+    method: Method
+    size: int
+    points: int
+    seed: int
+
+    @property
+    def choices(self) -> tuple[tuple[ParameterValue, ...], ...]:
+        """The values that each parameter is chosen from, none where numbers are drawn."""
+        return tuple(draw.choices for draw in self.draws)
+
+    def at(self, numbers: Numbers) -> list[Column]:
+        """Return the values of each parameter in the rows of the given numbers."""
+        from uictest.plans.sweeps.sampling import points  # numpy, which checking a sweep does not need
+
+        drawn = points(self.method, self.points, len(self.keys), self.seed, numbers)
+        return [draw.values(drawn[:, place]) for place, draw in enumerate(self.draws)]
+
+    def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
+        """Return the part of a case id for the rows of the given numbers."""
+        return [f"sample={k}" for k in numbers.tolist()]
+
+
+Group = ListedGroup | SampledGroup
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All cases of a sweep: every combination of the rows of its groups, those of the first group slowest."""
+
+    name: str
+    title: str
+    file: str
+    """The sweep file, as shown to users."""
+    base: Case
+    """The case whose values are varied."""
+    groups: tuple[Group, ...]
+    short: dict[str, str]
+    """The name of each key in case ids."""
+    inputs: dict[str, str] = field(default_factory=dict)
+    """SHA-256 of every file read, by the name shown to users."""
+    quantiles: tuple[QuantileRequest, ...] = ()
+    k_dry: KDryRequest | None = None
+    survey: bool = False
+    """Whether its cases are simulated in survey steps, except where a verdict might hang on it."""
+    cases_sha256: str = ""
+    """SHA-256 of what the sweep file says of its cases, which `quantiles` and `k_dry` do not change."""
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        return math.prod(group.size for group in self.groups)
+
+    @cached_property
+    def keys(self) -> tuple[str, ...]:
+        """The dotted keys that vary."""
+        return tuple(key for group in self.groups for key in group.keys)
+
+    @cached_property
+    def numeric_keys(self) -> tuple[str, ...]:
+        """The keys whose values are all numbers."""
+        choices = (values for group in self.groups for values in group.choices)
+        return tuple(key for key, values in zip(self.keys, choices, strict=True) if _is_numeric(values))
+
+    def rows(self, indices: Numbers) -> list[Numbers]:
+        """Return for each group which of its rows the cases with the given indices have."""
+        rows: list[Numbers] = []
+        for group in reversed(self.groups):
+            rows.append(indices % group.size)
+            indices = indices // group.size
+        return rows[::-1]
+
+    def settings(self, indices: Numbers) -> dict[str, Column]:
+        """Return the values of the cases with the given indices, by key."""
+        columns: dict[str, Column] = {}
+        for group, rows in zip(self.groups, self.rows(indices), strict=True):
+            columns.update(zip(group.keys, group.at(rows), strict=True))
+        return columns
+
+    def ids(self, indices: Numbers) -> list[str]:
+        """Return the ids of the cases with the given indices: unique, and the same in every run."""
+        labels_by_group = [
+            group.labels(rows, self.short)
+            for group, rows in zip(self.groups, self.rows(indices), strict=True)
+        ]
+        return [f"{self.name}[{','.join(labels)}]" for labels in zip(*labels_by_group, strict=True)]
+
+    def listed(self) -> dict[str, tuple[ParameterValue, ...]]:
+        """Return the values of every parameter that has a group of its own."""
+        return {
+            group.keys[0]: group.choices[0]
+            for group in self.groups
+            if isinstance(group, ListedGroup) and len(group.keys) == 1
+        }
+
+
+def saltelli_sample(plan: Plan) -> SampledGroup | None:
+    """Return the sample of a plan that Sobol indices can be computed from, None where there is none."""
+    last = plan.groups[-1]
+    return last if isinstance(last, SampledGroup) and last.method == "saltelli" else None
+
+
+def random_sample(plan: Plan) -> SampledGroup | None:
+    """Return the sample of independent draws that quantiles can be bounded from, None where there is none."""
+    last = plan.groups[-1]
+    return last if isinstance(last, SampledGroup) and last.method == "random" else None
+
+
+def scenarios_with_each(plan: Plan, key: str) -> Iterator[Scenario]:
+    """Yield the base's scenario with each value that sets what stands at `key`; itself where none does."""
+    setting = [each for each in plan.keys if f"{key}.".startswith(f"{each}.")]
+    for each in setting:
+        for value in _values(plan, each):
+            yield with_values(plan.base.scenario, {each: value.content})
+    if not setting:
+        yield plan.base.scenario
+
+
+def _values(plan: Plan, key: str) -> Iterator[ParameterValue]:
+    group = next(group for group in plan.groups if key in group.keys)
+    place = group.keys.index(key)
+    if isinstance(group, ListedGroup):
+        yield from (row[place] for row in group.rows)
+    else:
+        yield from group.draws[place].choices
+
+
+def _is_numeric(values: Sequence[ParameterValue]) -> bool:
+    """Return whether all values are numbers, as drawn ones are, which are not listed."""
+    return all(isinstance(value.content, float | int) for value in values)
+
+
+def _distinct(numbers: Numbers) -> tuple[list[int], Numbers]:
+    """Return the distinct numbers, and the place among them of each number."""
+    import numpy as np
+
+    distinct, places = np.unique(numbers, return_inverse=True)
+    return distinct.tolist(), places

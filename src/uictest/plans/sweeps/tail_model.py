@@ -1,0 +1,96 @@
+"""The models of what a sweep file asks of its draws: quantiles of measures, and K_dry."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Final
+
+from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
+
+from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS, StopColumn, column_unit
+from uictest.core.statistics import Side
+from uictest.plans.scenario import WHEELSET_NUMBERS
+from uictest.plans.scenario.yaml import Model, Quantity, default, of_kind, quoted, suggestion
+
+DECELERATION: Final = "m/s2"
+_COLUMNS: Final = frozenset(
+    {*STOP_COLUMNS, *(f"{name}_{number}" for name in WHEELSET_COLUMNS for number in WHEELSET_NUMBERS)}
+)
+_COLUMN_OF: Final = {
+    name: each.column.name for name, each in MEASURES.items() if isinstance(each.column, StopColumn)
+}
+
+
+def _column(name: str) -> str:
+    """Return the column that a measure of a stop, or the name of a column, stands for."""
+    column = _COLUMN_OF.get(name, name)
+    if column not in _COLUMNS:
+        hint = suggestion(name, {*_COLUMN_OF, *_COLUMNS})
+        context = {"message": f"no measure {quoted(name)}", "hint": hint}
+        raise PydanticCustomError("measure", "{message}", context)
+    return column
+
+
+def _deceleration(column: str) -> str:
+    if (unit := column_unit(column)) != DECELERATION:
+        decelerations = (name for name in _COLUMN_OF if column_unit(_COLUMN_OF[name]) == DECELERATION)
+        context = {
+            "message": f"{column} is no deceleration in {DECELERATION}: its unit is {unit}",
+            "hint": f"K_dry is a ratio of decelerations, such as {', '.join(decelerations)}",
+        }
+        raise PydanticCustomError("measure", "{message}", context)
+    return column
+
+
+Column = Annotated[str, AfterValidator(_column)]
+Level = Annotated[Quantity, of_kind("share", above="0 %", below="100 %")]
+Confidence = Annotated[Quantity, of_kind("share", at_least="50 %", below="100 %")]
+_CONFIDENCE: Final = default("95 %", "share")
+
+
+class QuantileRequest(Model):
+    """Quantiles of one measure, bounded by order statistics of the draws."""
+
+    measure: Column = Field(description="A measure of the stop, or a column of summary.csv.")
+    levels: tuple[Level, ...] = Field(
+        min_length=1,
+        max_length=100,
+        description="List of the shares of stops that lie at or below the quantiles.",
+        examples=[["0.1 %", "1 %", "50 %"]],
+    )
+    confidence: Confidence = Field(default=_CONFIDENCE, description="Confidence of each bound.")
+    side: Side | None = Field(
+        default=None,
+        description="Bounds to compute; if left out, lower for levels below 50 %, upper above, both at 50 %.",
+    )
+
+    def side_of(self, level: float) -> Side:
+        """Return which bounds the quantile of a level gets: those on its tail unless stated otherwise."""
+        if self.side is not None:
+            return self.side
+        return "both" if level == 0.5 else "lower" if level < 0.5 else "upper"
+
+
+class KDryRequest(Model):
+    """K_dry: the share of its nominal deceleration that a train reaches on dry rail, by confidence level."""
+
+    measure: Annotated[Column, AfterValidator(_deceleration)] = Field(
+        default="developed_deceleration_mps2",
+        description="The deceleration: a measure of the stop, or a column of summary.csv, in m/s2.",
+    )
+    nominal: Annotated[Quantity, of_kind("acceleration", above="0 m/s2", at_most="10 m/s2")] | None = Field(
+        default=None,
+        description="The nominal deceleration; if left out, that of the scenario with its own values.",
+    )
+    confidence: Confidence = Field(default=_CONFIDENCE, description="Confidence of each bound.")
+
+
+def _form(value: Any) -> str:
+    return "several" if isinstance(value, list | tuple) else "one"
+
+
+Quantiles = Annotated[
+    Annotated[QuantileRequest, Tag("one")] | Annotated[tuple[QuantileRequest, ...], Tag("several")],
+    Discriminator(_form),
+]
+"""One request, or a list of requests."""

@@ -1,0 +1,1 @@
+"""Data of real trains: recordings read and judged, and the friction of the rail fitted to them."""

@@ -1,0 +1,207 @@
+"""The channel map: the meaning and unit of every channel of a file, and how the record is prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator, Field
+
+from uictest.core.recording.formats import Dialect
+from uictest.core.units import recorded_spellings, recorded_unit_size
+from uictest.plans import library
+from uictest.plans.scenario import Files, Roots, is_path
+from uictest.plans.scenario.yaml import (
+    Inconsistency,
+    Map,
+    Model,
+    Quantity,
+    Scalar,
+    default,
+    inherit,
+    of_kind,
+    plain,
+    quoted,
+    read_file,
+    single_error,
+    suggestion,
+    validated,
+)
+from uictest.recorded.field_data.channels import CHANNEL_UNITS, WHEELSETS
+
+SCHEMA: Final = "uictest/channel-map/1"
+DEFAULT: Final = "uictest"
+NUMBER: Final = "{n}"
+"""Stands for the number of the wheelset, in the name of a channel and in its sources."""
+_USUAL_ENCODINGS: Final = ("utf-8", "cp1252", "latin-1", "utf-16", "cp1250", "cp437", "cp850", "mac_roman")
+_PRESETS: Final = Path(library.__file__).parent / "channel_maps"
+Trigger = Literal["auto", "stated", "start", "command", "demand", "pressure"]
+
+
+def _shorthand(value: object) -> object:
+    return {"source": value} if isinstance(value, str | tuple) else value
+
+
+def _several(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
+
+
+class ChannelSource(Model):
+    """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
+
+    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
+        description="Name in the file, or a list of names: the first one present is used; also group/name."
+    )
+    unit: str = Field(default="", description="Unit of the value; the file's own if left out.")
+    scale: float = Field(default=1.0, allow_inf_nan=False, description="Factor on every sample.")
+    offset: float = Field(default=0.0, allow_inf_nan=False, description="Added after scaling, in `unit`.")
+    sign: Literal[1, -1] = Field(default=1, description="-1 if the file has the opposite sign.")
+    states: dict[str, int] = Field(default={}, description="Name of a state in the file -> its number.")
+
+
+class DialectSection(Model):
+    """How a text file writes its table; lines are counted from one."""
+
+    delimiter: str = Field(default=",", min_length=1, max_length=1, description="Between two cells.")
+    decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
+    thousands: Literal["", ".", ",", "'", " "] = Field(default="", description="Between groups of digits.")
+    header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
+    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: detected, or none.")
+    first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
+    encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield an unknown encoding, and a separator that is also the decimal sign."""
+        try:
+            "".encode(self.encoding)
+        except (LookupError, ValueError):
+            hint = suggestion(self.encoding, _USUAL_ENCODINGS)
+            yield Inconsistency(("encoding",), f"unknown encoding {quoted(self.encoding)}", hint)
+        if self.thousands == self.decimal:
+            yield Inconsistency(("thousands",), f"{quoted(self.thousands)} is already the decimal sign")
+
+
+class Preparation(Model):
+    """Trigger, raster, filter and standstill. No published rule exists for any of them: all are chosen."""
+
+    trigger: Trigger = Field(
+        default="auto",
+        description="What marks the brake command: a time the file states, its start, the brake command, the"
+        " demanded pressure or the first pressure to rise; auto takes the first of these that is recorded.",
+    )
+    trigger_time: Annotated[Quantity, of_kind("time", at_least="-1e10 s", at_most="1e10 s")] | None = Field(
+        default=None, description="Time of the brake command in the file; takes the place of `trigger`."
+    )
+    trigger_lead: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
+        default=default("0 s", "time"),
+        description="Time from the brake command to the event that marks it.",
+    )
+    trigger_pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="10 bar")] = Field(
+        default=default("0.1 bar", "pressure"), description="Rise of a pressure that marks the brake command."
+    )
+    trigger_speed: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
+        default=default("5 km/h", "speed"), description="The train must run faster than this at the trigger."
+    )
+    raster: Annotated[Quantity, of_kind("time", at_least="0.1 ms", at_most="1 s")] = Field(
+        default=default("10 ms", "time"),
+        description="Interval of the samples that are judged; a coarser recording keeps its own.",
+    )
+    low_pass: Annotated[Quantity, of_kind("frequency", above="0 Hz", at_most="100000 Hz")] | None = Field(
+        default=None,
+        description="Corner frequency of a low-pass on every signal, second order, no delay; else none.",
+    )
+    standstill_speed: Annotated[Quantity, of_kind("speed", above="0 km/h", at_most="10 km/h")] = Field(
+        default=default("1 km/h", "speed"),
+        description="Below this speed, if no sample of zero follows, the train is assumed to stop at the"
+        " deceleration of the last half second.",
+    )
+
+
+class ChannelMap(Model):
+    """A channel map as it is written, parents merged in."""
+
+    schema_id: Literal["uictest/channel-map/1"] = Field(alias="schema", description="What the file holds.")
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the map.")
+    title: str = Field(default="", max_length=200, description="One line for people.")
+    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)]] = Field(
+        description="Canonical channel -> where it comes from; {n} stands for each wheelset's number."
+    )
+    csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
+    preparation: Preparation = Field(
+        default=Preparation(), description="How a record is prepared before it is judged."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield unknown channels, and units of another kind than their channel."""
+        for name, source in self.channels.items():
+            of_first = name.replace(NUMBER, str(WHEELSETS[0]))
+            if of_first not in CHANNEL_UNITS:
+                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in CHANNEL_UNITS)
+                yield Inconsistency(
+                    ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
+                )
+            elif source.unit and recorded_unit_size(source.unit, CHANNEL_UNITS[of_first]) is None:
+                yield Inconsistency(
+                    ("channels", name, "unit"),
+                    f"{quoted(source.unit)} is not a unit of {name}",
+                    "accepted: " + ", ".join(recorded_spellings(CHANNEL_UNITS[of_first])),
+                )
+
+    @property
+    def dialect(self) -> Dialect:
+        """The dialect of text files."""
+        return Dialect(**dict(self.csv))
+
+    def sources(self) -> dict[str, ChannelSource]:
+        """Return the source of every channel, one per wheelset; a channel of one wheelset has precedence."""
+        spelled_out: dict[str, ChannelSource] = {}
+        for name, source in self.channels.items():
+            numbers = WHEELSETS if NUMBER in name else ()
+            spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
+        return spelled_out | {name: s for name, s in self.channels.items() if NUMBER not in name}
+
+
+def presets() -> tuple[str, ...]:
+    """Return the names of the channel maps that come with the program."""
+    return tuple(sorted(path.stem for path in _PRESETS.glob("*.yaml")))
+
+
+def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, dict[str, str]]:
+    """Return the map of a preset or file, and the files that were read for it with their SHA-256.
+
+    Parents stay at or below the folder of the map, the working folder and
+    the `trusted` folders. Raises ScenarioErrors with every error at its place, and KeyError for a
+    reference that is neither a preset nor a YAML file.
+    """
+    if reference in presets():
+        tree = read_file(_PRESETS / f"{reference}.yaml")
+    elif reference.endswith((".yaml", ".yml")):
+        tree = read_file(Path(reference))
+    else:
+        raise KeyError(reference)
+    files = Files(Roots.of([Path(reference)], trusted))
+    merged, documents = inherit(tree, lambda parent: _parent(parent, files))
+    loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
+    inputs = {
+        each.display
+        if each.folder != _PRESETS
+        else f"library:channel_maps/{Path(each.display).name}": each.sha256
+        for each in documents
+    }
+    return loaded, inputs
+
+
+def _parent(reference: Scalar, files: Files) -> Map:
+    if reference.text in presets():
+        return read_file(_PRESETS / f"{reference.text}.yaml")
+    if not is_path(reference.text):
+        hint = suggestion(reference.text, presets())
+        raise single_error(reference.place, f"no channel map {quoted(reference.text)}", "extends", hint)
+    return files.beside(reference, "extends")
+
+
+def _numbered(source: ChannelSource, number: int) -> ChannelSource:
+    names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
+    changed: dict[str, Any] = {"source": names}
+    return source.model_copy(update=changed)

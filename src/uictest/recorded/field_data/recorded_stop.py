@@ -1,0 +1,248 @@
+"""One recorded stop: the channels of a file on one even raster, with every defect found on the way."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from uictest.core.recording import TIME, Recording
+from uictest.core.recording.formats import read_contents
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.recorded.field_data.channel_map import ChannelMap, Preparation
+from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.defect import Defect
+from uictest.recorded.field_data.magnets import with_valve_commands
+from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels
+from uictest.recorded.field_data.sensor_defects import analogue_defects, speed_defects
+from uictest.recorded.field_data.signals import integrated, low_passed, resampled
+from uictest.recorded.field_data.standstill import Standstill, find_standstill, require_plausible_deceleration
+from uictest.recorded.field_data.time_axis import (
+    by_axis,
+    coarse_defects,
+    disorder,
+    gap_defects,
+    missing_samples,
+    usual_interval,
+    without_implausible,
+)
+from uictest.recorded.field_data.trigger import BrakeCommand, find_trigger
+
+_SLACK = 1e-6
+"""Share of the raster by which the last sample may miss the standstill."""
+Channels = dict[str, RawChannel]
+
+
+class UnusableError(Exception):
+    """A record whose train speed cannot be used at all; `defects` say why."""
+
+    def __init__(self, defects: tuple[Defect, ...]) -> None:
+        self.defects = defects
+        super().__init__("; ".join(map(str, defects)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RecordedStop:
+    """One stop as recorded: channels in SI over the time since the brake command, and how they were made.
+
+    Args:
+        recording: on an even raster from the brake command to standstill, NaN where nothing was recorded.
+        trigger: the brake command.
+        standstill: time and distance from the brake command, s and m; None where the record does not hold it.
+        defects: everything found wrong.
+        choices: how the record was prepared, name -> text: part of the definition of every measure.
+        intervals: channel -> usual time between its samples in the file, s.
+
+    """
+
+    recording: Recording
+    trigger: BrakeCommand
+    standstill: tuple[float, float] | None
+    defects: tuple[Defect, ...]
+    choices: dict[str, str] = field(default_factory=dict)
+    intervals: dict[str, float] = field(default_factory=dict)
+
+
+def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
+    """Read a file and return the stop in it.
+
+    Raises UnreadableError, MissingExtraError, MapError, UnusableError, OSError.
+    """
+    contents = read_contents(path, channel_map.dialect)
+    channels = with_valve_commands(select_channels(contents, channel_map))
+    return prepare(channels, contents.metadata, channel_map.preparation)
+
+
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 of a file, read piece by piece. Raises OSError."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def prepare(
+    channels: Mapping[str, RawChannel], metadata: Mapping[str, str], preparation: Preparation
+) -> RecordedStop:
+    """Return the stop in a record.
+
+    A gap stays a gap: no sample is invented where nothing was recorded.
+
+    Args:
+        channels: of the file, by canonical name.
+        metadata: what the header of the file states, e.g. the time of the brake command.
+        preparation: trigger, raster, filter and standstill.
+
+    Raises:
+        UnusableError: the train speed has no usable time axis, no number, or none at the brake command.
+        MapError: nothing marks the brake command, or the deceleration is none of a train.
+
+    """
+    ordered, defects = _ordered(channels)
+    raster = max(float(preparation.raster), usual_interval(ordered["speed"].time))
+    defects += _sampling_defects(ordered, raster)
+    plausible, implausible = _without_implausible(ordered)
+    defects += implausible
+    if not np.isfinite(plausible["speed"].samples).any():
+        raise UnusableError(tuple(defects))
+    trigger = find_trigger(plausible, metadata, preparation)
+    filtered = _filtered(plausible, preparation)
+    speed = filtered["speed"]
+    rest = find_standstill(speed.time, speed.samples, trigger.time, float(preparation.standstill_speed))
+    require_plausible_deceleration(speed, trigger.time)
+    defects += _sensor_defects(filtered, trigger, rest.time if rest else float(speed.time[-1]))
+    defects += _cut_off(speed, trigger, rest)
+    recording, standstill = _on_raster(filtered, trigger, rest, raster, tuple(defects))
+    choices = {
+        **_choices(preparation, trigger, rest, raster, filtered),
+        "filter": _filter_text(preparation, plausible, filtered),
+        "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
+    }
+    intervals = {name: usual_interval(channel.time) for name, channel in filtered.items()}
+    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals)
+
+
+def _choices(
+    preparation: Preparation,
+    trigger: BrakeCommand,
+    rest: Standstill | None,
+    raster: float,
+    channels: Channels,
+) -> dict[str, str]:
+    """Return how trigger, raster, standstill and distance of a stop were chosen."""
+    return {
+        "trigger": trigger.text,
+        "raster": f"{1e3 * raster:.6g} ms, signals linear, states held",
+        "standstill_speed": f"{preparation.standstill_speed.text} (chosen)",
+        "standstill": rest.text if rest else "not in the record",
+        "distance": "recorded" if "distance" in channels else "integrated from speed",
+    }
+
+
+def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:
+    """Return the channels whose times rise, and the defects of the other time axes."""
+    ordered: Channels = {}
+    defects: list[Defect] = []
+    for axis in by_axis(channels.values()):
+        of_axis = list(disorder(axis[0].time, _names(axis)))
+        defects += of_axis
+        if not of_axis and len(axis[0].time) > 1:
+            ordered |= {channel.name: channel for channel in axis}
+    if "speed" not in ordered:
+        raise UnusableError(tuple(defects) or (Defect("gap", "speed", "has fewer than two samples", True),))
+    return {name: ordered[name] for name in channels if name in ordered}, defects
+
+
+def _sampling_defects(channels: Channels, raster: float) -> Iterator[Defect]:
+    for axis in by_axis(channels.values()):
+        yield from gap_defects(axis[0].time, _names(axis), raster)
+        yield from coarse_defects(axis[0].time, _names(axis))
+    for channel in channels.values():
+        yield from missing_samples(channel)
+
+
+def _without_implausible(channels: Channels) -> tuple[Channels, list[Defect]]:
+    plausible, defects = dict(channels), []
+    for name, channel in channels.items():
+        plausible[name], of_channel = without_implausible(channel)
+        defects += of_channel
+    return plausible, defects
+
+
+def _filtered(channels: Channels, preparation: Preparation) -> Channels:
+    if preparation.low_pass is None:
+        return channels
+    return {name: low_passed(channel, float(preparation.low_pass)) for name, channel in channels.items()}
+
+
+def _filter_text(preparation: Preparation, before: Channels, after: Channels) -> str:
+    if preparation.low_pass is None:
+        return "none"
+    untouched = [name for name, channel in before.items() if after[name] is channel and not channel.is_state]
+    exceptions = f", but for {_listed(untouched)}" if untouched else ""
+    return f"low-pass {preparation.low_pass.text}{exceptions}"
+
+
+def _sensor_defects(channels: Channels, trigger: BrakeCommand, end: float) -> Iterator[Defect]:
+    for defect in (
+        *speed_defects(channels, trigger.time, end),
+        *analogue_defects(channels, trigger.time, end),
+    ):
+        # An offset shows with the brake released, which a late record never does.
+        if not (trigger.late and defect.kind == "offset"):
+            yield defect
+
+
+def _cut_off(speed: RawChannel, trigger: BrakeCommand, rest: Standstill | None) -> Iterator[Defect]:
+    if trigger.late:
+        yield Defect("starts-late", "the record", f"begins after the brake command: {trigger.text}")
+    if rest is None:
+        known = np.isfinite(speed.samples)
+        last = speed.samples[known][-1] if known.any() else np.nan
+        text = f"ends at {speed.time[-1]:.6g} s with the train at {last / KILOMETRE_PER_HOUR:.4g} km/h"
+        yield Defect("ends-before-standstill", "the record", text)
+
+
+def _on_raster(
+    channels: Channels,
+    trigger: BrakeCommand,
+    rest: Standstill | None,
+    raster: float,
+    defects: tuple[Defect, ...],
+) -> tuple[Recording, tuple[float, float] | None]:
+    """Return the recording over the time since the brake command, and time and distance of standstill."""
+    if "distance" not in channels:
+        channels = {**channels, "distance": integrated(channels["speed"], raster)}
+    last = min(rest.last, rest.time) if rest else float(channels["speed"].time[-1])
+    count = int((last - trigger.time) / raster + _SLACK)
+    since: Array = np.arange(count + 1, dtype=np.float64) * raster
+    samples = {name: resampled(channel, trigger.time + since, raster) for name, channel in channels.items()}
+    if not np.isfinite(samples["speed"][0]):
+        unknown = Defect("gap", "speed", f"is not known at the brake command {trigger.text}", True)
+        raise UnusableError((*defects, unknown))
+    origin = resampled(channels["distance"], np.array([trigger.time]), raster)[0]
+    samples["distance"] = samples["distance"] - origin
+    recording = Recording(
+        {TIME: since, **{name: samples[name] for name in CHANNEL_UNITS if name in samples}},
+        {TIME: "s", **{name: unit for name, unit in CHANNEL_UNITS.items() if name in samples}},
+    )
+    return recording, _standstill(channels["distance"], trigger, rest, origin, raster)
+
+
+def _standstill(
+    distance: RawChannel, trigger: BrakeCommand, rest: Standstill | None, origin: float, raster: float
+) -> tuple[float, float] | None:
+    if rest is None:
+        return None
+    run = resampled(distance, np.array([rest.last]), raster)[0] - origin + rest.beyond
+    return rest.time - trigger.time, float(run)
+
+
+def _names(channels: list[RawChannel]) -> str:
+    return _listed([channel.name for channel in channels])
+
+
+def _listed(names: list[str]) -> str:
+    listed = ", ".join(names[:3])
+    return listed if len(names) <= 3 else f"{listed} and {len(names) - 3} more"

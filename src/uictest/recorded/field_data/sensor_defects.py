@@ -1,0 +1,158 @@
+"""Defects of sensors: speeds that drop out, readings that stick, readings that are off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Final
+
+import numpy as np
+
+from uictest.core.units import BAR, KILONEWTON
+from uictest.recorded.field_data.channels import of_wheelsets
+from uictest.recorded.field_data.defect import Defect
+from uictest.recorded.field_data.raw_channels import Array, RawChannel
+
+_STEEPEST = 150.0
+"""m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""
+_LEAST_JUMP = 2.0
+"""m/s: a smaller jump may be noise or the least speed that a sensor reads; chosen."""
+_LONGEST_STUCK = 0.5
+"""s for which a running wheel may show the same number to the last digit; chosen."""
+_TELLING_CHANGE = 0.5
+"""m/s by which another speed must change meanwhile; chosen."""
+_LARGEST_SPEED_OFFSET = 0.02
+"""Share of the train speed: what different wheel diameters explain; chosen."""
+_ROLLING = 0.2
+"""s after the brake command in which wheels still roll; chosen."""
+_SPEEDS = ("speed", *of_wheelsets("wheel_speed"))
+_LARGEST_READING_OFFSET: Final = MappingProxyType(
+    {
+        "cylinder_pressure": (0.15 * BAR, "Pa"),
+        "tank_pressure": (0.15 * BAR, "Pa"),
+        "clamping_force": (1.0 * KILONEWTON, "N"),
+    }
+)
+"""Reading with the brake released that a sound sensor may show; chosen."""
+_RELEASED = 0.02
+"""s after the brake command in which no brake acts yet; chosen."""
+_LEAST_CHANGE = 0.1
+"""Share of the largest reading by which the other wheelsets' sensors must change meanwhile; chosen."""
+
+
+def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
+    """Yield the defects of train and wheel speeds in a stop from `begin` to `end` (s in the file's time)."""
+    for name in _SPEEDS:
+        if name in channels:
+            yield from _dropouts(channels[name], begin, end)
+            yield from _stuck_speeds(channels[name], channels, begin, end)
+    yield from _speed_offsets(channels, begin)
+
+
+def _dropouts(channel: RawChannel, begin: float, end: float) -> Iterator[Defect]:
+    """A fall and a return, both steeper than any wheelset can turn."""
+    time, speed = _part(channel, begin, end)
+    if len(time) < 3:
+        return
+    change, interval = np.diff(speed), np.diff(time)
+    jump = np.abs(change) > np.maximum(_STEEPEST * interval, _LEAST_JUMP)
+    falls, returns = np.flatnonzero(jump & (change < 0.0)), np.flatnonzero(jump & (change > 0.0))
+    if len(falls) and len(returns) and returns[-1] > falls[0]:
+        first, last = time[falls[0] + 1], time[returns[-1]]
+        text = f"falls and returns at once, {len(falls)} times from {first:.6g} to {last:.6g} s"
+        yield Defect("dropout", channel.name, text, spoils=True)
+
+
+def _stuck_speeds(
+    channel: RawChannel, channels: Mapping[str, RawChannel], begin: float, end: float
+) -> Iterator[Defect]:
+    """The same number for long while another speed changes. A wheelset at zero is locked, not stuck."""
+    time, speed = _part(channel, begin, end)
+    for first, last in _same(speed):
+        long = time[last] - time[first] > _LONGEST_STUCK and abs(speed[first]) > 0.0
+        if long and _others_change(channel, channels, float(time[first]), float(time[last])):
+            text = f"stays at {speed[first]:.6g} m/s from {time[first]:.6g} to {time[last]:.6g} s"
+            yield Defect("stuck", channel.name, text, spoils=True)
+            return
+
+
+def _same(samples: Array) -> Iterator[tuple[int, int]]:
+    """Yield first and last index of every run of equal samples."""
+    edges = np.flatnonzero(np.diff(samples) != 0.0)
+    starts = [0, *(int(edge) + 1 for edge in edges)]
+    ends = [*(int(edge) for edge in edges), len(samples) - 1]
+    yield from ((start, end) for start, end in zip(starts, ends, strict=True) if end > start)
+
+
+def _others_change(
+    channel: RawChannel, channels: Mapping[str, RawChannel], first: float, last: float
+) -> bool:
+    for name in _SPEEDS:
+        if name in channels and name != channel.name:
+            _, speed = _part(channels[name], first, last)
+            if len(speed) > 1 and np.ptp(speed) > _TELLING_CHANGE:
+                return True
+    return False
+
+
+def _speed_offsets(channels: Mapping[str, RawChannel], begin: float) -> Iterator[Defect]:
+    """A wheel speed that differs from the train's while the wheels still roll; all alike: the train's."""
+    shares = dict(_rolling_shares(channels, begin))
+    off = {name: share for name, share in shares.items() if abs(share) > _LARGEST_SPEED_OFFSET}
+    if len(off) > 1 and len(off) == len(shares) and np.ptp(list(off.values())) < _LARGEST_SPEED_OFFSET:
+        share = -float(np.mean(list(off.values())))
+        yield Defect(
+            "offset", "speed", f"differs by {100.0 * share:+.1f} % from all wheels before they brake", True
+        )
+        return
+    for name, share in off.items():
+        yield Defect(
+            "offset", name, f"differs by {100.0 * share:+.1f} % from the train before it brakes", True
+        )
+
+
+def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterator[tuple[str, float]]:
+    train = channels["speed"]
+    for name in of_wheelsets("wheel_speed"):
+        if name not in channels:
+            continue
+        time, speed = _part(channels[name], begin - 1.0, begin + _ROLLING)
+        running = np.interp(time, train.time, train.samples, left=np.nan, right=np.nan)
+        known = np.isfinite(running) & (running > 1.0)
+        if known.any():
+            yield name, float(np.median(speed[known] / running[known]) - 1.0)
+
+
+def _part(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:
+    """Return times and samples between two times, as far as the samples are numbers."""
+    inside = (channel.time >= begin) & (channel.time <= end) & np.isfinite(channel.samples)
+    return channel.time[inside], channel.samples[inside]
+
+
+def analogue_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
+    """Yield the defects of pressures and forces in a stop from `begin` to `end` (s in the file's time)."""
+    for kind, (largest, unit) in _LARGEST_READING_OFFSET.items():
+        names = [name for name in of_wheelsets(kind) if name in channels]
+        for name in names:
+            yield from _reading_offset(channels[name], begin, largest, unit)
+            others = [channels[other] for other in names if other != name]
+            yield from _stuck_readings(channels[name], others, begin, end)
+
+
+def _reading_offset(channel: RawChannel, begin: float, largest: float, unit: str) -> Iterator[Defect]:
+    before = channel.time <= begin + _RELEASED
+    reading = channel.samples[before & (channel.time >= begin - 1.0) & np.isfinite(channel.samples)]
+    if len(reading) and abs(float(np.median(reading))) > largest:
+        text = f"reads {float(np.median(reading)):.4g} {unit} with the brake released"
+        yield Defect("offset", channel.name, text, spoils=True)
+
+
+def _stuck_readings(
+    channel: RawChannel, others: list[RawChannel], begin: float, end: float
+) -> Iterator[Defect]:
+    _, reading = _part(channel, begin, end)
+    if len(reading) < 3 or np.ptp(reading) > 0.0:
+        return
+    other_readings = [_part(other, begin, end)[1] for other in others]
+    if any(len(each) and np.ptp(each) > _LEAST_CHANGE * np.max(np.abs(each)) for each in other_readings):
+        yield Defect("stuck", channel.name, f"stays at {reading[0]:.6g} throughout the stop", spoils=True)

@@ -1,0 +1,113 @@
+"""Defects of time axes and samples: missing, backwards or repeated times, gaps, implausible values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.recording import LARGEST, beyond
+from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.defect import Defect
+from uictest.recorded.field_data.raw_channels import Array, RawChannel
+
+_GAP_INTERVALS = 2.5
+"""An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
+
+_COARSEST = 0.25
+"""s between samples, a quarter of the time that the shipped criteria let a wheelset be locked; chosen."""
+
+
+def by_axis(channels: Iterable[RawChannel]) -> list[list[RawChannel]]:
+    """Return the channels that share a time axis together, in their own order."""
+    axes: dict[int, list[RawChannel]] = {}
+    for channel in channels:
+        axes.setdefault(id(channel.time), []).append(channel)
+    return list(axes.values())
+
+
+def disorder(time: Array, names: str) -> Iterator[Defect]:
+    """Yield missing, backwards and repeated times; each kind once, with its first place."""
+    missing = ~np.isfinite(time)
+    if missing.any():
+        yield Defect(
+            "time-missing", names, f"has {_counted(missing)} without a time, first {_place(missing)}", True
+        )
+    with np.errstate(invalid="ignore"):
+        step = np.diff(time)
+    for kind, wrong, words in (
+        ("time-backwards", step < 0.0, "goes back in time"),
+        ("time-duplicate", step == 0.0, "repeats a time"),
+    ):
+        if wrong.any():
+            first = int(np.argmax(wrong)) + 1
+            where = f"sample {first + 1}: {time[first]:.6g} s after {time[first - 1]:.6g} s"
+            text = f"{words} {int(wrong.sum())} times, first at {where}"
+            yield Defect(kind, names, text, True)  # type: ignore[arg-type]
+
+
+def usual_interval(time: Array) -> float:
+    """Return the median interval of a time axis, s; 0 for fewer than two samples."""
+    return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+
+
+def gaps(time: Array, raster: float) -> NDArray[np.bool_]:
+    """Return which intervals between neighbouring samples are gaps."""
+    longest = max(_GAP_INTERVALS * usual_interval(time), raster * (1.0 + 1e-6))
+    return np.asarray(np.diff(time) > longest)
+
+
+def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
+    """Yield the gaps of a time axis as one defect."""
+    starts = np.flatnonzero(gaps(time, raster))
+    listed = ", ".join(f"{time[k]:.6g} to {time[k + 1]:.6g} s" for k in starts[:3])
+    more = f" and {len(starts) - 3} more" if len(starts) > 3 else ""
+    if len(starts):
+        yield Defect("gap", names, f"is not recorded from {listed}{more}")
+
+
+def is_coarse(interval: float) -> bool:
+    """Return whether samples `interval` s apart can miss a locked wheelset or a venting valve."""
+    return interval > _COARSEST * (1.0 + 1e-6)
+
+
+def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
+    """Yield a sampling interval that can miss a locked wheelset or a venting valve."""
+    interval = usual_interval(time)
+    if is_coarse(interval):
+        yield Defect(
+            "coarse",
+            names,
+            f"is sampled every {interval:.6g} s; at most {_COARSEST:g} s shows all that happens",
+        )
+
+
+def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
+    """Return a channel with NaN for implausibly large samples, and the defect."""
+    si = CHANNEL_UNITS[channel.name]
+    wrong = beyond(channel.samples, si)
+    if not wrong.any():
+        return channel, []
+    first, last = channel.time[wrong][[0, -1]]
+    text = f"has {_counted(wrong)} beyond {LARGEST[si].text}, from {first:.6g} to {last:.6g} s"
+    samples = np.where(wrong, np.nan, channel.samples)
+    return replace(channel, samples=samples), [Defect("out-of-range", channel.name, text)]
+
+
+def missing_samples(channel: RawChannel) -> Iterator[Defect]:
+    """Yield the samples of a channel that are not numbers."""
+    missing = ~np.isfinite(channel.samples)
+    if missing.any():
+        first, last = channel.time[missing][[0, -1]]
+        text = f"has {_counted(missing)} that are not numbers, from {first:.6g} to {last:.6g} s"
+        yield Defect("not-a-number", channel.name, text)
+
+
+def _counted(flagged: NDArray[np.bool_]) -> str:
+    return f"{int(flagged.sum())} of {len(flagged)} samples"
+
+
+def _place(flagged: NDArray[np.bool_]) -> str:
+    return f"at sample {int(np.argmax(flagged)) + 1}"

@@ -1,0 +1,147 @@
+"""When the brake command was given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from uictest.core.recording import BRAKE_COMMAND_TIME
+from uictest.plans.scenario.yaml import QuantityError, parse_quantity
+from uictest.recorded.field_data.channel_map import Preparation
+from uictest.recorded.field_data.channels import of_wheelsets
+from uictest.recorded.field_data.raw_channels import Array, MapError, RawChannel
+
+Channels = Mapping[str, RawChannel]
+Metadata = Mapping[str, str]
+_PRESSURES = ("brake_line_pressure", *of_wheelsets("cylinder_pressure"), *of_wheelsets("tank_pressure"))
+_ON = 0.5
+"""Above it the brake command, a state of 0 and 1, is given."""
+
+
+@dataclass(frozen=True, slots=True)
+class BrakeCommand:
+    """The time of the brake command in the file's own time, s, and how it was found.
+
+    `late`: the brake was already on when the record began, so that the command itself is not in it.
+    """
+
+    time: float
+    text: str
+    late: bool = False
+
+
+def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand:
+    """Return the brake command of a record. Raises MapError where nothing marks it."""
+    if preparation.trigger_time is not None:
+        return _stated(channels, float(preparation.trigger_time), "stated by the user")
+    for name in _ORDER if preparation.trigger == "auto" else (preparation.trigger,):
+        trigger = _FINDERS[name](channels, metadata, preparation)
+        if trigger is not None:
+            return trigger
+    raise MapError(_nothing_marks_it(preparation))
+
+
+def _nothing_marks_it(preparation: Preparation) -> str:
+    if preparation.trigger == "auto":
+        return (
+            "nothing marks the brake command: no time stated by the file, no brake command, no demanded"
+            " pressure and no pressure that rises while the train runs; state it with --trigger"
+        )
+    return f"the trigger {preparation.trigger!r} finds no brake command in this record while the train runs"
+
+
+def _by_metadata(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    text = metadata.get(BRAKE_COMMAND_TIME)
+    if text is None:
+        return None
+    try:
+        return _stated(channels, float(parse_quantity(text, "time")), "stated by the file")
+    except QuantityError as error:
+        hint = f"{error.hint or 'write a time such as 12.3 s'}, or state the time with --trigger"
+        raise MapError(f"{BRAKE_COMMAND_TIME} in the header of the file: {error}; {hint}") from error
+
+
+def _stated(channels: Channels, time: float, by: str) -> BrakeCommand:
+    first, last = (float(channels["speed"].time[k]) for k in (0, -1))
+    if time >= last:
+        raise MapError(
+            f"the brake command at {time:.6g} s, {by}, is not in the record, which ends at {last:.6g} s"
+        )
+    text = f"at {time:.6g} s, {by}"
+    return BrakeCommand(max(time, first), text, late=time < first - 1e-6)
+
+
+def _by_start(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return BrakeCommand(float(channels["speed"].time[0]), "the record begins with it")
+
+
+def _by_command(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, ("brake_command",), _ON, preparation)
+
+
+def _by_demand(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, ("demanded_pressure",), float(preparation.trigger_pressure), preparation)
+
+
+def _by_pressure(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+    return _first_of(channels, _PRESSURES, float(preparation.trigger_pressure), preparation)
+
+
+_FINDERS: dict[str, Callable[[Channels, Metadata, Preparation], BrakeCommand | None]] = {
+    "stated": _by_metadata,
+    "start": _by_start,
+    "command": _by_command,
+    "demand": _by_demand,
+    "pressure": _by_pressure,
+}
+_ORDER = ("stated", "command", "demand", "pressure")
+
+
+def _first_of(
+    channels: Channels, names: tuple[str, ...], level: float, preparation: Preparation
+) -> BrakeCommand | None:
+    rises = [
+        BrakeCommand(time, name, late)
+        for name in names
+        if name in channels
+        for time, late in _rise(channels[name], channels["speed"], level, float(preparation.trigger_speed))
+    ]
+    if not rises:
+        return None
+    first = min(rises, key=lambda rise: rise.time)
+    if first.late:
+        return BrakeCommand(
+            first.time, f"before the record, in which {first.text} is on from the start", late=True
+        )
+    lead = float(preparation.trigger_lead)
+    time = max(first.time - lead, float(channels["speed"].time[0]))
+    ahead = f", {preparation.trigger_lead.text} before it" if lead > 0.0 else ""
+    text = f"at {time:.6g} s: {first.text} rises{ahead}"
+    return BrakeCommand(time, text, late=first.time - lead < time - 1e-6)
+
+
+def _rise(
+    channel: RawChannel, speed: RawChannel, level: float, least_speed: float
+) -> Iterator[tuple[float, bool]]:
+    """Yield when a channel first rises through `level` while the train runs, or that it was above already."""
+    known = np.isfinite(channel.samples)
+    time, samples = channel.time[known], channel.samples[known]
+    if len(time) < 2:
+        return
+    running = np.interp(time, speed.time, speed.samples, left=np.nan, right=np.nan) > least_speed
+    above = samples > level
+    rises = np.flatnonzero(above[1:] & ~above[:-1] & running[1:])
+    if len(rises):
+        yield _crossing(time, samples, int(rises[0]), level, held=channel.is_state), False
+    elif above[0] and running[0]:
+        yield float(time[0]), True
+
+
+def _crossing(time: Array, samples: Array, before: int, level: float, *, held: bool) -> float:
+    if held:
+        return float(time[before + 1])
+    low, high = samples[before], samples[before + 1]
+    share = (level - low) / (high - low)
+    return float(time[before] + share * (time[before + 1] - time[before]))

@@ -1,0 +1,136 @@
+"""Balances of momentum over short windows, of rail, brakes and train.
+
+A wheelset of inertia J that slides under friction mu0, over a window of length T:
+
+    J [omega(T) - omega(0)] = integral of r F(w, v, Q, mu0) - M
+
+and the train of mass m:
+
+    m [v(T) - v(0)] = - integral of sum F_i + R(v) + m g gradient
+
+with F by the creep law at the *recorded* slip speed where a wheelset slides, and from its own balance where
+it does not. The closed loop of WSP and wheel never runs, so nothing here is chaotic, and integrals need no
+derivative of a noisy speed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario import Scenario
+from uictest.recorded.fitting.creep import wheelset_creep
+from uictest.recorded.fitting.samples import StopSamples, of_wheelsets
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+WINDOW = 0.25
+"""s; chosen: longer than the noise of the sensors, shorter than a cycle of the WSP."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Windows:
+    """Windows of a stop: `first` and `last` sample of each, and what every wheelset does in them, (4, k)."""
+
+    first: NDArray[np.intp]
+    last: NDArray[np.intp]
+    sliding: Mask
+    standing: Mask
+
+
+def windows_of(samples: StopSamples) -> Windows:
+    """Cut a stop into windows; a wheelset slides in one if it does at every sample of it."""
+    length = max(round(WINDOW / (samples.time[1] - samples.time[0])), 2)
+    first = np.arange(0, len(samples.time) - length, length)
+    last = first + length
+    spans = list(zip(first, last, strict=True))
+    sliding = np.array([samples.sliding[:, a : b + 1].all(axis=1) for a, b in spans]).T
+    standing = np.array([samples.standing[:, a : b + 1].any(axis=1) for a, b in spans]).T
+    return Windows(first, last, sliding, standing)
+
+
+def over(windows: Windows, samples: StopSamples, values: Array) -> Array:
+    """Return the integral of values (..., n) over each window, (..., k), by trapezoids."""
+    steps = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(samples.time)
+    summed = np.concatenate((np.zeros((*values.shape[:-1], 1)), np.cumsum(steps, axis=-1)), axis=-1)
+    integral: Array = summed[..., windows.last] - summed[..., windows.first]
+    return integral
+
+
+@dataclass(frozen=True, eq=False)
+class Balances:
+    """The balances of a stop, whose residuals are adhesion coefficients: 0.01 is a hundredth of the load."""
+
+    samples: StopSamples
+    windows: Windows
+    scenario: Scenario
+
+    def rail_impulse(self, friction: Array) -> Array:
+        """Return the impulse of the rail on each wheelset by the creep law, N s, (4, k)."""
+        s = self.samples
+        slip = np.maximum(s.slip, 0.0)
+        return over(
+            self.windows, s, wheelset_creep(slip, s.speed, s.load, friction, self.scenario.rail.condition)
+        )
+
+    def brake_impulse(self, brake_factor: float | Array) -> Array | None:
+        """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
+        s, wheelset = self.samples, self.scenario.vehicle.wheelset
+        if s.torque is None:
+            return None
+        radius = of_wheelsets(self.scenario, "wheel_radius")
+        turned = (s.wheel_speed[:, self.windows.last] - s.wheel_speed[:, self.windows.first]) / radius
+        torque = brake_factor * self._torque_impulse
+        impulse: Array = (torque + wheelset.rotational_inertia * turned) / radius
+        return impulse
+
+    def residuals(self, friction: Array, brake_factor: float | Array) -> tuple[Array, Array]:
+        """Return the residuals of the balances of sliding wheelsets, and of the train.
+
+        The train's are those of windows in which all impulses are known.
+
+        Args:
+            friction: initial friction coefficient under each wheelset, (4, n).
+            brake_factor: on the torque of the brakes, one or (4, 1).
+        """
+        by_rail, by_brake = self.rail_impulse(friction), self.brake_impulse(brake_factor)
+        load, sliding, standing = self._load_impulse, self.windows.sliding, self.windows.standing
+        if by_brake is None:
+            of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)
+        else:
+            of_wheelsets = ((by_rail - by_brake) / load)[sliding & ~standing]
+            impulse, known = np.where(sliding, by_rail, by_brake), (sliding | ~standing).all(axis=0)
+        of_train = (impulse.sum(axis=0) - self.lost_momentum) / load.sum(axis=0)
+        return of_wheelsets, np.asarray(of_train[known])
+
+    @cached_property
+    def lost_momentum(self) -> Array:
+        """The impulse of the rails by the deceleration of the train, N s, (k,)."""
+        s, vehicle = self.samples, self.scenario.vehicle
+        resistance = vehicle.running_resistance
+        drag = resistance.constant + resistance.linear * s.speed + resistance.quadratic * s.speed**2
+        drag = drag + vehicle.total_mass * STANDARD_GRAVITY * float(self.scenario.rail.gradient)
+        lost = vehicle.total_mass * (s.speed[self.windows.first] - s.speed[self.windows.last])
+        return np.asarray(lost - over(self.windows, s, drag))
+
+    def adhesion_used(self) -> Array:
+        """Return the adhesion each wheelset used in each window, (4, k): by its brake, else by the train."""
+        needed = self.brake_impulse(1.0)
+        if needed is None:
+            shared = self.lost_momentum / self._load_impulse.sum(axis=0)
+            return np.broadcast_to(shared, self.windows.sliding.shape)
+        return np.asarray(needed / self._load_impulse)
+
+    @cached_property
+    def _torque_impulse(self) -> Array:
+        assert self.samples.torque is not None
+        return over(self.windows, self.samples, self.samples.torque)
+
+    @cached_property
+    def _load_impulse(self) -> Array:
+        wheels = 2.0
+        return wheels * over(self.windows, self.samples, self.samples.load)

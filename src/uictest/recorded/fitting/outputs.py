@@ -1,0 +1,162 @@
+"""The files of a fit: the scenario with the fitted friction, and the numbers as JSON."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, Final
+
+import yaml
+
+from uictest.judging import evaluation
+from uictest.plans import library
+from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, Scenario
+from uictest.plans.scenario.yaml import dotted
+from uictest.recorded.fitting.cleaning_fit import CleaningFit
+from uictest.recorded.fitting.estimate import Fit
+from uictest.recorded.fitting.overlay import Agreement
+
+SCHEMA: Final = "uictest/fit/1"
+_DIGITS: Final = 5
+_LONGEST_NAME: Final = 90
+
+
+def fitted_yaml(
+    case: Case,
+    statements: Mapping[str, str],
+    fit: Fit,
+    scenario: Path,
+    folder: Path,
+    cleaning: CleaningFit | None = None,
+    stop: tuple[str, str] | None = None,
+) -> str:
+    """Return the text of a scenario that extends `scenario` from `folder` and states the fitted friction.
+
+    Args:
+        case: the case that was fitted.
+        statements: values set on the command line, by dotted key; kept like the case's parameters.
+        fit: the fitted values.
+        scenario: file of the case.
+        folder: folder of the new file.
+        cleaning: how sliding cleans the rail, if that was fitted.
+        stop: name and initial speed of the stop, where there are several.
+
+    Raises ValueError where a value cannot be written below a part that the scenario only refers to.
+
+    """
+    content: dict[str, Any] = {
+        "schema": "uictest/scenario/1",
+        "name": _name(case.scenario.name, stop),
+        "title": f"{case.scenario.name} with the friction of a recorded stop",
+        "description": "\n".join(_account(fit, cleaning)),
+        "extends": Path(os.path.relpath(scenario, folder)).as_posix(),
+        "expect": case.scenario.expect,
+        **dict.fromkeys(EXPANSION_KEYS),
+    }
+    for key, value in {**case.parameters, **statements}.items():
+        _assign(content, key, yaml.safe_load(value))
+    _assign(content, "rail.friction", friction_of(fit, case.scenario))
+    _assign(content, "rail.friction_over_time", None)
+    if cleaning is not None:
+        _assign(content, "rail.cleaning", _numbers_of(cleaning.in_force))
+    if stop is not None:
+        _assign(content, "initial_speed", stop[1])
+    if fit.pad_factor is not None:
+        content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
+    text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
+    return text
+
+
+def friction_of(fit: Fit, scenario: Scenario) -> float | dict[str, Any]:
+    """Return the value of `rail.friction`: a number, or steps along the track.
+
+    With only a lower bound, the scenario's own friction stays if it is not below the bound. A stretch that
+    no wheelset reached takes the friction of its neighbour.
+    """
+    levels: list[float] = []
+    own = float(scenario.rail.highest_friction)
+    for estimate in fit.friction:
+        value = {"found": estimate.value, "at least": max(own, estimate.value)}.get(estimate.standing)
+        levels.append(round(min(value if value is not None else levels[-1], 1.0), _DIGITS))
+    if len(levels) == 1:
+        return levels[0]
+    places = [min(0.0, fit.breaks[0] - 1.0), *fit.breaks]
+    points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(places, levels, strict=True)]
+    return {"points": points, "interpolation": "steps"}
+
+
+def _name(scenario: str, stop: tuple[str, str] | None) -> str:
+    if stop is None:
+        return f"{scenario[:_LONGEST_NAME]}-fitted"
+    half = _LONGEST_NAME // 2
+    return f"{scenario[:half]}-fitted-{stop[0][:half]}"
+
+
+def _numbers_of(cleaning: Cleaning) -> dict[str, str | float]:
+    return {
+        "energy": cleaning.energy.text,
+        "recovered_friction": float(cleaning.recovered_friction),
+        "reach": cleaning.reach.text,
+        "carry_over": float(cleaning.carry_over),
+    }
+
+
+def _account(fit: Fit, cleaning: CleaningFit | None) -> list[str]:
+    pads = [] if fit.pad_factor is None else [fit.pad_factor]
+    cleaned = [] if cleaning is None else [cleaning.estimate]
+    return ["Fitted to a recorded stop.", *(str(estimate) for estimate in (*fit.friction, *pads, *cleaned))]
+
+
+def _assign(content: dict[str, Any], key: str, value: Any) -> None:
+    names = key.split(".")
+    parts = {dotted(part) for part in PART_KEYS}
+    for depth in range(1, len(names)):
+        if ".".join(names[:depth]) in parts:
+            raise ValueError(f"{key}: write the changed part into the scenario first, then fit that")
+    for name in names[:-1]:
+        content = content.setdefault(name, {})
+    content[names[-1]] = value
+
+
+def _with_pads(scenario: Scenario, factor: float) -> dict[str, Any]:
+    system = scenario.brake.system
+    if system.name not in library.names("brakes"):
+        raise ValueError("pad friction can only be written for a brake system of the library")
+    return {
+        "extends": system.name,
+        "disc": {"pad_friction": round(factor * float(system.disc.pad_friction), _DIGITS)},
+    }
+
+
+def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dict[str, Any]:
+    """Return the fitted values, the agreement of the simulated stop and the preparation; NaN as None."""
+    document = {
+        "schema": SCHEMA,
+        "determined": fit.determined,
+        "fit": asdict(fit),
+        "agreement": asdict(agreement),
+        "preparation": choices,
+    }
+    form: dict[str, Any] = evaluation.json_form(document)
+    return form
+
+
+def cleaning_document(
+    fit: CleaningFit, names: Sequence[str], agreements: Sequence[Agreement], choices: Sequence[dict[str, str]]
+) -> dict[str, Any]:
+    """Return the cleaning and what belongs to each stop: its fit, agreement and preparation; NaN as None."""
+    stops = zip(names, fit.stops, agreements, choices, strict=True)
+    document = {
+        "schema": SCHEMA,
+        "determined": fit.determined,
+        "cleaning": asdict(fit.estimate),
+        "in_force": _numbers_of(fit.in_force),
+        "stops": [
+            {"name": name, "fit": asdict(each), "agreement": asdict(agreement), "preparation": choice}
+            for name, each, agreement, choice in stops
+        ],
+    }
+    form: dict[str, Any] = evaluation.json_form(document)
+    return form

@@ -1,0 +1,140 @@
+"""The samples of a recorded stop for a fit: motion, torques and loads of every wheelset on one raster."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.recording import TIME, Recording
+from uictest.plans.scenario import WHEELSET_NUMBERS, Scenario, wheelset_value
+from uictest.recorded import field_data
+from uictest.recorded.field_data import WHEELSETS
+from uictest.recorded.fitting.wheel_loads import wheel_loads
+
+Array = NDArray[np.float64]
+_SMOOTHING = 0.1
+"""s over which speeds are averaged before differences are taken of them; chosen."""
+
+
+class FitError(ValueError):
+    """A recording that a fit cannot use; the message says what is missing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StopSamples:
+    """A recorded stop while the train moves. Wheelset arrays have shape (4, n).
+
+    Args:
+        time: since the brake command, s.
+        speed: of the train, smoothed, m/s.
+        wheel_speed: circumferential, smoothed, m/s.
+        slip: slip speed, m/s.
+        place: of each wheelset on the track, m from where the first was at the brake command.
+        load: of one wheel, N, from the deceleration.
+        torque: of the brake on each wheelset, N m; None where no clamping forces or torques are recorded.
+        sliding: where a wheelset slides, by the scenario's definition.
+        standing: where a wheelset is locked: its brake then holds, and its torque is not known.
+
+    """
+
+    time: Array
+    speed: Array
+    wheel_speed: Array
+    slip: Array
+    place: Array
+    load: Array
+    torque: Array | None
+    sliding: NDArray[np.bool_]
+    standing: NDArray[np.bool_]
+
+
+def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples:
+    """Return the samples for a fit. Raises FitError if channels are missing or defective."""
+    recording = stop.recording
+    names = ("speed", *(f"wheel_speed_{n}" for n in WHEELSETS))
+    _require_sound_speeds(stop, names)
+    definition = scenario.measures
+    moving = np.asarray(recording["speed"]) > definition.moving_speed
+    count = len(moving) if moving.all() else int(np.argmin(moving))
+    if count < 10:
+        raise FitError("the train hardly runs in this record")
+    part = slice(0, count)
+    time = np.asarray(recording[TIME])[part]
+    width = max(round(_SMOOTHING / (time[1] - time[0])), 1)
+    speed = _smoothed(np.asarray(recording["speed"])[part], width)
+    wheels = np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names[1:]])
+    slip = speed - wheels
+    return StopSamples(
+        time,
+        speed,
+        wheels,
+        slip,
+        np.asarray(recording["distance"])[part] - _behind(scenario)[:, None],
+        wheel_loads(scenario.vehicle, -np.gradient(_smoothed(speed, 5 * width), time)),
+        _torque(recording, scenario, part, width),
+        (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed),
+        wheels < 2.0 * definition.locked_speed,
+    )
+
+
+def _require_sound_speeds(stop: field_data.RecordedStop, names: tuple[str, ...]) -> None:
+    missing = [name for name in names if name not in stop.recording.channels]
+    if missing:
+        raise FitError(
+            f"a fit needs the train speed and all wheel speeds; not recorded: {', '.join(missing)}"
+        )
+    spoilt = [str(defect) for defect in stop.defects if defect.spoils and defect.channel in names]
+    holes = [name for name in (*names, "distance") if not np.isfinite(stop.recording[name]).all()]
+    if spoilt or holes:
+        defects = spoilt + [f"{name} has gaps" for name in holes]
+        raise FitError(f"a fit needs speeds without defects: {'; '.join(defects)}")
+    if stop.trigger.late:
+        raise FitError("the record begins after the brake command, so places on the track are not known")
+
+
+def _smoothed(samples: Array, width: int) -> Array:
+    """Return the moving average over an odd number of samples, shorter and still centred near the ends."""
+    half = width // 2
+    reach = np.minimum(half, np.minimum(np.arange(len(samples)), np.arange(len(samples))[::-1]))
+    summed = np.concatenate(([0.0], np.cumsum(samples)))
+    k = np.arange(len(samples))
+    average: Array = (summed[k + reach + 1] - summed[k - reach]) / (2 * reach + 1)
+    return average
+
+
+def _behind(scenario: Scenario) -> Array:
+    """Return how far each wheelset runs behind the first, m."""
+    pivots = 2.0 * scenario.vehicle.half_pivot_distance
+    base = 2.0 * scenario.vehicle.bogie.half_wheelbase
+    return np.array([0.0, base, pivots, pivots + base])
+
+
+def of_wheelsets(scenario: Scenario, name: str) -> Array:
+    """Return a value of each wheelset by its name below ``vehicle.wheelsets.N``, SI, shape (4, 1)."""
+    return np.array([[float(wheelset_value(scenario, number, name))] for number in WHEELSET_NUMBERS])
+
+
+def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -> Array | None:
+    """Return the brake torque by the clamping forces and the scenario's pads, else as recorded.
+
+    It is averaged like the speeds, so that both sides of a balance are. Of pads that vary with speed or
+    temperature the forces alone do not say the torque.
+    """
+    disc = scenario.brake.system.disc
+    pads = of_wheelsets(scenario, "pad_friction") * of_wheelsets(scenario, "brake_force")
+    per_force = disc.calipers_per_wheelset * disc.pads_per_caliper * disc.mean_radius * pads
+    sources = (("clamping_force", per_force), ("brake_torque", np.ones_like(per_force)))
+    for kind, factor in sources[1:] if scenario.brake.pad.varies else sources:
+        names = [f"{kind}_{n}" for n in WHEELSETS]
+        if all(name in recording.channels and np.isfinite(recording[name]).all() for name in names):
+            samples = [_smoothed(np.asarray(recording[name])[part], width) for name in names]
+            return np.asarray(factor * np.array(samples))
+    return None
+
+
+def initial_speed(stop: field_data.RecordedStop) -> float:
+    """Return the speed of the train at the brake command, m/s: the mean of the first samples."""
+    time = np.asarray(stop.recording[TIME])
+    return float(np.mean(stop.recording["speed"][time <= _SMOOTHING]))

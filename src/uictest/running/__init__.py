@@ -1,0 +1,1 @@
+"""Many stops: on threads, in chunks, on clusters."""

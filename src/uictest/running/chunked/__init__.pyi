@@ -1,0 +1,41 @@
+from .case_selection import (
+    CaseSelection as CaseSelection,
+    select_cases as select_cases,
+)
+from .chunk import (
+    ChunkRunner as ChunkRunner,
+    RunBlock as RunBlock,
+    WriteChunk as WriteChunk,
+    chunk_runner as chunk_runner,
+    run_on_threads as run_on_threads,
+)
+from .cluster import (
+    ClusterError as ClusterError,
+    check_address as check_address,
+    run_on_cluster as run_on_cluster,
+)
+from .manifest import (
+    SCHEMA as SCHEMA,
+    sweep_manifest as sweep_manifest,
+)
+from .scenario_function import ScenarioVariants as ScenarioVariants
+from .shard import (
+    Shard as Shard,
+    parse_shard as parse_shard,
+)
+from .store import (
+    ChangedInputsError as ChangedInputsError,
+    ChunkStore as ChunkStore,
+    MissingChunksError as MissingChunksError,
+)
+from .survey import (
+    SURVEY_TABLE as SURVEY_TABLE,
+    survey_step as survey_step,
+)
+from .table import (
+    measure_columns as measure_columns,
+    number_column as number_column,
+    repeated_cases as repeated_cases,
+    text_column as text_column,
+    wheelset_columns as wheelset_columns,
+)

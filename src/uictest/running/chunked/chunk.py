@@ -1,0 +1,192 @@
+"""Run one chunk of a sweep and encode its results as Parquet."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest import rig
+from uictest.core.ensemble import Places, rows_at
+from uictest.judging.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, joined
+from uictest.plans.sweeps import Plan, in_survey_steps
+from uictest.running.campaign import ThreadedMap
+from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock
+from uictest.running.chunked.case_selection import CaseSelection
+from uictest.running.chunked.survey import biases_by_measure
+from uictest.running.chunked.table import REPEATED_TEXTS, rows
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
+"""Simulates a block in which a controller comes from outside: here, or in child processes."""
+Measures = tuple[NDArray[Any], NDArray[Any]]
+"""Measures of stops, shape (cases,), and of their wheelsets, (cases, 4)."""
+Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
+"""Simulates cases: records, those of wheelsets and friction laws to measures."""
+WriteChunk = Callable[[int, bytes], None]
+"""Takes the number of a finished chunk and its results."""
+_QUEUED = 256
+"""Cases that are simulated in one queue, where they are many: at its end lanes idle; chosen."""
+_TURNS = 4
+"""Queues of a thread at least, so that threads end at nearly the same time; chosen."""
+_QUEUES_AHEAD = 2
+"""Queues that wait or are ready beyond those in progress: bounds memory."""
+
+
+@dataclass(frozen=True)
+class ChunkRunner:
+    """Simulates and judges the cases of one chunk; several threads may share a runner."""
+
+    assembler: BlockAssembler
+    simulate: Simulate
+    plan: Plan
+    run_block: RunBlock
+    biases: Mapping[str, float] | None = None
+    """Of measures, in a survey: those of the step that the cases are simulated in."""
+    regular: ChunkRunner | None = None
+    """In a survey: simulates in regular steps what lies within its bias of a limit."""
+
+    def run(self, indices: NDArray[np.int64]) -> bytes:
+        """Return the rows of the cases with the given indices as a Parquet file."""
+        [content] = self.run_together([indices])
+        return content
+
+    def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
+        """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
+        block = self.assembler.block(np.concatenate(chunks))
+        table = rows(self.plan, block, self.results(block))
+        sizes = [indices.size for indices in chunks]
+        begins = np.cumsum([0, *sizes[:-1]]).tolist()
+        return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
+
+    def prepare(self) -> None:
+        """Compile the rig before several threads need it at once."""
+        rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
+
+    def results(self, block: CaseBlock) -> ResultColumns:
+        """Return the results of a block; an error in a case is its result.
+
+        Those of a survey that a bias may have decided are of regular steps; `near_limit` says which.
+        """
+        columns = self._results_in_own_steps(block)
+        if self.regular is not None and columns.near_limit.any():
+            places = np.flatnonzero(columns.near_limit)
+            columns.put_block(places, self.regular.results(self.regular.assembler.again(block, places)))
+            columns.near_limit[places] = True
+        return columns
+
+    def _results_in_own_steps(self, block: CaseBlock) -> ResultColumns:
+        places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
+        judged: Sequence[tuple[Places, ResultColumns]] = ()
+        if places.size:
+            try:
+                measures = self._simulated(block, places)
+            except Exception as error:
+                return self._run_one_by_one(block, error)
+            judged = list(self._judged(block, places, measures))
+        columns = joined(judged, len(block.ids))
+        for place, reason in enumerate(block.rejections):
+            if reason:
+                columns.put(place, error_result(self.assembler.case(block, place), reason))
+        return columns
+
+    def _simulated(self, block: CaseBlock, places: Places) -> Measures:
+        """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
+        inputs = (
+            rows_at(block.parameters, places),
+            rows_at(block.wheelset_parameters, places),
+            rows_at(block.rail, places),
+        )
+        programs = [block.programs[place] for place in places.tolist()]
+        if not any(programs):
+            return self.simulate(*inputs)
+        configs = [block.configs[place] for place in places]
+        run = self.run_block(rig.BlockInputs(programs, configs, *inputs))
+        for place, failure in zip(places, run.failures, strict=True):
+            block.rejections[place] = failure
+        return run.measures, run.wheelset_measures
+
+    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> ResultColumns:
+        """Find the case that caused the error of the block."""
+        if len(block.ids) == 1:
+            block.rejections[0] = f"{type(error).__name__}: {error}"
+            return self._results_in_own_steps(block)
+        alone = [np.array([place]) for place in range(len(block.ids))]
+        parts = [(place, self._results_in_own_steps(block.take(place))) for place in alone]
+        return joined(parts, len(block.ids))
+
+    def _judged(
+        self, block: CaseBlock, places: Places, measures: Measures
+    ) -> Iterator[tuple[Places, ResultColumns]]:
+        """Yield the results of the simulated cases at some places, group by group of the same criteria."""
+        position = np.zeros(len(block.ids), np.int64)
+        position[places] = np.arange(places.size)
+        is_simulated = np.array([not reason for reason in block.rejections])
+        for group in block.judged_as.groups(by_numbers=False):
+            own = group[is_simulated[group]]
+            if own.size:
+                of_stops, of_wheelsets = (rows_at(each, position[own]) for each in measures)
+                yield own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets))
+
+    def _stops(
+        self, block: CaseBlock, places: Places, measures: NDArray[Any], wheelset_measures: NDArray[Any]
+    ) -> StopBlock:
+        return StopBlock(
+            measures,
+            wheelset_measures,
+            lambda place: self.assembler.case(block, int(places[place])),
+            lambda own: block.judged_as.together(places[own]),
+            self.biases,
+        )
+
+
+def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
+    """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
+    regular = ChunkRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
+    if not plan.survey:
+        return regular
+    assembler = BlockAssembler(in_survey_steps(plan))
+    return replace(regular, assembler=assembler, biases=biases_by_measure(), regular=regular)
+
+
+def run_on_threads(
+    runner: ChunkRunner, selection: CaseSelection, numbers: Sequence[int], jobs: int, write_chunk: WriteChunk
+) -> None:
+    """Run the chunks with the given numbers; `write_chunk` gets each in this thread, in this order.
+
+    After any exception, KeyboardInterrupt included, the chunks that `write_chunk` got are kept.
+    """
+    jobs = min(jobs, len(numbers)) or 1
+    together = max(min(_QUEUED // selection.chunk_size, len(numbers) // (_TURNS * jobs)), 1)
+    queues = [numbers[first : first + together] for first in range(0, len(numbers), together)]
+    with ThreadedMap(
+        lambda queue: runner.run_together([selection.chunk(number) for number in queue]),
+        queues,
+        jobs=jobs,
+        pending=jobs + _QUEUES_AHEAD,
+    ) as contents:
+        for number, content in zip(numbers, chain.from_iterable(contents), strict=True):
+            write_chunk(number, content)
+
+
+def parquet_bytes(table: pa.Table) -> bytes:
+    """Return a table as a Parquet file; the same table gives the same bytes."""
+    import pyarrow.parquet as pq
+
+    buffer = io.BytesIO()
+    pq.write_table(
+        table,
+        buffer,
+        compression="lz4",
+        use_dictionary=list(REPEATED_TEXTS),
+        write_statistics=False,  # a chunk is read as a whole
+        write_page_checksum=True,
+    )
+    return buffer.getvalue()

@@ -1,0 +1,196 @@
+"""The page of a folder of runs: the runs, the history of their cases, and what is not listed."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Final
+from urllib.parse import quote
+
+from uictest import report
+from uictest.report.page import case_anchor, fragment, render, series_anchor
+from uictest.runs.history.case_history import (
+    CaseHistory,
+    case_histories,
+    changed_inputs,
+    runs_with_cases,
+)
+from uictest.runs.history.listing import FOLDERS_READ, Listing
+from uictest.runs.history.run_in_folder import ListedRun
+from uictest.runs.history.strip import HEIGHT, Strip, strip, summary, width
+
+MARK: Final = "uictest/index/1"
+"""Stands in every index, so that a page of somebody else is never replaced."""
+_CASES_SHOWN: Final = 1000
+_UNFOLDED: Final = 20
+"""Runs in the table that is open at first."""
+_UNLISTED_SHOWN: Final = 50
+_UNCHANGED: Final = "same inputs, same versions"
+_UNCHANGED_RECORDED: Final = "same recording and versions; preparation not compared"
+"""Filter, raster, trigger and channel map of a recorded stop are not part of the entry of its run."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunRow:
+    """A run in the table of runs."""
+
+    run: ListedRun
+    href: str
+    verdict: str
+    tone: str
+    command: str
+    tally: str
+    version: str
+
+
+@dataclass(frozen=True, slots=True)
+class CaseRow:
+    """A case in the table of histories; `change` and `inputs` compare the newest two runs that have it."""
+
+    history: CaseHistory
+    href: str
+    tone: str
+    strip: Strip
+    summary: str
+    change: str
+    relative: str
+    inputs: str
+    fragment: str
+
+    @property
+    def notable(self) -> bool:
+        """Whether it is not as expected, or not the same in all runs."""
+        return self.tone != "good" or self.history.turned or bool(self.history.change)
+
+
+def index_html(folder: str, listing: Listing) -> str:
+    """Return the page of a folder: one document that loads nothing, and can be read without JavaScript."""
+    shown = runs_with_cases(listing.runs)
+    histories = case_histories(shown)
+    return render(
+        "index.html.j2",
+        with_plots=False,
+        running_head=folder,
+        mark=MARK,
+        folder=folder,
+        listing=listing,
+        runs=[_run_row(run) for run in listing.runs],
+        unfolded=_UNFOLDED,
+        shown=shown,
+        slots=[{"label": _slot_label(run), "href": page_href(run)} for run in shown],
+        cases=[_case_row(each) for each in histories[:_CASES_SHOWN]],
+        bounds=_bounds(listing, len(shown), len(histories)),
+        unlisted=listing.unlisted[:_UNLISTED_SHOWN],
+        more_unlisted=len(listing.unlisted[_UNLISTED_SHOWN:]),
+        strip_height=HEIGHT,
+        strip_width=width(len(shown)),
+        counted=report.counted,
+        moment=moment,
+    )
+
+
+def moment(time: datetime) -> str:
+    """Return a time for people, UTC."""
+    return f"{time:%Y-%m-%d %H:%M:%S}"
+
+
+def page_href(run: ListedRun) -> str:
+    """Return the link to a run; empty where there is none. No name can make it leave the folder."""
+    return f"./{quote(os.fsencode(run.page))}" if run.page else ""
+
+
+def _run_row(run: ListedRun) -> RunRow:
+    verdict, tone = _verdict(run)
+    version = run.versions.get("uictest", "")
+    return RunRow(run, page_href(run), verdict, tone, shlex.join(run.command), _tally(run), version)
+
+
+def _verdict(run: ListedRun) -> tuple[str, str]:
+    """Return whether all cases are as expected, and the tone of that."""
+    if not run.complete:
+        return "incomplete", "odd"
+    counts = [*run.counts, *run.series]
+    if not counts:
+        return "–", "none"  # noqa: RUF001 - a dash on paper
+    if "error" in counts:
+        return "error", "odd"
+    return ("not met", "bad") if run.not_met else ("met", "good")
+
+
+def _tally(run: ListedRun) -> str:
+    """Return the counts of a run in words; the note where there are none."""
+    of_series = ", ".join(f"{count} {word}" for word, count in run.series.items())
+    cases = sum(run.counts.values())
+    texts = [
+        f"{report.counted(cases, 'case')}: {report.counts_text(run.counts, 0)}" if cases else "",
+        f"{sum(run.series.values())} series: {of_series}" if of_series else "",
+        run.note,
+    ]
+    return "; ".join(filter(None, texts))
+
+
+def _slot_label(run: ListedRun) -> str:
+    return f"{moment(run.started)} UTC · {shlex.join(run.command)}"
+
+
+def _case_row(history: CaseHistory) -> CaseRow:
+    newest = history.runs[history.places[-1]]
+    href = page_href(newest)
+    place = fragment((series_anchor if history.newest.is_series else case_anchor)(history.id))
+    return CaseRow(
+        history=history,
+        href=f"{href}#{place}" if href else "",
+        tone=report.tone(history.newest.word),
+        strip=strip(history),
+        summary=summary(history),
+        change="" if history.change is None else _change(history.change),
+        relative=_relative(history),
+        inputs=_inputs(history),
+        fragment=place,
+    )
+
+
+def _change(change: float) -> str:
+    """Return a change with its sign; 0 only where there is none."""
+    if change == 0.0:
+        return "0"
+    return f"{change:+.2f}" if abs(change) >= 0.005 else f"{change:+.1g}"
+
+
+def _relative(history: CaseHistory) -> str:
+    if not history.change or not history.newest.distance:
+        return ""
+    before = history.newest.distance - history.change
+    return f"{_change(100.0 * history.change / before)} %" if before else ""
+
+
+def _inputs(history: CaseHistory) -> str:
+    """Return what changed in the inputs between the newest two runs that have the case."""
+    if len(history.places) < 2:
+        return "no earlier run"
+    before, now = history.places[-2:]
+    changed = changed_inputs(
+        (history.runs[before], history.entry(before)), (history.runs[now], history.entry(now))
+    )
+    if changed is None:
+        return "not known"
+    unchanged = _UNCHANGED_RECORDED if "recording" in history.entry(now).parts_by_kind else _UNCHANGED
+    return ", ".join(changed) or unchanged
+
+
+def _bounds(listing: Listing, shown: int, cases: int) -> list[str]:
+    """Return what the page leaves out."""
+    older = sum(bool(run.counts) and not run.cases and run.kind != "sweep" for run in listing.runs)
+    sentences: Mapping[str, int] = {
+        f"Read: the {FOLDERS_READ} folders changed last; {listing.not_read} older are not.": listing.not_read,
+        f"The history covers the newest {shown} runs; {older} older are in the table alone.": older,
+        f"{_CASES_SHOWN} of {cases} cases are shown: those not as expected first, then those that turned, "
+        "then by the change of the distance.": cases - _CASES_SHOWN,
+        f"{report.counted(listing.partial, 'folder')} being filled, or left by a killed run.": (
+            listing.partial
+        ),
+    }
+    return [sentence for sentence, count in sentences.items() if count > 0]

@@ -1,0 +1,261 @@
+"""One folder among the runs: what it holds, checked as it is read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Final, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationError
+
+from uictest import report
+from uictest.runs.history.checked_file import (
+    UnreadableError,
+    bytes_of,
+    exists,
+    first_problem,
+    json_object,
+    require_file,
+    shown,
+)
+from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
+
+Kind = Literal["run", "evaluate", "sweep", "fit", "validation", "studies"]
+"""What wrote a folder: a command, or a fit, a validation, the studies."""
+
+MANIFEST: Final = "manifest.json"
+_PAGE: Final = "index.html"
+_OTHERS: Final[Mapping[str, tuple[Kind, str]]] = {
+    "fit.json": ("fit", "uictest/fit/"),
+    "validation.json": ("validation", "uictest/validation-result/"),
+    "studies.json": ("studies", "uictest/studies/"),
+}
+"""File that names what a folder without manifest holds -> its kind, and how its schema begins."""
+_LARGEST_RESULTS: Final = 2 << 20
+"""Size of the largest results.json that is read where a run has no entry, bytes."""
+_STARTED: Final = re.compile(r"(?:fit-|validation-)?(\d{8}T\d{6}Z)-[0-9a-f]{8}(?:-\d+)?")
+
+
+@dataclass(frozen=True, slots=True)
+class ListedRun:
+    """A folder that uictest wrote.
+
+    Args:
+        name: of the folder.
+        kind: what wrote it.
+        started: when it started; of a sweep and of studies, when the result was written.
+        command: the words of its command line; empty where unknown.
+        versions: program or package -> version.
+        inputs: file that was read -> its SHA-256.
+        page: its file to open, relative to the folder of all runs; empty where there is none.
+        complete: False where selected cases are missing.
+        counts: number of cases by word or outcome.
+        not_met: number of cases and series that are not as expected.
+        series: number of series by word.
+        baseline: folder that it was compared with; empty without one.
+        cases: the cases, none where they are not known.
+        note: what readers should know, e.g. why there are no counts.
+        order: when the results of a run or a sweep were written, ns; sorts what started in the same second.
+
+    """
+
+    name: str
+    kind: Kind
+    started: datetime
+    command: Sequence[str] = ()
+    versions: Mapping[str, str] = field(default_factory=dict)
+    inputs: Mapping[str, str] = field(default_factory=dict)
+    page: str = ""
+    complete: bool = True
+    counts: Mapping[str, int] = field(default_factory=dict)
+    not_met: int = 0
+    series: Mapping[str, int] = field(default_factory=dict)
+    baseline: str = ""
+    cases: Sequence[CaseEntry] = ()
+    note: str = ""
+    order: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Unlisted:
+    """A folder that is no finished run, and why."""
+
+    name: str
+    reason: str
+
+
+def read_folder(folder: Path, *, with_cases: bool = True) -> ListedRun | Unlisted:
+    """Return what a folder holds, or why it is no run. Raises nothing for what stands in the folder.
+
+    `with_cases=False` leaves the cases of a run unread.
+    """
+    try:
+        if folder.is_symlink():
+            return Unlisted(folder.name, f"a link to {folder.readlink()}")
+        return _read(folder, with_cases=with_cases)
+    except UnreadableError as error:
+        return Unlisted(folder.name, str(error))
+    except OSError as error:
+        return Unlisted(folder.name, f"cannot be read: {error.strerror or error}")
+
+
+def _read(folder: Path, *, with_cases: bool) -> ListedRun:
+    if not exists(folder / MANIFEST):
+        return _other(folder)
+    manifest = json_object(folder / MANIFEST)
+    schema = manifest.get("schema")
+    if schema == report.RUN_MANIFEST_SCHEMA:
+        return _run(folder, manifest, with_cases=with_cases)
+    if schema == report.SWEEP_MANIFEST_SCHEMA:
+        return _sweep(folder, manifest)
+    raise UnreadableError(f"not of uictest: {MANIFEST} has schema {shown(schema)}")
+
+
+def _run(folder: Path, document: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
+    try:
+        manifest = report.read_manifest({"manifest": document})
+    except ValueError as error:
+        raise UnreadableError(f"{MANIFEST} is damaged: {error}") from error
+    if not exists(folder / report.RESULTS):
+        raise UnreadableError(f"damaged: there is no {report.RESULTS}")
+    entry, note = _entry(folder, with_cases=with_cases)
+    evaluated = manifest.command[1:2] == ("evaluate",)
+    return ListedRun(
+        folder.name,
+        "evaluate" if evaluated else "run",
+        (started_in(entry.name) if entry else None) or _started(folder, report.RESULTS),
+        manifest.command,
+        manifest.versions,
+        manifest.inputs,
+        _page(folder),
+        **({} if entry is None else _of_entry(entry)),
+        note=note,
+        order=(folder / report.RESULTS).stat().st_mtime_ns,
+    )
+
+
+def _of_entry(entry: RunEntry) -> dict[str, Any]:
+    not_met = sum(
+        count
+        for counts in (entry.counts, entry.series)
+        for word, count in counts.items()
+        if report.tone(word) != "good"
+    )
+    return {
+        "complete": entry.complete,
+        "counts": entry.counts,
+        "series": entry.series,
+        "not_met": not_met,
+        "baseline": entry.baseline,
+        "cases": entry.cases,
+    }
+
+
+def _entry(folder: Path, *, with_cases: bool) -> tuple[RunEntry | None, str]:
+    """Return the entry of a run, from its results where there is none; else why there is none."""
+    if not exists(folder / ENTRY):
+        return _entry_from_results(folder) if with_cases else (None, "of an earlier version; not read")
+    try:
+        entry = read_entry(bytes_of(folder / ENTRY), with_cases=with_cases)
+    except ValueError as error:
+        raise UnreadableError(f"{ENTRY} is damaged: {error}") from error
+    size = (folder / report.RESULTS).stat().st_size
+    if size != entry.results_bytes:
+        raise UnreadableError(
+            f"{report.RESULTS} is not what the run wrote: {size} bytes, expected {entry.results_bytes}"
+        )
+    return entry, ""
+
+
+def _entry_from_results(folder: Path) -> tuple[RunEntry | None, str]:
+    require_file(folder / report.RESULTS)
+    size = (folder / report.RESULTS).stat().st_size
+    if size > _LARGEST_RESULTS:
+        return None, f"of an earlier version; its {report.RESULTS} of {size >> 20} MB is not read"
+    try:
+        content = report.read_run(folder)
+    except ValueError as error:
+        raise UnreadableError(f"damaged: {error}") from error
+    return entry_of(content, size), ""
+
+
+def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
+    if not exists(folder / report.SWEEP_RESULTS):
+        raise UnreadableError("a sweep that is not finished: its command continues it")
+    try:
+        head = _SweepHead.model_validate_json(bytes_of(folder / report.SWEEP_RESULTS))
+    except ValidationError as error:
+        raise UnreadableError(f"{report.SWEEP_RESULTS} is damaged: {first_problem(error)}") from error
+    if head.name != manifest.get("sweep") or head.cases != manifest.get("cases"):
+        raise UnreadableError(
+            f"a sweep that is not finished: {report.SWEEP_RESULTS} is of an earlier run of it"
+        )
+    return ListedRun(
+        folder.name,
+        "sweep",
+        _written(folder / report.SWEEP_RESULTS),
+        ("uictest", "sweep", str(manifest.get("file", ""))),
+        _texts(manifest.get("versions")),
+        _texts(manifest.get("inputs")),
+        _page(folder),
+        counts={word: count for word, count in head.outcomes.items() if count},
+        not_met=head.cases - head.met,
+        order=(folder / report.SWEEP_RESULTS).stat().st_mtime_ns,
+    )
+
+
+class _SweepHead(BaseModel):
+    """What the index needs of the result of a sweep."""
+
+    model_config = ConfigDict(extra="ignore", strict=True)
+
+    form: Literal["uictest/sweep-result/1"] = Field(alias="schema")
+    name: str
+    cases: NonNegativeInt
+    met: NonNegativeInt
+    outcomes: dict[str, NonNegativeInt]
+
+
+def _other(folder: Path) -> ListedRun:
+    for name, (kind, schema) in _OTHERS.items():
+        if not exists(folder / name):
+            continue
+        found = json_object(folder / name).get("schema")
+        if not str(found).startswith(schema):
+            raise UnreadableError(f"not of uictest: {name} has schema {shown(found)}")
+        page = _page(folder) or f"{folder.name}/{name}"
+        return ListedRun(folder.name, kind, _started(folder, name), page=page)
+    raise UnreadableError(f"not of uictest: there is no {MANIFEST}")
+
+
+def _page(folder: Path) -> str:
+    return f"{folder.name}/{_PAGE}" if (folder / _PAGE).is_file() else ""
+
+
+def _started(folder: Path, file: str) -> datetime:
+    """Return the start that the name of a folder states, else when the file was written."""
+    return started_in(folder.name) or _written(folder / file)
+
+
+def started_in(name: str) -> datetime | None:
+    """Return the start in the name of a run; None where there is none."""
+    match = _STARTED.fullmatch(name)
+    return _parsed(lambda: datetime.strptime(match[1], "%Y%m%dT%H%M%S%z")) if match else None
+
+
+def _parsed(parse: Callable[[], datetime]) -> datetime | None:
+    try:
+        return parse()
+    except ValueError:
+        return None
+
+
+def _written(path: Path) -> datetime:
+    return datetime.fromtimestamp(path.stat().st_mtime, UTC)
+
+
+def _texts(content: object) -> dict[str, str]:
+    return {str(key): str(value) for key, value in content.items()} if isinstance(content, Mapping) else {}

@@ -1,0 +1,180 @@
+"""The checks: each reads one number from what a controller has answered, and has the largest that passes.
+
+Every limit is chosen: no standard that we could read states one for a controller alone. They are wide: a
+controller that misses one leaves a wheelset without brake, or lets it lock.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from uictest.selftest.conformance.bench import Answers, Bench
+from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, WHEELSETS
+
+
+class Observation(NamedTuple):
+    """What was found: a number, None if there was nothing to find, and in words."""
+
+    value: float | None
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One fact that controllers should keep.
+
+    Attributes:
+        id: its name.
+        requirement: one sentence.
+        limit: largest value that passes.
+        unit: of that value.
+        observe: reads the value. Raises ControllerError.
+        advisory: whether a larger value is only a warning.
+    """
+
+    id: str
+    requirement: str
+    limit: float
+    unit: str
+    observe: Callable[[Bench], Observation]
+    advisory: bool = False
+
+
+def _legal_commands(bench: Bench) -> Observation:
+    illegal = sum(
+        int(_illegal(driven.outputs).sum()) for each in bench.every_situation() for driven in each.drives
+    )
+    return Observation(illegal, "hold and vent are 0 or 1, and vent only with hold, whatever the inputs")
+
+
+def _illegal(outputs: Any) -> Any:
+    hold, vent = outputs["hold"], outputs["vent"]
+    return (hold != 0) & (hold != 1) | (vent != 0) & (vent != 1) | (vent > hold)
+
+
+def _same_after_reset(bench: Bench) -> Observation:
+    first, after_reset, second = bench.anything().drives
+    different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
+    words = f"after reset {different[0]} cycles differ, with a second controller {different[1]}"
+    return Observation(sum(different), words)
+
+
+def _different(one: Any, other: Any) -> int:
+    """Return in how many cycles answers differ by a bit; C may leave anything between and behind fields."""
+    names = [name for name in one.dtype.names if name != "padding"]
+    differs = np.zeros(len(one), bool)
+    for name in names:
+        first, second = (each[name].reshape(len(one), -1) for each in (one, other))
+        differs |= ((first != second) & ~((first != first) & (second != second))).any(axis=1)
+    return int(differs.sum())
+
+
+def _keeps_brake(bench: Bench) -> Observation:
+    answers = bench.good_rail()
+    acting = ((answers.hold != 0) | (answers.vent != 0)).any(axis=1)
+    first = f"; first at {answers.situation.time[acting][0]:.2f} s" if acting.any() else ""
+    return Observation(
+        int(acting.sum()), f"every wheelset rolls with the noise of the standard sensors{first}"
+    )
+
+
+def _vents_sliding(bench: Bench) -> Observation:
+    times = [_time_to_vent(bench.one_slides(each), each) for each in range(WHEELSETS)]
+    return Observation(max(times), f"from the beginning of the slide; wheelsets 1 to 4: {_listed(times)}")
+
+
+def _time_to_vent(answers: Answers, wheelset: int) -> float:
+    time = answers.situation.time
+    vented = time[(answers.vent[:, wheelset] != 0) & (time >= SLIDE_BEGINS) & (time < ROLLS_AGAIN)]
+    return float(vented[0] - SLIDE_BEGINS) if len(vented) else np.inf
+
+
+def _spares_rolling(bench: Bench) -> Observation:
+    vented = [
+        np.delete(bench.one_slides(each).vent != 0, each, axis=1).any(axis=1).sum()
+        for each in range(WHEELSETS)
+    ]
+    return Observation(int(sum(vented)), "beside a sliding wheelset")
+
+
+def _gives_back(bench: Bench) -> Observation:
+    times = [_time_to_fill(bench.one_slides(each), each) for each in range(WHEELSETS)]
+    return Observation(max(times), f"until it is filled for good; wheelsets 1 to 4: {_listed(times)}")
+
+
+def _time_to_fill(answers: Answers, wheelset: int) -> float:
+    """Return the time from rolling again until the last command that is not to fill, s."""
+    time, train = answers.situation.time, answers.situation.train_speed
+    speed = answers.situation.inputs["wheel_speed"][:, wheelset]
+    rolls = time[(time > ROLLS_AGAIN) & (speed > 0.99 * train)][0]
+    acting = (answers.hold[:, wheelset] != 0) | (answers.vent[:, wheelset] != 0)
+    if acting[-1]:
+        return np.inf
+    return max(float(time[acting][-1] - rolls), 0.0) if acting.any() else 0.0
+
+
+def _not_vented_for_ever(bench: Bench) -> Observation:
+    all_of_them = tuple(range(WHEELSETS))
+    answers = [bench.locked(each) for each in all_of_them] + [bench.locked(*all_of_them)]
+    times = [_longest(each.vent != 0) * bench.subject.config.cycle_time for each in answers]
+    words = f"wheelsets 1 to 4 alone: {_listed(times[:-1])}, all together: {_listed(times[-1:])}"
+    return Observation(max(times), words)
+
+
+def _survives_lost_sensor(bench: Bench) -> Observation:
+    cycle_time = bench.subject.config.cycle_time
+    times = [_longest(bench.sensor_lost(each).vent != 0) * cycle_time for each in range(WHEELSETS)]
+    words = f"any vent while the sensor of wheelset 1 to 4 reports a fault and all roll: {_listed(times)}"
+    return Observation(max(times), words)
+
+
+def _longest(active: Any) -> int:
+    """Return the most cycles in a row in which a wheelset is active; shape of active (cycles, wheelsets)."""
+    longest, run = 0, np.zeros(active.shape[1], int)
+    for row in active:
+        run = (run + 1) * row
+        longest = max(longest, int(run.max()))
+    return longest
+
+
+def _reference_speed(bench: Bench) -> Observation:
+    answers = [bench.good_rail(), *map(bench.one_slides, range(WHEELSETS))]
+    estimates = np.concatenate([each.reference_speed for each in answers])
+    if np.isnan(estimates).all():
+        return Observation(None, "the controller gives no reference speed")
+    errors = np.abs(estimates - np.concatenate([each.situation.train_speed for each in answers]))
+    return Observation(float(np.nanmax(errors)), "while at least three wheelsets roll")
+
+
+def _answers_in_time(bench: Bench) -> Observation:
+    seconds = np.concatenate([driven.seconds for each in bench.every_situation() for driven in each.drives])
+    usual, longest = np.quantile(seconds, 0.99), seconds.max()
+    within = f"99 % of {len(seconds)} answers within {_short(usual)}, the longest {_short(longest)}"
+    return Observation(100.0 * float(usual) / bench.subject.config.cycle_time, f"on this machine; {within}")
+
+
+def _short(seconds: float) -> str:
+    return f"{seconds * 1e6:.0f} us" if seconds < 1e-3 else f"{seconds * 1e3:.1f} ms"
+
+
+def _listed(times: list[float]) -> str:
+    return ", ".join("never" if np.isinf(time) else f"{time:.2f} s" for time in times)
+
+
+CHECKS: Final = (
+    Check("legal-commands", "Only commands that a valve has.", 0, "1", _legal_commands),
+    Check("same-after-reset", "The same answers after reset.", 0, "cycles", _same_after_reset),
+    Check("keeps-brake", "Brake force is kept on a good rail.", 0, "cycles", _keeps_brake),
+    Check("vents-sliding", "A sliding wheelset is vented.", 1.0, "s", _vents_sliding),
+    Check("spares-rolling", "The others are not vented.", 0, "cycles", _spares_rolling),
+    Check("gives-back", "A wheelset that rolls again gets its brake back.", 3.0, "s", _gives_back),
+    Check("ends-vents", "No wheelset is vented for ever.", 10.0, "s", _not_vented_for_ever),
+    Check("lost-sensor", "No wheelset is vented for long without a speed.", 10.0, "s", _survives_lost_sensor),
+    Check("reference-speed", "The reference speed is that of the train.", 3.0, "m/s", _reference_speed),
+    Check(
+        "in-time", "Answers come within the cycle.", 100.0, "% of the cycle", _answers_in_time, advisory=True
+    ),
+)
+"""In the order of the report."""

@@ -1,1 +1,0 @@
-"""Plan a sweep: its file, its axes and draws, and the values of each case."""

@@ -1,1 +1,0 @@
-"""Run a sweep: chunks, the store on disk, shards and clusters."""

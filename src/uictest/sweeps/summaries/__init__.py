@@ -1,1 +1,0 @@
-"""Summarise the rows of a sweep: counts, maps, trends, histograms, sensitivities, frontiers."""

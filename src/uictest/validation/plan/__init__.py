@@ -1,1 +1,0 @@
-"""What a validation file says: recorded stops and the scenarios that simulate them."""
