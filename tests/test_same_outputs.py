@@ -1,0 +1,107 @@
+"""`scripts/same_outputs.py`: what varies is replaced before outputs are compared, and nothing else is."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import os
+import zipfile
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+import yaml
+
+REPOSITORY = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def contents(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    monkeypatch.syspath_prepend(REPOSITORY / "scripts")
+    return importlib.import_module("output_contents")
+
+
+@pytest.fixture
+def outputs(contents: ModuleType) -> ModuleType:
+    return importlib.import_module("same_outputs")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("reports/20261123T171251Z-8bbe9c46/index.html", "reports/<time>-8bbe9c46/index.html"),
+        ("2026-11-23 17:12:51 UTC, 1 case", "<time>, 1 case"),
+        ("uictest: 1 case: 1 pass in 0.4 s; reports", "uictest: 1 case: 1 pass in <duration>; reports"),
+        ('name="dry-120" time="0.076" />', 'name="dry-120" time="<duration>" />'),
+        ("   0.119 s  dry-120", "<duration>  dry-120"),
+        ("uictest: compiled in 10 s\npass dry\n", "pass dry\n"),
+        ("uictest: 12 of 64 cases after 30 s\nnext\n", "next\n"),
+        ("in-time     pass     0.429   100   % of", "in-time     pass     <duration>  100   % of"),
+        ('"version": "uictest 0.2.0"', '"version": "uictest <version>"'),
+        ('"program": "0123456789abcdef"', '"program": "<digest>"'),
+        (f"{REPOSITORY}/src/uictest", "<path>/src/uictest"),
+    ],
+)
+def test_replaces_what_cannot_be_the_same_twice(contents: ModuleType, text: str, expected: str) -> None:
+    assert contents.steady(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "braking_distance_m=472.21 braking_time_s=27.851",
+        "standstill in 27 s; 0.119 s of it sliding; trigger: at 0 s",
+        '"library:rails/dry.yaml": "0a341ce09f1b47b609d76d5786b7b629f446e0ba5f8b2204f34133ac8d40a2fa"',
+        '"vehicle/8907a746c820": "intercity-180", "numpy": "2.4.6"',
+        "lost-sensor  pass  0.429  10  s",
+        "schema: uictest/result/1, date 2026-05-31",
+        'fill="#d55e00" width="20261123"',
+    ],
+)
+def test_replaces_nothing_else(contents: ModuleType, text: str) -> None:
+    assert contents.steady(text) == text
+
+
+def test_a_digest_in_a_list_counts_as_right_or_wrong(contents: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1\n")
+    digest = hashlib.sha256(b"1\n").hexdigest()
+    (tmp_path / "SHA256SUMS").write_text(f"# Files\n{digest}  a.csv\n{digest[::-1]}  a.csv\n")
+    assert contents.content(tmp_path / "SHA256SUMS") == "# Files\nright  a.csv\nwrong  a.csv"
+
+
+def test_an_archive_is_compared_by_its_members(outputs: ModuleType, tmp_path: Path) -> None:
+    def archive(name: str, text: str, day: int) -> Path:
+        with zipfile.ZipFile(tmp_path / name, "w") as file:
+            file.writestr(zipfile.ZipInfo("a.txt", (2026, 1, day, 0, 0, 0)), text)
+        return tmp_path / name
+
+    first = archive("1.zip", "same", 1)
+    assert outputs.difference(first, archive("2.zip", "same", 2)) == []
+    assert outputs.difference(first, archive("3.zip", "other", 1)) == [" member a.txt", "-same", "+other"]
+
+
+def test_a_difference_far_down_a_long_line_is_shown(outputs: ModuleType, tmp_path: Path) -> None:
+    one, other = tmp_path / "one.html", tmp_path / "other.html"
+    one.write_text("x" * 3_000_000 + "<p>colour</p>")
+    other.write_text("x" * 3_000_000 + "<p>color</p>")
+    assert [line for line in outputs.difference(one, other) if "color" in line]
+
+
+def test_counts_what_differs_and_what_is_missing(
+    outputs: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for side, text in (("one", "12"), ("other", "13")):
+        (tmp_path / side / "texts").mkdir(parents=True)
+        (tmp_path / side / "texts/01").write_text(f"$ uictest\n{text}\n")
+        (tmp_path / side / f"{side}.csv").write_text("")
+    assert outputs.compared("group", tmp_path / "one", tmp_path / "other", {}) == (1, 1, 3)
+    assert "group/texts/01 $ uictest\n $ uictest\n-12\n+13\n" in capsys.readouterr().out
+
+
+def test_every_group_of_commands_can_be_run(outputs: ModuleType) -> None:
+    groups: dict[str, Any] = yaml.safe_load(outputs.COMMANDS.read_text("utf-8"))
+    for name, group in groups.items():
+        assert group.keys() <= {"files", "commands", "compilers", "on_request"}, name
+        assert group["commands"].splitlines(), name
+        assert all(os.sep not in file for file in group.get("files", {})), name
