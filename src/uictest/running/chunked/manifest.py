@@ -58,15 +58,10 @@ def sweep_manifest(
         "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
         "cases_sha256": plan.cases_sha256,
         "inputs": {_relative_to(folder, name): digest for name, digest in plan.inputs.items()},
-        **(_of_survey() if plan.survey else {}),
+        **({"time_step": SURVEY} if plan.survey else {}),
         "versions": _versions(),
         "program": program_digest(),
     }
-
-
-def _of_survey() -> dict[str, Any]:
-    biases = hashlib.sha256(library.table(SURVEY_TABLE).encode()).hexdigest()
-    return {"time_step": SURVEY, "survey_biases_sha256": biases}
 
 
 def manifest_differences(
@@ -121,8 +116,8 @@ def _relative_to(folder: Path, name: str) -> str:
 
 @cache
 def program_digest() -> str:
-    """Return a digest of the sources that determine the result of a case."""
-    digest = hashlib.sha256()
+    """Return a digest of the sources that determine the result of a case, and of the biases of a survey."""
+    digest = hashlib.sha256(library.table(SURVEY_TABLE).encode())
     package = Path(__file__).parents[2]
     for name in SOURCES:
         place = package / name
