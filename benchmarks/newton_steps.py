@@ -3,16 +3,19 @@
 The rig takes two. Every condition is run in lanes with one and with two, stop by stop with the same noise.
 Where WSP cycling makes single stops differ, the mean of the differences counts: one step is equivalent if the
 95 % interval of that mean lies within +-0.05 % of the distance, +-0.3 % of the air and +-0.1 vents of a
-wheelset. Conditions of which 256 stops do not show it are run with four times as many, up to `--stops N`;
-`-k WORD` selects conditions.
+wheelset. Conditions that 256 stops do not show get as many as their spread asks for, up to `--stops N`.
+`-k WORD` selects conditions, also several; `--compare 6,2` compares other numbers of steps; `--folder FOLDER`
+keeps the stops, so that a later call adds to them.
 """
 
 import argparse
+import json
+import math
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -64,18 +67,24 @@ VARIANTS = {
 """Name -> shipped cases and what is set in them."""
 FEWEST = 256
 """Stops of every condition."""
+BATCH = 4096
+"""Stops that are held in memory at once."""
+LONG_LOCK = 1.0
+"""Time for which a wheelset must stand while the train moves to count as a long lock, s."""
+_QUANTILES = 1.96 + 1.645
+"""Half an interval of 95 %, and what chance leaves room for nine times in ten, in standard errors."""
 
 
-def conditions(word: str) -> Iterator[tuple[str, StopInputs]]:
+def conditions(*words: str) -> Iterator[tuple[str, StopInputs]]:
     """Yield the inputs of every condition by its name: shipped cases, then variants of some."""
     paths = [path for path in sorted(SCENARIOS.glob("*.yaml")) if path.name.count(".") == 1]
     cases = {case.id: case for case in load(paths)}
     for name, case in cases.items():
-        if word in name:
+        if any(word in name for word in words):
             yield name, assemble(case)
     for variant, (names, settings) in VARIANTS.items():
         for name in names:
-            if word in f"{name}, {variant}":
+            if any(word in f"{name}, {variant}" for word in words):
                 [case] = load([cases[name].path], [*_parameters(cases[name]), *settings])[:1]
                 yield f"{name}, {variant}", assemble(case)
 
@@ -95,68 +104,122 @@ def one_newton_step(wheelsets: Any, thrusts: Any, p: Any) -> Any:
     return _refine_all(slips, wheelsets, p)
 
 
+def six_newton_steps(wheelsets: Any, thrusts: Any, p: Any) -> Any:
+    """Do as :func:`uictest.rig.model.slip_search.find_slips`, with six steps: to convergence."""
+    first, sliding_forces = one_newton_step(wheelsets, thrusts, p)
+    second, _ = _refine_all(first, wheelsets, p)
+    third, _ = _refine_all(second, wheelsets, p)
+    fourth, _ = _refine_all(third, wheelsets, p)
+    fifth, _ = _refine_all(fourth, wheelsets, p)
+    sixth, _ = _refine_all(fifth, wheelsets, p)
+    return sixth, sliding_forces
+
+
 bracket_slip, _refine_all = slip_search.bracket_slip, slip_search._refine_all
+SEARCHES = {1: one_newton_step, 2: slip_search.find_slips, 6: six_newton_steps}
+"""Number of Newton steps -> search."""
+RIGS_OWN = 2
+"""Newton steps that the rig takes."""
 
 
-def run(steps: int, names: Collection[str], count: int, folder: Path) -> None:
-    """Run stops of some conditions and leave what they came to, one file for each."""
-    if steps == 1:
-        one_newton_step.__module__ = slip_search.__name__  # compiled as if it stood there
-        step.find_slips = one_newton_step  # type: ignore[attr-defined]
+def run(steps: int, wanted: dict[str, int], folder: Path) -> None:
+    """Run stops until there are as many of each condition as wanted; leave what they came to in files."""
+    for search in SEARCHES.values():
+        search.__module__ = slip_search.__name__  # compiled as if it stood there
+    step.find_slips = SEARCHES[steps]  # type: ignore[attr-defined]
     for name, inputs in conditions(""):
-        if name in names:
-            many = np.repeat(inputs.parameters.reshape(1), count).view(inputs.parameters.dtype)
-            many["noise_key"] = np.arange(count) + 1
-            own, rail = np.tile(inputs.wheelset_parameters, (count, 1)), np.tile(inputs.rail, (count, 1, 1))
-            np.save(folder / f"{steps} {name}.npy", _figures(*run_in_lanes(many, own, rail)))
+        file = folder / f"{steps} {name}.npy"
+        while name in wanted and (have := len(np.load(file)) if file.exists() else 0) < wanted[name]:
+            figures = _stops(inputs, np.arange(have, min(have + BATCH, wanted[name])) + 1)
+            np.save(file, np.concatenate([np.load(file), figures]) if have else figures)
+
+
+def _stops(inputs: StopInputs, keys: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Run a stop with each of these keys of the noise and return what they came to."""
+    many = np.repeat(inputs.parameters.reshape(1), keys.size).view(inputs.parameters.dtype)
+    many["noise_key"] = keys
+    own, rail = np.tile(inputs.wheelset_parameters, (keys.size, 1)), np.tile(inputs.rail, (keys.size, 1, 1))
+    return _figures(*run_in_lanes(many, own, rail))
 
 
 def _figures(stops: Any, wheelsets: Any) -> NDArray[np.float64]:
-    """Return distance, air, air's residual of energy, vents and locked time of each stop; shape (n, 5)."""
+    """Return distance, air, residual of energy, vents, mean and longest locked time; shape (n, 6)."""
     vents, locked = (wheelsets[name].mean(axis=1) for name in ("valve_actuations", "locked_time"))
-    return np.column_stack(
-        [stops["end_distance"], stops["air_consumed"], stops["energy_residual"], vents, locked]
-    )
+    columns = [stops["end_distance"], stops["air_consumed"], stops["energy_residual"], vents, locked]
+    return np.column_stack([*columns, wheelsets["locked_time"].max(axis=1)])
 
 
-def differences(one: NDArray[np.float64], two: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """Return what one step differs by from two, stop by stop."""
-    return {
-        "distance, %": 100.0 * (one[:, 0] - two[:, 0]) / two[:, 0].mean(),
-        "air, %": 100.0 * (one[:, 1] - two[:, 1]) / two[:, 1].mean(),
-        "vents": one[:, 3] - two[:, 3],
-    }
+class Pairs:
+    """Stops of one condition with one search and with another, in pairs that met the same noise."""
+
+    def __init__(self, name: str, compared: Sequence[int], folder: Path) -> None:
+        both = [np.load(folder / f"{steps} {name}.npy") for steps in compared]
+        self.count = min(len(stops) for stops in both)
+        self.one, self.two = (stops[: self.count] for stops in both)
+
+    @property
+    def differences(self) -> dict[str, NDArray[np.float64]]:
+        """What the first search differs by from the second, stop by stop."""
+        return {
+            "distance, %": 100.0 * (self.one[:, 0] - self.two[:, 0]) / self.two[:, 0].mean(),
+            "air, %": 100.0 * (self.one[:, 1] - self.two[:, 1]) / self.two[:, 1].mean(),
+            "vents": self.one[:, 3] - self.two[:, 3],
+        }
+
+    @property
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """The 95 % intervals of the mean differences."""
+        return {head: mean_interval(values.tolist()) for head, values in self.differences.items()}
+
+    @property
+    def are_equivalent(self) -> bool:
+        """Whether the intervals lie within the bounds."""
+        return all(
+            -BOUNDS[head] < low and high < BOUNDS[head] for head, (low, high) in self.intervals.items()
+        )
+
+    @property
+    def needed(self) -> int:
+        """How many pairs show a difference of zero nine times in ten, by the spread of these."""
+        spreads = {head: float(values.std(ddof=1)) for head, values in self.differences.items()}
+        return max(math.ceil((_QUANTILES * spreads[head] / BOUNDS[head]) ** 2) for head in BOUNDS)
+
+    @property
+    def long_locks(self) -> tuple[int, int, float]:
+        """Stops with a long lock, of either search, and how often chance alone parts them as far.
+
+        The exact test of McNemar: of the pairs with one such stop, each search has half.
+        """
+        one, two = self.one[:, 5] > LONG_LOCK, self.two[:, 5] > LONG_LOCK
+        only_one, only_two = int((one & ~two).sum()), int((two & ~one).sum())
+        fewer, parted = min(only_one, only_two), only_one + only_two
+        share = sum(math.comb(parted, k) for k in range(fewer + 1)) / 2**parted
+        return int(one.sum()), int(two.sum()), min(1.0, 2.0 * share)
 
 
-def is_shown(name: str, folder: Path) -> bool:
-    """Return whether the stops of a condition show that one step is equivalent."""
-    intervals = {
-        head: mean_interval(each.tolist()) for head, each in differences(*_both(name, folder)).items()
-    }
-    return all(-BOUNDS[head] < low and high < BOUNDS[head] for head, (low, high) in intervals.items())
-
-
-def _both(name: str, folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    return np.load(folder / f"1 {name}.npy"), np.load(folder / f"2 {name}.npy")
-
-
-def report(names: Sequence[str], folder: Path) -> int:
+def report(names: Sequence[str], compared: Sequence[int], folder: Path) -> int:
     """Print a row for each condition and return how many are not shown to be equivalent."""
     heads = "".join(f"{head:>22}" for head in BOUNDS)
     print(
-        f"{'mean difference and its 95 % interval':44}{'stops':>6}{heads}{'locked, s':>20}{'energy, %':>18}"
+        f"{'mean difference and its 95 % interval':44}{'pairs':>6}{heads}{'locked, s':>20}{'energy, %':>18}"
+        f"{'long locks':>14}{'chance':>8}"
     )
     missed = 0
     for name in names:
-        (one, two), cells, holds = _both(name, folder), "", is_shown(name, folder)
-        for values in differences(one, two).values():
-            low, high = mean_interval(values.tolist())
+        pairs, cells = Pairs(name, compared, folder), ""
+        for low, high in pairs.intervals.values():
             cells += f"{(low + high) / 2:+10.4f} +-{(high - low) / 2:8.4f} "
-        missed += not holds
-        locked = "  ".join(f"{each[:, 4].mean():.3f}" for each in (one, two))
-        energy = "  ".join(f"{100.0 * abs(each[:, 2]).max():.1e}" for each in (one, two))
-        print(f"{name[:43]:44}{len(one):6}{cells}{locked:>19} {energy:>17} {'' if holds else 'NOT SHOWN'}")
-    print(f"{len(names) - missed} of {len(names)} conditions: one step is equivalent to two")
+        locked = "  ".join(f"{each[:, 4].mean():.3f}" for each in (pairs.one, pairs.two))
+        energy = "  ".join(f"{100.0 * abs(each[:, 2]).max():.1e}" for each in (pairs.one, pairs.two))
+        *long, chance = pairs.long_locks
+        missed += not pairs.are_equivalent
+        verdict = "" if pairs.are_equivalent else f"NOT SHOWN, {pairs.needed} needed"
+        print(
+            f"{name[:43]:44}{pairs.count:6}{cells}{locked:>19} {energy:>17} {'  '.join(map(str, long)):>13}"
+            f" {chance:7.2g} {verdict}"
+        )
+    first, second = compared
+    print(f"{len(names) - missed} of {len(names)} conditions: {first} equivalent to {second} Newton steps")
     return missed
 
 
@@ -164,35 +227,44 @@ def main() -> int:
     """Run both kinds in processes of their own, with caches of their own, and compare."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--stops", type=int, default=4096)
-    parser.add_argument("-k", dest="word", default="")
+    parser.add_argument("-k", dest="words", action="append")
+    parser.add_argument("--compare", default="1,2")
+    parser.add_argument("--folder", type=Path)
     parser.add_argument("--steps", type=int, help=argparse.SUPPRESS)
-    parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
-    parser.add_argument("names", nargs="*", help=argparse.SUPPRESS)
+    parser.add_argument("--wanted", type=json.loads, help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.steps:
-        run(given.steps, given.names, given.stops, given.folder)
+        run(given.steps, given.wanted, given.folder)
         return 0
-    print(machine.description("numba", "numpy"))
-    names = [name for name, _ in conditions(given.word)]
-    with tempfile.TemporaryDirectory() as folder:
-        count, left = FEWEST, names
-        while left and count <= given.stops:
-            run_both(left, count, Path(folder))
-            count, left = 4 * count, [name for name in left if not is_shown(name, Path(folder))]
-        return 1 if report(names, Path(folder)) else 0
+    print(machine.description("numba", "numpy"), flush=True)
+    names = [name for name, _ in conditions(*given.words or [""])]
+    compared = [int(steps) for steps in given.compare.split(",")]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = given.folder or Path(temporary)
+        folder.mkdir(exist_ok=True)
+        run_until_shown(names, compared, given.stops, folder)
+        return 1 if report(names, compared, folder) else 0
 
 
-def run_both(names: Sequence[str], count: int, folder: Path) -> None:
-    """Run conditions with one and with two steps, each in a process and with a cache of its own."""
-    started = []
-    for steps in (1, 2):
-        cache = {"UICTEST_CACHE": str(folder / "one")} if steps == 1 else {}
-        words = ["--steps", str(steps), "--folder", str(folder), "--stops", str(count), *names]
-        command = [sys.executable, __file__, *words]
-        started.append(subprocess.Popen(command, env={**os.environ, **cache}))
-    codes = [process.wait() for process in started]
-    if any(codes):
-        raise SystemExit(2)
+def run_until_shown(names: Sequence[str], compared: Sequence[int], most: int, folder: Path) -> None:
+    """Run every condition with both searches, and on until it is shown or has as many stops as it may."""
+    wanted = dict.fromkeys(names, min(FEWEST, most))
+    while wanted:
+        run_both(wanted, compared, folder)
+        pairs = {name: Pairs(name, compared, folder) for name in wanted}
+        wanted = {
+            name: min(max(each.needed, 2 * each.count), most)
+            for name, each in pairs.items()
+            if each.count < most and not each.are_equivalent
+        }
+
+
+def run_both(wanted: dict[str, int], compared: Sequence[int], folder: Path) -> None:
+    """Run conditions with both searches, each in a process and with a cache of its own, in turn."""
+    for steps in compared:
+        cache = {"UICTEST_CACHE": str(folder / f"cache-{steps}")} if steps != RIGS_OWN else {}
+        words = ["--steps", str(steps), "--folder", str(folder), "--wanted", json.dumps(wanted)]
+        subprocess.run([sys.executable, __file__, *words], env={**os.environ, **cache}, check=True)
 
 
 if __name__ == "__main__":
