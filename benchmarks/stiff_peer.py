@@ -30,9 +30,9 @@ from open_records import opened
 from scipy.integrate import solve_ivp
 from stops import SCENARIOS
 
+from uictest.plans.scenario import load
 from uictest.rig import assemble
 from uictest.rig.model.running_gear import step_wheelset
-from uictest.scenario import load
 
 Array = NDArray[np.float64]
 Program = tuple[tuple[float, float], ...]
