@@ -6,9 +6,12 @@ import dataclasses
 import re
 from pathlib import Path
 
+import yaml
+
 from uictest.evaluation import CaseResult, Verdict
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
+from uictest.scenario.model import Brake, Rail, Rig, Scenario, Simulation
 
 REPOSITORY = Path(__file__).parents[2]
 LONGEST = 110
@@ -62,6 +65,23 @@ def test_every_channel_of_a_recording_is_described() -> None:
     text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
     names = [name for name, _ in CAR_CHANNELS] + [f"{name}_1" for name, _ in WHEELSET_CHANNELS]
     assert [name for name in names if f"`{name}`" not in text] == []
+
+
+def test_every_key_of_a_scenario_is_named() -> None:
+    text = (REPOSITORY / "docs/scenarios.md").read_text("utf-8")
+    groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation}
+    keys = {field.alias or name for name, field in Scenario.model_fields.items()} - groups.keys()
+    keys |= {f"{group}.{name}" for group, model in groups.items() for name in model.model_fields}
+    assert {key for key in keys if f"`{key}`" not in text} == set()
+
+
+def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
+    lines = (REPOSITORY / "docs/parts.md").read_text("utf-8").splitlines()
+    file = REPOSITORY / "src/uictest/library/measures/standard.yaml"
+    numbers = {key: each for key, each in yaml.safe_load(file.read_text("utf-8")).items() if "value" in each}
+    assert numbers
+    for key, each in numbers.items():
+        assert any(f"`{key}`" in line and each["value"] in line for line in lines), key
 
 
 def test_the_first_screen_shows_the_two_commands() -> None:
