@@ -12,6 +12,7 @@ from uictest.evaluation import CaseResult, Verdict
 from uictest.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.scenario.model import Brake, Rail, Rig, Scenario, Simulation
+from uictest.series_measures import SERIES_MEASURES
 
 REPOSITORY = Path(__file__).parents[2]
 LONGEST = 110
@@ -82,6 +83,16 @@ def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
     assert numbers
     for key, each in numbers.items():
         assert any(f"`{key}`" in line and each["value"] in line for line in lines), key
+
+
+def test_every_measure_of_a_series_is_described() -> None:
+    """A median or worst value has the row of its figure."""
+    text = (REPOSITORY / "docs/series.md").read_text("utf-8")
+    names = {
+        re.sub("^(median|worst)_", "", name) if measure.figure else name
+        for name, measure in SERIES_MEASURES.items()
+    }
+    assert {name for name in names if not re.search(rf"^[|].*`{name}`.*[|]", text, re.MULTILINE)} == set()
 
 
 def test_the_first_screen_shows_the_two_commands() -> None:
