@@ -6,8 +6,12 @@ import dataclasses
 import re
 from pathlib import Path
 
+import yaml
+
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.plans.scenario.model import Brake, Rail, Rig, Scenario, Simulation
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 
 REPOSITORY = Path(__file__).parents[2]
@@ -62,6 +66,33 @@ def test_every_channel_of_a_recording_is_described() -> None:
     text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
     names = [name for name, _ in CAR_CHANNELS] + [f"{name}_1" for name, _ in WHEELSET_CHANNELS]
     assert [name for name in names if f"`{name}`" not in text] == []
+
+
+def test_every_key_of_a_scenario_is_named() -> None:
+    text = (REPOSITORY / "docs/scenarios.md").read_text("utf-8")
+    groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation}
+    keys = {field.alias or name for name, field in Scenario.model_fields.items()} - groups.keys()
+    keys |= {f"{group}.{name}" for group, model in groups.items() for name in model.model_fields}
+    assert {key for key in keys if f"`{key}`" not in text} == set()
+
+
+def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
+    lines = (REPOSITORY / "docs/parts.md").read_text("utf-8").splitlines()
+    file = REPOSITORY / "src/uictest/library/measures/standard.yaml"
+    numbers = {key: each for key, each in yaml.safe_load(file.read_text("utf-8")).items() if "value" in each}
+    assert numbers
+    for key, each in numbers.items():
+        assert any(f"`{key}`" in line and each["value"] in line for line in lines), key
+
+
+def test_every_measure_of_a_series_is_described() -> None:
+    """A median or worst value has the row of its figure."""
+    text = (REPOSITORY / "docs/series.md").read_text("utf-8")
+    names = {
+        re.sub("^(median|worst)_", "", name) if measure.figure else name
+        for name, measure in SERIES_MEASURES.items()
+    }
+    assert {name for name in names if not re.search(rf"^[|].*`{name}`.*[|]", text, re.MULTILINE)} == set()
 
 
 def test_the_first_screen_shows_the_two_commands() -> None:
