@@ -78,7 +78,7 @@ def test_every_key_of_a_scenario_is_named() -> None:
 
 def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
     lines = (REPOSITORY / "docs/parts.md").read_text("utf-8").splitlines()
-    file = REPOSITORY / "src/uictest/library/measures/standard.yaml"
+    file = REPOSITORY / "src/uictest/plans/library/measures/standard.yaml"
     numbers = {key: each for key, each in yaml.safe_load(file.read_text("utf-8")).items() if "value" in each}
     assert numbers
     for key, each in numbers.items():
