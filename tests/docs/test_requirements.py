@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 PAGE = Path(__file__).parents[2] / "docs" / "requirements.md"
-_ROW = re.compile(r"^\| (TOOL-\d+) \| ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
+_ROW = re.compile(r"^\| (TOOL-\d+): ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
 _TEST = re.compile(r"\[(test_\w+)\]\(([^)]+\.py)\)")
 ROWS = {match[1]: (match[2], match[3]) for match in _ROW.finditer(PAGE.read_text("utf-8"))}
 
