@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
 import subprocess
 import sysconfig
@@ -48,6 +49,7 @@ class Answer:
 Call = Callable[..., Answer]
 Start = Callable[..., "subprocess.Popen[str]"]
 Write = Callable[..., Path]
+MadeOnce = Callable[[Callable[[], object]], None]
 
 
 @pytest.fixture(autouse=True)
@@ -57,6 +59,27 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for variable in ("CI", "NO_COLOR", "COLUMNS", "TERM", "GITHUB_STEP_SUMMARY"):
         monkeypatch.delenv(variable, raising=False)
     return tmp_path
+
+
+@pytest.fixture(scope="module")
+def kept_places(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where working folders are kept that several tests of a file begin with."""
+    return tmp_path_factory.mktemp("kept")
+
+
+@pytest.fixture
+def made_once(workplace: Path, kept_places: Path) -> MadeOnce:
+    """Fill the working folder as a function does: it is called for the first test of a file alone."""
+
+    def fill(make: Callable[[], object]) -> None:
+        kept = kept_places / make.__qualname__.partition(".")[0]
+        if not kept.exists():
+            make()
+            shutil.copytree(workplace, kept, symlinks=True)
+        else:
+            shutil.copytree(kept, workplace, symlinks=True, dirs_exist_ok=True)
+
+    return fill
 
 
 @pytest.fixture
