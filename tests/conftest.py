@@ -1,6 +1,7 @@
 """What every test of the package shares."""
 
 import ctypes
+import gc
 import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -45,6 +46,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     tests = Path(__file__).parent
     places = {tests / name: place for place, name in enumerate(_LONGEST)}
     items.sort(key=lambda item: places.get(item.path, len(places)))
+
+
+def pytest_collection_finish() -> None:
+    """Spare the collector of garbage what stays to the end: thousands of tests and all that is imported."""
+    gc.freeze()
 
 
 FUSED: dict[Any, Any] = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}

@@ -113,7 +113,8 @@ def _here(arguments: Sequence[str]) -> Outcome:
         contextlib.redirect_stdout(out),
         contextlib.redirect_stderr(err),
     ):
-        code = pytest.main([*_PLUGIN, *arguments])
+        # It would search all memory for garbage at its end, which the process of the tests does at its own.
+        code = pytest.main([*_PLUGIN, "-p", "no:unraisableexception", *arguments])
     sys.path[:] = places
     for name in set(sys.modules) - modules:
         if Path(getattr(sys.modules[name], "__file__", None) or "/").is_relative_to(Path.cwd()):
