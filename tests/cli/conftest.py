@@ -19,6 +19,7 @@ from uictest.campaign import CaseRun, RecordingRequest, batch
 from uictest.cli.entry import execute
 from uictest.evaluation import CaseResult, error_result
 from uictest.measures import STOP_COLUMNS
+from uictest.sweeps.summaries import worst
 
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
@@ -141,6 +142,12 @@ def process() -> Call:
         return Answer(done.returncode, done.stdout or "", done.stderr or "")
 
     return run
+
+
+@pytest.fixture
+def two_worst_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a sweep draw two of its worst cases, not twelve: what a page draws has tests of its own."""
+    monkeypatch.setattr(worst, "MOST", 2)
 
 
 @pytest.fixture

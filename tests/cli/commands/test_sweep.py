@@ -16,9 +16,10 @@ import pytest
 
 from uictest import report, sweeps as room
 from uictest.sweeps.running.chunk import ChunkRunner
-from uictest.sweeps.summaries import worst
 
 from ..conftest import HANGING, Start
+
+pytestmark = pytest.mark.usefixtures("two_worst_cases")
 
 Call = Callable[..., Any]
 TEXT = """\
@@ -40,12 +41,6 @@ def study(scenario: Callable[..., Path]) -> Path:
     path.write_text(path.read_text().replace("30 km/h", "15 km/h"))
     Path(FILE).write_text(TEXT)
     return Path(FILE)
-
-
-@pytest.fixture(autouse=True)
-def two_worst_cases(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw two of the worst cases, not twelve: what a page draws has tests of its own."""
-    monkeypatch.setattr(worst, "MOST", 2)
 
 
 def contents(folder: str | Path = "reports/study") -> dict[str, bytes]:
