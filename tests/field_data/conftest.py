@@ -49,7 +49,7 @@ def case() -> Case:
     return _case()
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def simulated() -> Callable[[float], SimulatedStop]:
     """The stop, recorded at a rate in Hz."""
     return _stop
