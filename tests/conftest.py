@@ -1,6 +1,7 @@
 """What every test of the package shares."""
 
 import ctypes
+import gc
 import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -22,16 +23,27 @@ from uictest.plans import scenario
 
 _LONGEST = (
     "rig/backends/test_lanes.py",
-    "sweeps/running/test_judging.py",
+    "api/test_page.py",
     "docs/test_examples.py",
-    "rig_fmu/test_stop.py",
-    "fitting/test_cleaning.py",
-    "fitting/test_one_slide.py",
-    "rig/backends/test_compiled.py",
+    "identification/test_cylinder.py",
+    "studies/test_bands.py",
     "cli/commands/test_sweep.py",
-    "cli/commands/test_controller.py",
+    "cli/test_closed_streams.py",
+    "cli/test_entry.py",
+    "rig/external/test_workers.py",
+    "rig/model/test_module_air.py",
+    "conformance/test_checks.py",
+    "fitting/test_cleaning.py",
+    "ci/test_jobs.py",
+    "examples/test_fmu.py",
+    "sweeps/running/test_cluster.py",
+    "rig/backends/test_compiled.py",
 )
-"""Files that take longest. They begin first, lest one process works on them while the others are done."""
+"""Files that take longest. They begin first, lest one process works on them while the others are done.
+
+The first compiles what most others run. One process has the first and the third, the other the second and the
+fourth, which run nothing of it: no process waits for what the other one compiles.
+"""
 
 # How long an example takes says nothing about it on a machine that others use as well.
 settings.register_profile("same", deadline=None, derandomize=True)
@@ -46,6 +58,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     tests = Path(__file__).parent
     places = {tests / name: place for place, name in enumerate(_LONGEST)}
     items.sort(key=lambda item: places.get(item.path, len(places)))
+
+
+def pytest_collection_finish() -> None:
+    """Spare the collector of garbage what stays to the end: thousands of tests and all that is imported."""
+    gc.freeze()
 
 
 FUSED: dict[Any, Any] = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}

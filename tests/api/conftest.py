@@ -23,18 +23,17 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def write(workplace: Path) -> Write:
+    """Write a short stop below scenarios/ of the working folder."""
+    return write_stop
+
+
+def write_stop(name: str = "stop", text: str = "", rail: str = "{condition: wet, friction: 0.06}") -> Path:
     """Write a short stop below scenarios/, with more lines of YAML where a test wants them."""
-
-    def write_scenario(
-        name: str = "stop", text: str = "", rail: str = "{condition: wet, friction: 0.06}"
-    ) -> Path:
-        path = Path("scenarios", f"{name}.yaml")
-        path.parent.mkdir(exist_ok=True)
-        head = f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n"
-        path.write_text(f"{head}rail: {rail}\ncriteria: [uictest-stop]\n{text}")
-        return path
-
-    return write_scenario
+    path = Path("scenarios", f"{name}.yaml")
+    path.parent.mkdir(exist_ok=True)
+    head = f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n"
+    path.write_text(f"{head}rail: {rail}\ncriteria: [uictest-stop]\n{text}")
+    return path
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import math
@@ -18,16 +19,19 @@ from uictest import report
 from uictest.api.frames import column_units
 from uictest.core import measures
 
+from .conftest import write_stop
+
 Write = Callable[..., Path]
 HOSTILE = "<script>alert(1)</script> & \x1b[31m"
 
 
-@pytest.fixture
-def results(write: Write) -> uictest.Results:
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> uictest.Results:
     """Two cases, one of them repeated, one not as expected."""
-    write("many", "repeat: 3\nrequirements: [BR-1]\n")
-    write("one", "expect: fail\nmatrix: {rail.friction: [0.06, 0.1]}\n")
-    return uictest.run()
+    with contextlib.chdir(tmp_path_factory.mktemp("results")):
+        write_stop("many", "repeat: 3\nrequirements: [BR-1]\n")
+        write_stop("one", "expect: fail\nmatrix: {rail.friction: [0.06, 0.1]}\n")
+        return uictest.run()
 
 
 def cells(frame: pd.DataFrame) -> list[dict[str, Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
 import subprocess
 import sysconfig
@@ -14,6 +15,7 @@ from typing import Any
 import pytest
 
 from uictest import rig
+from uictest.analysis.summaries import worst
 from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.judging.evaluation import CaseResult, error_result
@@ -48,6 +50,7 @@ class Answer:
 Call = Callable[..., Answer]
 Start = Callable[..., "subprocess.Popen[str]"]
 Write = Callable[..., Path]
+MadeOnce = Callable[[Callable[[], object]], None]
 
 
 @pytest.fixture(autouse=True)
@@ -57,6 +60,27 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for variable in ("CI", "NO_COLOR", "COLUMNS", "TERM", "GITHUB_STEP_SUMMARY"):
         monkeypatch.delenv(variable, raising=False)
     return tmp_path
+
+
+@pytest.fixture(scope="module")
+def kept_places(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where working folders are kept that several tests of a file begin with."""
+    return tmp_path_factory.mktemp("kept")
+
+
+@pytest.fixture
+def made_once(workplace: Path, kept_places: Path) -> MadeOnce:
+    """Fill the working folder as a function does: it is called for the first test of a file alone."""
+
+    def fill(make: Callable[[], object]) -> None:
+        kept = kept_places / make.__qualname__.partition(".")[0]
+        if not kept.exists():
+            make()
+            shutil.copytree(workplace, kept, symlinks=True)
+        else:
+            shutil.copytree(kept, workplace, symlinks=True, dirs_exist_ok=True)
+
+    return fill
 
 
 @pytest.fixture
@@ -118,6 +142,12 @@ def process() -> Call:
         return Answer(done.returncode, done.stdout or "", done.stderr or "")
 
     return run
+
+
+@pytest.fixture
+def two_worst_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a sweep draw two of its worst cases, not twelve: what a page draws has tests of its own."""
+    monkeypatch.setattr(worst, "MOST", 2)
 
 
 @pytest.fixture

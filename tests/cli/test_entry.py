@@ -172,7 +172,7 @@ def test_a_reader_that_leaves_is_no_error(process: Call, scenario: Write) -> Non
 def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Write) -> None:
     scenario("stop", "rail: {condition: wet}\n")
     # More lines than a pipe holds: the run cannot end before somebody reads on.
-    values = ["--set", "rail.friction=range(0.1,0.3,0.0001)"]
+    values = ["--set", "rail.friction=range(0.1,0.3,0.0004)"]
     running = start("run", "-n1", *values, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert running.stdout is not None
     assert running.stdout.readline().startswith("pass stop[friction=0.1000]")

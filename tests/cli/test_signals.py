@@ -58,7 +58,7 @@ def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Sign
 
 def test_a_closed_terminal_leaves_what_is_finished(program: Path, scenario: Write) -> None:
     scenario("stop", "rail: {condition: wet}\n")
-    command = [program, "run", "-n1", "--set", "rail.friction=range(0.1,0.3,0.0001)"]
+    command = [program, "run", "-n1", "--set", "rail.friction=range(0.1,0.3,0.0004)"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heeding) as running:
         assert running.stdout is not None
         assert running.stdout.readline().startswith("pass stop[friction=0.1000]")

@@ -16,14 +16,17 @@ Examine = Callable[..., conformance.Examination]
 
 @pytest.fixture
 def examine(tmp_path: Path) -> Examine:
-    """Examine the first controller in Python with one stretch of its text replaced by another."""
+    """Examine the first controller in Python with one stretch of its text replaced by another.
+
+    Its cycles take twice as long as those of the library, so that each drive has half as many.
+    """
 
     def changed(before: str = "", after: str = "", time_limit: str = "60 s") -> conformance.Examination:
         files = templates.controller_files("python")
         assert before in files["my_wsp.py"]
         (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")
         part = tmp_path / "my-wsp.yaml"
-        part.write_text(f"{files['my-wsp.yaml']}time_limit: {time_limit}\n", "utf-8")
+        part.write_text(f"{files['my-wsp.yaml']}cycle_time: 20 ms\ntime_limit: {time_limit}\n", "utf-8")
         return conformance.examine(conformance.subject_of("changed", load_controller(str(part))))
 
     return changed

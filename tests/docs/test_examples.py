@@ -6,7 +6,9 @@ import contextlib
 import io
 import os
 import re
+import runpy
 import shlex
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -29,8 +31,14 @@ from uictest.studies import STUDIES
 
 REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")
-CALL = re.compile(r"""uictest (?P<arguments>[^|;&<>$`*]*)(?P<code>; echo "exit code \$\?")?""")
-"""A call of the program that needs no shell."""
+WORDS = r"""(?:[^|;&<>$`*'"]|"[^"$`\\\\]*"|'[^']*')*"""
+CALL = re.compile(
+    rf"""(?P<call>(?:uictest|python)\ {WORDS}?)(?P<lost>\ 2?>/dev/null)?(?:\ \|\ (?P<filter>[^;<>]+))?""",
+    re.VERBOSE,
+)
+"""A call of the program, or of a script of the page, with what becomes of its output."""
+CODE = 'echo "exit code $?"'
+LOOP = re.compile(r"for seed in ([\d ]+); do (.*); done")
 KEYS = {
     "brake": "brake: {system: %s}",
     "pad": "brake: {pad: %s}",
@@ -110,27 +118,66 @@ def takes_long(block: Any) -> bool:
     return any(f"uictest reproduce {each}" in block.text for each in (*SLOW_STUDIES, "-q\n"))
 
 
+def runs_a_study(block: Any) -> bool:
+    """Whether a console block runs a study."""
+    return any(f"uictest reproduce {each}\n" in block.text for each in STUDIES)
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
 
 
-def output_of(command: str, folder: Path, on_terminal: bool) -> str:
-    """What a command of a page prints: one of ours alone in this process, any other in a shell."""
-    from consoles import environment, in_shell
+def commands_of(line: str) -> list[str]:
+    """The commands of a line, one after the other."""
+    loop = LOOP.fullmatch(line)
+    if loop is None:
+        return line.split("; ")
+    return [each for seed in loop[1].split() for each in commands_of(loop[2].replace("$seed", seed))]
 
-    call = CALL.fullmatch(command)
-    if call is None:
-        return str(in_shell(command, folder, on_terminal))
+
+def output_of(line: str, folder: Path, on_terminal: bool) -> str:
+    """What a line of a page prints: ours and its scripts in this process, what else there is in a shell."""
+    from consoles import in_shell
+
+    shown, code = "", 0
+    for command in commands_of(line):
+        call = CALL.fullmatch(command)
+        if command == CODE:
+            shown += f"exit code {code}\n"
+        elif call is None:
+            shown += in_shell(command, folder, on_terminal)
+        else:
+            text, code = called(call, folder, on_terminal)
+            shown += text
+    return shown
+
+
+def called(call: re.Match[str], folder: Path, on_terminal: bool) -> tuple[str, int]:
+    """What a call of ours shows, and its exit code."""
+    from consoles import environment
+
     shown = Terminal() if on_terminal else io.StringIO()
+    out = io.StringIO() if call["filter"] else shown
+    lost = (call["lost"] or "").strip()
     with (
         contextlib.chdir(folder),
         patch.dict(os.environ, environment(), clear=True),
-        contextlib.redirect_stdout(shown),
-        contextlib.redirect_stderr(shown),
+        contextlib.redirect_stdout(io.StringIO() if lost == ">/dev/null" else out),
+        contextlib.redirect_stderr(io.StringIO() if lost == "2>/dev/null" else shown),
     ):
-        code = execute(shlex.split(call["arguments"]))
-    return f"{shown.getvalue()}exit code {code:d}\n" if call["code"] else shown.getvalue()
+        program, *arguments = shlex.split(call["call"])
+        code = 0
+        if program == "python":
+            runpy.run_path(arguments[0], run_name="__main__")
+        else:
+            code = int(execute(arguments))
+        if call["filter"]:
+            done = subprocess.run(
+                call["filter"], shell=True, input=out.getvalue(), capture_output=True, text=True, check=False
+            )
+            shown.write(done.stdout + done.stderr)
+    return shown.getvalue(), code
 
 
 def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> None:
@@ -145,8 +192,11 @@ def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> N
 
 
 def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
-    """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them."""
-    check_consoles(page, tmp_path, lambda block: not takes_long(block))
+    """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them.
+
+    What the studies print is compared by tests/studies/test_bands.py, which has run them.
+    """
+    check_consoles(page, tmp_path, lambda block: not takes_long(block) and not runs_a_study(block))
 
 
 def test_console_blocks_of_slow_studies_show_their_quantities() -> None:

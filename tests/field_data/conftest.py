@@ -50,19 +50,19 @@ def _stop(rate: float) -> SimulatedStop:
     return simulate(_case(), record_every=1.0 / rate)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def case() -> Case:
     """A stop from 40 km/h on a rail so wet that every wheelset slides."""
     return _case()
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def simulated() -> Callable[[float], SimulatedStop]:
     """The stop, recorded at a rate in Hz."""
     return _stop
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def recording() -> Recording:
     """The stop's recording at 100 Hz."""
     recording = _stop(100.0).recording
@@ -73,6 +73,11 @@ def recording() -> Recording:
 @pytest.fixture
 def channels(recording: Recording) -> dict[str, RawChannel]:
     """Every channel of the recording, free to be damaged."""
+    return channels_of(recording)
+
+
+def channels_of(recording: Recording) -> dict[str, RawChannel]:
+    """Return every channel of a recording, free to be damaged."""
     time = np.array(recording[TIME])
     return {
         name: RawChannel(name, name, time, np.array(samples, dtype=np.float64))
@@ -81,7 +86,7 @@ def channels(recording: Recording) -> dict[str, RawChannel]:
     }
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def prepared(recording: Recording) -> Callable[..., RecordedStop]:
     """Prepare channels with the facts of the recording, or others."""
 

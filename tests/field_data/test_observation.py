@@ -3,7 +3,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
+from functools import cache
 from typing import Any
 
 import pytest
@@ -43,16 +43,33 @@ LOCKED = 10.0
 """Sampling intervals by which the time in a handful of locks may be off."""
 
 
+@pytest.fixture(scope="module")
+def exported(
+    simulated: Callable[[float], SimulatedStop], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[str, float], Any]:
+    """What a file of a format holds, into which the stop was written as recorded at a rate in Hz."""
+
+    @cache
+    def contents(name: str, rate: float) -> Any:
+        recording = simulated(rate).recording
+        assert recording is not None
+        path = tmp_path_factory.mktemp("exported") / f"stop{FORMATS[name].suffix}"
+        writer_of(name)(recording, path)
+        return read_here(name, path, Dialect())
+
+    return contents
+
+
 @pytest.mark.parametrize("rate", [2000.0, 100.0, 20.0])
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one(
-    name: str, rate: float, case: Case, simulated: Callable[[float], SimulatedStop], tmp_path: Path
+    name: str,
+    rate: float,
+    case: Case,
+    simulated: Callable[[float], SimulatedStop],
+    exported: Callable[[str, float], Any],
 ) -> None:
-    stop = simulated(rate)
-    path = tmp_path / f"stop{FORMATS[name].suffix}"
-    assert stop.recording is not None
-    writer_of(name)(stop.recording, path)
-    contents = read_here(name, path, Dialect())
+    stop, contents = simulated(rate), exported(name, rate)
     channel_map, _ = load_map("uictest")
     recorded_stop = prepare(
         select_channels(contents, channel_map), contents.metadata, channel_map.preparation
@@ -67,14 +84,13 @@ def test_an_exported_stop_gets_the_verdict_and_the_measures_of_the_simulated_one
 
 @pytest.mark.parametrize("rate", [2000.0, 100.0, 20.0])
 def test_the_sliding_share_of_a_record_is_that_of_the_simulated_stop(
-    rate: float, case: Case, simulated: Callable[[float], SimulatedStop], tmp_path: Path
+    rate: float,
+    case: Case,
+    simulated: Callable[[float], SimulatedStop],
+    exported: Callable[[str, float], Any],
 ) -> None:
     """Simulated, it has the same bits at any recording rate; recorded, it is off by some samples a slide."""
-    stop, slower = simulated(rate), simulated(100.0)
-    path = tmp_path / "stop.csv"
-    assert stop.recording is not None
-    writer_of("csv")(stop.recording, path)
-    contents = read_here("csv", path, Dialect())
+    stop, slower, contents = simulated(rate), simulated(100.0), exported("csv", rate)
     channel_map, _ = load_map("uictest")
     channels = select_channels(contents, channel_map)
     seen = observe(prepare(channels, contents.metadata, channel_map.preparation), case.scenario)

@@ -11,13 +11,15 @@ import numpy as np
 import pytest
 
 from uictest.core.measures import MEASURES
+from uictest.core.recording import Recording
 from uictest.core.units import KINDS
+from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import Case
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.field_data.observation import observe
 
-from .conftest import judge_stop
+from .conftest import channels_of, judge_stop
 
 Channels = dict[str, Any]
 ROUNDING = 1e-9
@@ -85,10 +87,10 @@ def test_what_can_only_grow_never_falls_while_a_stop_goes_on(
                 assert ((steps if measure.course == "grows" else -steps) > -ROUNDING).all(), name
 
 
-@pytest.fixture
-def by_every_measure(case: Case, channels: Channels, prepared: Any) -> Case:
+@pytest.fixture(scope="module")
+def by_every_measure(case: Case, recording: Recording, prepared: Any) -> Case:
     """The case, judged by lower and upper bounds on each measure: around its value and far from it."""
-    values = _values(prepared(channels), case)
+    values = _values(prepared(channels_of(recording)), case)
     criteria = tuple(
         _criterion(name, side, share, share * values[name][0])
         for name in MEASURES
@@ -98,6 +100,12 @@ def by_every_measure(case: Case, channels: Channels, prepared: Any) -> Case:
     )
     profile = Criteria(name="every-measure", criteria=criteria)
     return replace(case, scenario=case.scenario.model_copy(update={"criteria": (profile,)}))
+
+
+@pytest.fixture(scope="module")
+def whole(by_every_measure: Case, recording: Recording, prepared: Any) -> CaseResult:
+    """What the whole record decides."""
+    return judge_stop(by_every_measure, prepared(channels_of(recording)))
 
 
 def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
@@ -120,9 +128,8 @@ def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
     ],
 )
 def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
-    part: str, by_every_measure: Case, channels: Channels, prepared: Any
+    part: str, whole: CaseResult, by_every_measure: Case, channels: Channels, prepared: Any
 ) -> None:
-    whole = judge_stop(by_every_measure, prepared(channels))
     some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
     assert whole.outcome == "fail"
     assert len(whole.criteria) > 100

@@ -93,7 +93,7 @@ def test_deceleration_distance_of_an_even_build_up(v0: float, dead: float, rise:
 def test_brake_that_comes_at_once_has_its_own_deceleration_behind_the_dead_time(
     v0: float, dead: float, full: float
 ) -> None:
-    (deceleration,) = developed_deceleration(observed(Braking(v0, dead, 1e-6, full), 0.005)).values
+    (deceleration,) = developed_deceleration(observed(Braking(v0, dead, 1e-6, full), 0.01)).values
     assert deceleration == pytest.approx(full, rel=1e-3)
 
 

@@ -1,20 +1,23 @@
-"""A project of somebody else, with scenarios, that is tested by pytest in a process of its own."""
+"""A project of somebody else, with scenarios, that is tested by pytest; with workers in processes."""
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 from xml.etree import ElementTree
 
 import pytest
 
 # pytest would load the plugin a second time if it found its entry point as well.
-_PYTEST = [sys.executable, "-m", "pytest", "-p", "uictest.api.pytest_plugin"]
-_ENVIRONMENT = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
+_PLUGIN = ["-p", "uictest.api.pytest_plugin"]
+_ENVIRONMENT = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 
@@ -83,16 +86,40 @@ def scenario(write: Write) -> Callable[..., Path]:
 
 @pytest.fixture
 def run(write: Write) -> Run:
-    """Run pytest in the project."""
+    """Run pytest in the project: in this process, unless it starts workers."""
 
     def call(*arguments: str) -> Outcome:
-        command = [*_PYTEST, *arguments]
-        done = subprocess.run(
-            command, capture_output=True, text=True, check=False, timeout=HANGING, env=_ENVIRONMENT
-        )
-        return Outcome(done.returncode, [*done.stdout.splitlines(), *done.stderr.splitlines()])
+        return in_process_of_its_own(*arguments) if "xdist" in arguments else _here(arguments)
 
     return call
+
+
+def in_process_of_its_own(*arguments: str) -> Outcome:
+    """Run pytest in the project as its users do."""
+    command = [sys.executable, "-m", "pytest", *_PLUGIN, *arguments]
+    environment = {**os.environ, **_ENVIRONMENT}
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, timeout=HANGING, env=environment
+    )
+    return Outcome(done.returncode, [*done.stdout.splitlines(), *done.stderr.splitlines()])
+
+
+def _here(arguments: Sequence[str]) -> Outcome:
+    """Run pytest as that process would, and forget the modules of the project."""
+    out, err = io.StringIO(), io.StringIO()
+    modules, places = set(sys.modules), list(sys.path)
+    with (
+        patch.dict(os.environ, _ENVIRONMENT),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+    ):
+        # It would search all memory for garbage at its end, which the process of the tests does at its own.
+        code = pytest.main([*_PLUGIN, "-p", "no:unraisableexception", *arguments])
+    sys.path[:] = places
+    for name in set(sys.modules) - modules:
+        if Path(getattr(sys.modules[name], "__file__", None) or "/").is_relative_to(Path.cwd()):
+            del sys.modules[name]
+    return Outcome(int(code), [*out.getvalue().splitlines(), *err.getvalue().splitlines()])
 
 
 def junit_testcases(junit: Path) -> dict[str, ElementTree.Element]:

@@ -13,7 +13,7 @@ from uictest.plans.scenario import load
 from uictest.running.campaign import run_cases
 
 from ..runs.test_acceptance import TURNING
-from .conftest import SHORT_STOPS, Run, Write, junit_testcases, properties
+from .conftest import SHORT_STOPS, Run, Write, in_process_of_its_own, junit_testcases, properties
 
 Scenario = Callable[..., Path]
 BROKEN = """\
@@ -190,7 +190,7 @@ def test_references_may_lead_anywhere_below_the_root(
     assert run("stop.yaml").summary == "1 passed"
 
 
-def test_a_run_that_asks_for_no_scenario_loads_nothing(run: Run, write: Write, scenario: Scenario) -> None:
+def test_a_run_that_asks_for_no_scenario_loads_nothing(write: Write, scenario: Scenario) -> None:
     scenario("stop")
     write("pytest.ini", "[pytest]\n")
     names = ["numpy", "pydantic", "numba", "yaml", "typer", "uictest.plans.scenario", "uictest.rig"]
@@ -198,4 +198,4 @@ def test_a_run_that_asks_for_no_scenario_loads_nothing(run: Run, write: Write, s
         "test_own.py",
         f"import sys\ndef test_own(): assert [n for n in {json.dumps(names)} if n in sys.modules] == []\n",
     )
-    assert run().summary == "1 passed"
+    assert in_process_of_its_own().summary == "1 passed"

@@ -113,9 +113,9 @@ def make_recording() -> Callable[..., Recording]:
     return make
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def chromium() -> Iterator[Any]:
-    """A browser for the tests of one file."""
+    """A browser for all tests of pages in this process."""
     browser = started()
     yield browser
     browser.quit()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,8 @@ STEP = 0.001
 SQUEEZING, RELEASING = FittedLine(0.042, -1800.0), FittedLine(0.0475, -1650.0)
 
 
-@pytest.fixture
-def record(workplace):
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
     """A caliper with known lines, whose cylinder lags 30 ms behind the tank."""
     corners = [(0, 0), (5, 4e5), (10, 0), (13, 3e5), (16, 0.5e5), (19, 4e5), (22, 0)]
     time = np.arange(round(corners[-1][0] / STEP) + 1) * STEP
@@ -45,8 +46,15 @@ def record(workplace):
         "valve_command_1": "1",
         "measured_pressure_2": "bar",
     }
-    write_parquet(Recording(channels, units), workplace / "record.parquet")
-    return workplace / "record.parquet"
+    path = tmp_path_factory.mktemp("recorded") / "record.parquet"
+    write_parquet(Recording(channels, units), path)
+    return path
+
+
+@pytest.fixture
+def record(recorded, workplace):
+    """The recording of that caliper in the working folder."""
+    return Path(shutil.copy(recorded, workplace))
 
 
 def read(path) -> Compensation:

@@ -8,15 +8,21 @@ from typing import Any
 
 import pytest
 
+from ..conftest import MadeOnce
+
 Call = Callable[..., Any]
 
 
 @pytest.fixture
-def runs(call: Call, scenario: Callable[..., Path], made_up: list[str]) -> list[str]:
+def runs(call: Call, scenario: Callable[..., Path], made_up: list[str], made_once: MadeOnce) -> list[str]:
     """The names of two runs below `reports`, oldest first."""
-    scenario("stop")
-    call("run")
-    call("run", "--seed", "3")
+
+    def make() -> None:
+        scenario("stop")
+        call("run")
+        call("run", "--seed", "3")
+
+    made_once(make)
     return sorted(
         (path.name for path in Path("reports").iterdir() if path.is_dir() and not path.is_symlink()),
         key=lambda name: Path("reports", name, "index-entry.json").stat().st_mtime_ns,

@@ -22,6 +22,8 @@ from uictest.running.chunked.chunk import ChunkRunner
 
 from ..conftest import HANGING, Start
 
+pytestmark = pytest.mark.usefixtures("two_worst_cases")
+
 Call = Callable[..., Any]
 TEXT = """\
 schema: uictest/sweep/1

@@ -17,7 +17,7 @@ from openpyxl import load_workbook
 from uictest.analysis.validation import read_validation
 from uictest.running.campaign import batch
 
-from ..conftest import FIGURES
+from ..conftest import FIGURES, MadeOnce
 
 Call = Callable[..., Any]
 Write = Callable[..., Path]
@@ -223,10 +223,14 @@ def test_a_series_without_recordings_says_what_to_write(call: Call, scenario: Wr
 
 
 @pytest.fixture
-def validated(validate: Callable[..., Any]) -> Path:
+def validated(validate: Callable[..., Any], made_once: MadeOnce) -> Path:
     """The document of a validation from 29 to 31 km/h."""
-    files = [record(f"r{speed}.csv", SIMULATED, float(speed)) for speed in (29, 31)]
-    assert validate(f"recordings: [{', '.join(files)}]").code == 0
+
+    def make() -> None:
+        files = [record(f"r{speed}.csv", SIMULATED, float(speed)) for speed in (29, 31)]
+        assert validate(f"recordings: [{', '.join(files)}]").code == 0
+
+    made_once(make)
     return newest() / "validation.json"
 
 

@@ -22,7 +22,9 @@ def run(call: Call, scenario: Callable[..., Path]) -> Call:
     """Run four cases with a controller into a folder."""
     scenario("stop", CASES)
     shutil.copy(TWIN, ".")
-    return lambda folder, *options: call("run", "--in-process", "-o", folder, "--set", *options)
+    return lambda folder, *options: call(
+        "run", "--in-process", "--report", "csv", "-o", folder, "--set", *options
+    )
 
 
 def test_a_controller_named_on_the_command_line_leaves_ids_and_noise(run: Call, call: Call) -> None:

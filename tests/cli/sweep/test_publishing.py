@@ -166,7 +166,7 @@ k_dry: {measure: mean_deceleration}
 
 
 @pytest.fixture
-def k_dry(scenario: Callable[..., Path]) -> Path:
+def k_dry(scenario: Callable[..., Path], two_worst_cases: None) -> Path:
     """A sweep of 32 stops on dry rail for K_dry."""
     scenario("stop", "rail: {condition: dry}\n")
     Path("pads.sweep.yaml").write_text(K_DRY)

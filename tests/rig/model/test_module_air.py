@@ -52,8 +52,8 @@ def followed(bench: Any, history: Iterator[tuple[float, float]]) -> Followed:
             wheelset.vent_before = wheelset.vent_after = vent
         follow_module_air(bench.car, bench.wheelsets, p)
         step_air(bench.car, bench.wheelsets, p)
-        for wheelset in bench.wheelsets:
-            step_clamping(wheelset, p)
+        step_clamping(caliper, p)
+        step_clamping(tank, p)
         bench.car.steps += 1.0
         bench.car.time = bench.car.steps * p.step
         modelled = tank.compensated_pressure + p.atmospheric_pressure
@@ -83,7 +83,7 @@ def _thermal(rig: Any, bench: Benches) -> Callable[..., Any]:
     return thermal
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_modelled_pressure_is_that_of_the_caliper_within_a_per_cent(thermal: Any, seed: int) -> None:
     """Of the commanded pressure: friction of the piston and heat of the line are not modelled."""
     bench = thermal()
@@ -113,7 +113,7 @@ def test_the_piston_alone_is_followed_within_two_per_mille(thermal: Any) -> None
     assert np.abs(modelled - caliper).max() < 0.002 * bench.p.commanded_pressure
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_module_like_the_tank_has_the_tanks_pressure_at_every_step(thermal: Any, seed: int) -> None:
     exchange = thermal().p.modelled_tank_exchange
     bench = thermal(modelled_exchange=exchange, **LIKE_THE_TANK)

@@ -82,10 +82,8 @@ class Balances:
         s, wheelset = self.samples, self.scenario.vehicle.wheelset
         if s.torque is None:
             return None
-        radius = of_wheelsets(self.scenario, "wheel_radius")
-        turned = (s.wheel_speed[:, self.windows.last] - s.wheel_speed[:, self.windows.first]) / radius
         torque = brake_factor * self._torque_impulse
-        impulse: Array = (torque + wheelset.rotational_inertia * turned) / radius
+        impulse: Array = (torque + wheelset.rotational_inertia * self._turned) / self._radius
         return impulse
 
     def residuals(self, friction: Array, brake_factor: float | Array) -> tuple[Array, Array]:
@@ -97,7 +95,11 @@ class Balances:
             friction: initial friction coefficient under each wheelset, (4, n).
             brake_factor: on the torque of the brakes, one or (4, 1).
         """
-        by_rail, by_brake = self.rail_impulse(friction), self.brake_impulse(brake_factor)
+        return self.residuals_by(self.rail_impulse(friction), brake_factor)
+
+    def residuals_by(self, by_rail: Array, brake_factor: float | Array) -> tuple[Array, Array]:
+        """Return the residuals with the impulse of the rail, N s, (4, k)."""
+        by_brake = self.brake_impulse(brake_factor)
         load, sliding, standing = self._load_impulse, self.windows.sliding, self.windows.standing
         if by_brake is None:
             of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)
@@ -124,6 +126,16 @@ class Balances:
             shared = self.lost_momentum / self._load_impulse.sum(axis=0)
             return np.broadcast_to(shared, self.windows.sliding.shape)
         return np.asarray(needed / self._load_impulse)
+
+    @cached_property
+    def _radius(self) -> Array:
+        return of_wheelsets(self.scenario, "wheel_radius")
+
+    @cached_property
+    def _turned(self) -> Array:
+        """By how much each wheelset turns faster at the end of each window, rad/s, (4, k)."""
+        speed = self.samples.wheel_speed
+        return np.asarray((speed[:, self.windows.last] - speed[:, self.windows.first]) / self._radius)
 
     @cached_property
     def _torque_impulse(self) -> Array:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +24,11 @@ _GAIN_ERROR = 0.01
 """Standard deviation to which the brake force of each wheelset is known, share; chosen."""
 _LOWEST_GAIN, _HIGHEST_GAIN = 0.8, 1.2
 _WHEELSETS = 4
+_KEPT = 8
+"""Impulses of the rail that are kept: of the point that a gradient is taken at, and of its neighbours."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class CleanedStop:
     """One stop on a rail that sliding cleans: its unknowns are the friction of the free stretches, the delay
     of the wheel speeds in s and, where brake forces are recorded, a factor on that of each wheelset.
@@ -37,7 +41,7 @@ class CleanedStop:
         """How many of the unknowns are frictions; they come first."""
         return len(self.rail.free)
 
-    @property
+    @cached_property
     def start(self) -> list[float]:
         """Values of the unknowns to begin with."""
         friction = [_START_SHARE * level for level in self.rail.stretches.start]
@@ -55,10 +59,10 @@ class CleanedStop:
 
     def residuals(self, x: Array, energy: float, recovered_friction: float) -> Groups:
         """Return the residuals of the balances."""
-        balances = self._without_delay(float(x[self.levels]))
-        friction, _ = self.rail.met(x[: self.levels], energy, recovered_friction, balances.samples.slip)
+        of_rail = tuple(x[: self.levels + 1].tolist())
+        balances, by_rail = self._by_rail(of_rail, energy, recovered_friction)
         factors = x[self.levels + 1 :][:, None] if self._gains else 1.0
-        return balances.residuals(friction, factors)
+        return balances.residuals_by(by_rail, factors)
 
     def largest_share(self, x: Array, energy: float, recovered_friction: float) -> float:
         """Return the cleaned share of the cleanest rail under a sliding wheelset."""
@@ -72,6 +76,22 @@ class CleanedStop:
     @property
     def _gains(self) -> int:
         return 0 if self._balances.samples.torque is None else _WHEELSETS
+
+    @cached_property
+    def _by_rail(self) -> Callable[[tuple[float, ...], float, float], tuple[Balances, Array]]:
+        """Levels and delay, energy and recovered friction: the balances and the impulse of the rail.
+
+        A gradient varies one unknown at a time: most leave those of the rail under this stop as they are.
+        """
+
+        @lru_cache(_KEPT)
+        def found(of_rail: tuple[float, ...], energy: float, recovered: float) -> tuple[Balances, Array]:
+            *levels, delay = of_rail
+            balances = self._without_delay(delay)
+            friction, _ = self.rail.met(np.array(levels), energy, recovered, balances.samples.slip)
+            return balances, balances.rail_impulse(friction)
+
+        return found
 
     def _without_delay(self, delay: float) -> Balances:
         """Return the balances with wheel speeds that are read later by a delay."""

@@ -127,7 +127,7 @@ def find_cleaning(stops: Sequence[CleanedStop], energy: float, recovered_frictio
     free = joint.best([factor * energy for factor in _STARTS], recovered_friction)
     bare = joint.solve(energy=np.inf, recovered=recovered_friction, noise=None)
     if not _is_seen(joint, free, bare):
-        cleaning = _least_energy(joint, recovered_friction)
+        cleaning = _least_energy(joint, bare, recovered_friction)
     elif _is_determined(joint, free):
         cleaning = _estimate(joint, free)
     else:
@@ -245,9 +245,8 @@ def _with_stated_friction(joint: _Joint, free: Solution, recovered: float) -> Cl
     return CleaningEstimate("not told apart", energy, energy * width, recovered, nan, nan, share)
 
 
-def _least_energy(joint: _Joint, recovered: float) -> CleaningEstimate:
-    """Return the least energy with which cleaning is not contradicted."""
-    bare = joint.solve(energy=np.inf, recovered=recovered, noise=None)
+def _least_energy(joint: _Joint, bare: Solution, recovered: float) -> CleaningEstimate:
+    """Return the least energy with which cleaning is not contradicted, by the solution without any."""
     low, high = np.log(LOWEST_ENERGY), np.log(HIGHEST_ENERGY)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from uictest.rig.identification.arrays import Mask, Samples
 from uictest.rig.identification.transfer_function import Poles, basis
 
-Weigh = Callable[[Samples, Samples, Samples], tuple[float, Samples]]
+Weigh = Callable[[Samples, Samples, Callable[[], Samples]], tuple[float, Samples]]
 ErrorFunction = Callable[[Poles], tuple[float, Samples]]
 _SLOWEST, _FASTEST = 20.0, 2.0
 """Slowest time constant in s, and fastest in sampling times: what a record of seconds can tell; chosen."""
@@ -41,19 +41,21 @@ _LINEAR_STEP = 0.02
 """Sampling time in s of the linear start; chosen."""
 
 
-def free_weights(columns: Samples, target: Samples, response: Samples) -> tuple[float, Samples]:
+def free_weights(columns: Samples, target: Samples, response: Callable[[], Samples]) -> tuple[float, Samples]:
     """Return the least root-mean-square error and its weights, whatever the step response."""
     weights = np.asarray(np.linalg.lstsq(columns, target, rcond=_SMALLEST_SIZE)[0], dtype=np.float64)
     return float(np.sqrt(np.mean((target - columns @ weights) ** 2))), weights
 
 
-def bounded_weights(columns: Samples, target: Samples, response: Samples) -> tuple[float, Samples]:
+def bounded_weights(
+    columns: Samples, target: Samples, response: Callable[[], Samples]
+) -> tuple[float, Samples]:
     """Return the least root-mean-square error and its weights among those whose step response never falls.
 
     Args:
         columns: what the weights multiply, shape (n, 3).
         target: shape (n,).
-        response: what they multiply in the response to a unit step, less one, shape (m, 3).
+        response: gives what they multiply in the response to a unit step, less one, shape (m, 3).
     """
     left, sizes, right = np.linalg.svd(columns, full_matrices=False)
     kept = sizes > _SMALLEST_SIZE * sizes[0]
@@ -61,7 +63,8 @@ def bounded_weights(columns: Samples, target: Samples, response: Samples) -> tup
     weights_of = right[kept].T / sizes[kept] * scale
     # In these coordinates the error grows with the distance from the free optimum.
     free = left[:, kept].T @ target / scale
-    slopes = np.concatenate([-response[:1], response, -np.diff(response, axis=0)]) @ weights_of
+    rising = response()
+    slopes = np.concatenate([-rising[:1], rising, -np.diff(rising, axis=0)]) @ weights_of
     limits = np.concatenate([[1.0], np.full(len(slopes) - 1, LARGEST_TURN)])
     weights = np.asarray(weights_of @ _nearest(free, slopes, limits), dtype=np.float64)
     return float(np.sqrt(np.mean((target - columns @ weights) ** 2))), weights
@@ -135,8 +138,8 @@ def _error_function(segments: Sequence[FitSegment], step: float, weigh: Weigh, p
 
     def error(poles: Poles) -> tuple[float, Samples]:
         within = bounded(poles, step)
-        columns = [basis(each.input, within, step)[at] for each, at in zip(segments, chosen, strict=True)]
-        return weigh(np.concatenate(columns), target, basis(unit_step, within, step)[times])
+        columns = [basis(each.input, within, step, at) for each, at in zip(segments, chosen, strict=True)]
+        return weigh(np.concatenate(columns), target, lambda: basis(unit_step, within, step, times))
 
     return error
 

@@ -99,12 +99,12 @@ def _exponential(matrix: Samples) -> Samples:
     return np.asarray(total)
 
 
-def basis(samples: Samples, poles: Poles, step: float) -> Samples:
-    """Three columns; the output is the input plus their sum weighted by c1, c2 and c3."""
+def basis(samples: Samples, poles: Poles, step: float, at: NDArray[np.intp]) -> Samples:
+    """Three columns at some of the samples; the output is the input plus their sum weighted by c1, c2, c3."""
     from scipy.signal import lfilter
 
-    lag, low, band = (lfilter(b, a, samples) for b, a in sections(poles, step))
-    return np.stack([lag - samples, low - samples, band], axis=1)
+    lag, low, band = (lfilter(b, a, samples)[at] for b, a in sections(poles, step))
+    return np.stack([lag - samples[at], low - samples[at], band], axis=1)
 
 
 def assembled(poles: Poles, weights: Samples, step: float) -> TransferFunction:
