@@ -13,7 +13,7 @@ from uictest.rig.assembly import assemble
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.friction_law import FRICTIONS
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {

@@ -37,7 +37,7 @@ from uictest.analysis import comparison, validation
 from uictest.cli.entry import execute
 from uictest.cli.exit_codes import ExitCode
 from uictest.controllers import Config, ControllerError
-from uictest.controllers.adapters.fmu import file as fmu_file, instance as fmu_instance, slave as fmu_slave
+from uictest.controllers.adapters.fmu import instance as fmu_instance, loading, slave as fmu_slave
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import (
     FORMATS,
@@ -46,7 +46,7 @@ from uictest.core.recording.formats import (
     writer_of,
 )
 from uictest.plans import scenario, validation as validation_plans
-from uictest.recorded.field_data.defect import DefectKind
+from uictest.recorded.field_data.time_axis import DefectKind
 from uictest.rig import bench
 
 SOURCE = Path(__file__).parents[1]
@@ -277,7 +277,7 @@ def described_fmu(description: Path) -> None:
     command("check", "-v", "uses-fmu.yaml")(description)
     fmu = Path("any.fmu")
     with contextlib.suppress(ControllerError):
-        folder, read = fmu_file.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
+        folder, read = loading.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
         kind = fmu_slave.Fmi2Slave if read.fmiVersion == "2.0" else fmu_slave.Fmi3Slave
         slave = kind(MagicMock(), read, folder)
         try:

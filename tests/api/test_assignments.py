@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.api.assignments import override_texts
+from uictest.api.arguments import override_texts
 from uictest.plans.scenario.yaml import parse_overrides, plain
 
 

@@ -16,7 +16,7 @@ import pytest
 
 import uictest
 from uictest import report
-from uictest.api.frames import column_units
+from uictest.api.results import column_units
 from uictest.core import measures
 
 from .conftest import write_stop

@@ -5,7 +5,7 @@ import pytest
 
 from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""

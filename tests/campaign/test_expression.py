@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.running.campaign.expression import ExpressionError, parse
+from uictest.running.campaign.selection import ExpressionError, parse
 
 WORDS = frozenset({"slip", "wet", "slip-120[friction=0.10,command=90]"})
 

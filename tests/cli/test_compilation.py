@@ -7,8 +7,8 @@ import re
 
 import pytest
 
-from uictest.cli import compilation
-from uictest.cli.compilation import compilation_shown
+from uictest.cli import progress
+from uictest.cli.progress import compilation_shown
 from uictest.rig.backends import machine_code
 
 
@@ -16,7 +16,7 @@ from uictest.rig.backends import machine_code
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Seconds that the clock shows, one after the other."""
     seconds: list[float] = []
-    monkeypatch.setattr(compilation, "monotonic", lambda: seconds.pop(0))
+    monkeypatch.setattr(progress, "monotonic", lambda: seconds.pop(0))
     return seconds
 
 
@@ -59,7 +59,7 @@ def test_a_terminal_has_a_bar_for_each_compilation(monkeypatch: pytest.MonkeyPat
 
     terminal = Terminal()
     monkeypatch.setattr("sys.stderr", terminal)
-    monkeypatch.setattr(compilation, "interactive", lambda stream: True)
+    monkeypatch.setattr(progress, "interactive", lambda stream: True)
     monkeypatch.setenv("TERM", "xterm")
     with compilation_shown(colour="never"):
         compile_(0.0, 0.5, 1.0)

@@ -9,10 +9,13 @@ import pytest
 from hypothesis import given, strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uictest.analysis.comparison.channel_difference import channel_difference
-from uictest.analysis.comparison.common_samples import Sampled, common_samples, over_distance
-from uictest.analysis.comparison.overlay import sampling_remarks
-from uictest.analysis.comparison.overlay_curves import curves_over_time, over_common_distance
+from uictest.analysis.comparison.common_samples import (
+    Sampled,
+    channel_difference,
+    common_samples,
+    over_distance,
+)
+from uictest.analysis.comparison.overlay import curves_over_time, over_common_distance, sampling_remarks
 from uictest.core.recording import Recording
 
 MakeRecording = Callable[..., Recording]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from uictest.analysis import comparison
-from uictest.analysis.comparison.shown_differences import in_page_units, quantity_title
+from uictest.analysis.comparison.page import in_page_units, quantity_title
 from uictest.core.recording import Recording, write_parquet
 from uictest.report import Difference, RunContent
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.controllers import CONTROLLERS, built_in, registry
+from uictest.controllers import CONTROLLERS, built_in, contract
 from uictest.core.physics import VENT
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.plans.scenario.parts.controller import CONTROLLER_MODELS, _model
@@ -44,7 +44,7 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pyt
     (tmp_path / "always_vents.py").write_text(MODULE)
     (tmp_path / "stop.yaml").write_text(STOP)
     monkeypatch.setattr(built_in, "__path__", [*built_in.__path__, str(tmp_path)])
-    controller = registry._built_in()["always-vents"]
+    controller = contract._built_in()["always-vents"]
     monkeypatch.delitem(sys.modules, "uictest.controllers.built_in.always_vents")
     model = _model(controller)
     assert model.__name__ == "AlwaysVentsController"

@@ -26,7 +26,7 @@ from uictest.plans.series import load_series
 from uictest.plans.sweeps import load_sweep
 from uictest.plans.validation import ValidationFile
 from uictest.recorded.field_data import load_map
-from uictest.rig.bench.loading import load_bench
+from uictest.rig.bench.recipe import load_bench
 from uictest.studies import STUDIES
 
 REPOSITORY = Path(__file__).parents[2]
@@ -118,11 +118,6 @@ def takes_long(block: Any) -> bool:
     return any(f"uictest reproduce {each}" in block.text for each in (*SLOW_STUDIES, "-q\n"))
 
 
-def runs_a_study(block: Any) -> bool:
-    """Whether a console block runs a study."""
-    return any(f"uictest reproduce {each}\n" in block.text for each in STUDIES)
-
-
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
@@ -196,7 +191,7 @@ def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path)
 
     What the studies print is compared by tests/studies/test_bands.py, which has run them.
     """
-    check_consoles(page, tmp_path, lambda block: not takes_long(block) and not runs_a_study(block))
+    check_consoles(page, tmp_path, lambda block: not takes_long(block))
 
 
 def test_console_blocks_of_slow_studies_show_their_quantities() -> None:

@@ -50,7 +50,7 @@ def test_a_program_gives_the_bits_of_the_built_in_controller_stop_after_stop(
 def test_a_program_refuses_another_version_of_the_protocol(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uictest.controllers.adapters.socket_frames.PROTOCOL_VERSION", 2)
+    monkeypatch.setattr("uictest.controllers.adapters.socket.PROTOCOL_VERSION", 2)
     with (
         listening(*command) as address,
         pytest.raises(ControllerError, match=r"^expected protocol version 1$"),

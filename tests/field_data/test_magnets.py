@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from uictest.recorded.field_data import RawChannel
-from uictest.recorded.field_data.magnets import with_valve_commands
+from uictest.recorded.field_data.raw_channels import with_valve_commands
 
 TIME = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
 NAN = float("nan")

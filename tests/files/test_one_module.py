@@ -24,12 +24,10 @@ SHARED = "a file without a name: the memory that a child shares"
 READER = "a reading process writes into the temporary folder that its parent made for it, and ends"
 EXCEPTIONS = {
     "rig/external/worker.py": {"TemporaryDirectory": CHILD, "TemporaryFile": SHARED, "truncate": SHARED},
-    "rig/external/child.py": {"fdopen": "a pipe"},
-    "rig/external/guard.py": {"rmtree": CHILD},
-    "recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
-    "cli/closed_streams.py": {"open": "the null device in the place of a closed stream"},
+    "rig/external/child.py": {"fdopen": "a pipe", "rmtree": CHILD},
+    "core/recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
     "cli/output.py": {"open": "the null device in the place of a closed stream"},
-    "user_cache/files.py": {"open": "flags that only read"},
+    "core/user_cache/files.py": {"open": "flags that only read"},
 }
 """Module -> what it may call, and why."""
 
@@ -68,7 +66,7 @@ def test_every_write_and_removal_goes_through_one_room() -> None:
     elsewhere = [
         f"{path}:{line}: {name}"
         for path, line, name in _all_calls()
-        if not path.startswith("files/") and name not in EXCEPTIONS.get(path, {})
+        if not path.startswith("core/files/") and name not in EXCEPTIONS.get(path, {})
     ]
     assert elsewhere == []
 
@@ -79,7 +77,7 @@ def test_every_exception_is_still_one() -> None:
 
 
 def test_the_room_itself_is_seen() -> None:
-    found = {name for path, _, name in _all_calls() if path.startswith("files/")}
+    found = {name for path, _, name in _all_calls() if path.startswith("core/files/")}
     assert {"mkdir", "rename", "replace", "unlink", "rmdir", "rmtree", "symlink", "open"} <= found
 
 

@@ -10,9 +10,9 @@ from uictest.core.physics.polach import contact_stiffness, creep_force
 from uictest.plans.scenario import load_part
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.fitting import FitError, fit_stop
-from uictest.recorded.fitting.creep import wheelset_creep
+from uictest.recorded.fitting.balances import wheelset_creep
+from uictest.recorded.fitting.samples import wheel_loads
 from uictest.recorded.fitting.stretches import stretch_names, stretch_of
-from uictest.recorded.fitting.wheel_loads import wheel_loads
 
 Make = Callable[..., Any]
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]

@@ -8,13 +8,11 @@ from numpy.typing import NDArray
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import Scenario
 from uictest.recorded.field_data import stated_case
-from uictest.recorded.fitting.balances import Balances, windows_of
+from uictest.recorded.fitting.balances import Balances, wheelset_creep, windows_of
 from uictest.recorded.fitting.cleaned_stop import CleanedStop
 from uictest.recorded.fitting.cleaning import find_cleaning
-from uictest.recorded.fitting.creep import wheelset_creep
-from uictest.recorded.fitting.rail_under_stop import RailUnderStop
 from uictest.recorded.fitting.samples import StopSamples
-from uictest.recorded.fitting.stretches import Stretches
+from uictest.recorded.fitting.stretches import RailUnderStop, Stretches
 
 ENERGY, FRICTION, CLEAN = 8000.0, 0.07, 0.22
 LOSS = 2000.0

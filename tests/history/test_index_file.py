@@ -14,7 +14,7 @@ import pytest
 
 from uictest.core import files
 from uictest.core.files import FolderLock
-from uictest.runs.history import index_file, refresh_index
+from uictest.runs.history import page, refresh_index
 
 from .conftest import Publish, case, part
 
@@ -128,7 +128,7 @@ def test_an_index_that_cannot_be_written_undoes_no_run(
     def fail(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(index_file, "list_runs", fail)
+    monkeypatch.setattr(page, "list_runs", fail)
     run = publish()
     assert (run / "results.json").is_file()
     assert not (reports / "index.html").exists()
@@ -166,7 +166,7 @@ def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(
     publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     publish()
-    monkeypatch.setattr(index_file, "_PATIENCE", 0.0)
+    monkeypatch.setattr(page, "_PATIENCE", 0.0)
     with FolderLock(reports):
         assert "is in use by" in refresh_index(reports)
 

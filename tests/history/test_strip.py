@@ -7,11 +7,18 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest import report
-from uictest.runs.history.case_history import CaseHistory, case_histories
+from uictest.runs.history.case_history import (
+    HEIGHT,
+    CaseHistory,
+    case_histories,
+    shape,
+    strip,
+    summary,
+    width,
+)
 from uictest.runs.history.entry import CaseEntry
 from uictest.runs.history.page import _change
 from uictest.runs.history.run_in_folder import ListedRun
-from uictest.runs.history.strip import HEIGHT, shape, strip, summary, width
 
 START = datetime(2026, 11, 22, tzinfo=UTC)
 stops = st.none() | st.tuples(st.sampled_from(report.CASE_WORDS), st.none() | st.floats(0.0, 1e5))

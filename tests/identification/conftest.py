@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.rig.identification.lines import FittedLine
-from uictest.rig.identification.play import computed_force
+from uictest.rig.identification.lines import FittedLine, computed_force
 
 STEP = 0.0005
 LINES = {

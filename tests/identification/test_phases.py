@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from uictest.rig.identification.phases import (
+from uictest.rig.identification.lines import (
     on_lines,
     runs,
     wsp_acting_from_commands,

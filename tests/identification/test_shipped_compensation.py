@@ -10,7 +10,7 @@ import pytest
 
 from uictest.cli.entry import execute
 from uictest.plans.scenario.parts.compensation import Compensation
-from uictest.rig.bench.loading import recipe_path
+from uictest.rig.bench.recipe import recipe_path
 from uictest.rig.identification.compensation_file import load_compensation
 from uictest.rig.identification.transfer_function import TransferFunction
 

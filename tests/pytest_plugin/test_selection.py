@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import pytest
 
-from uictest.api.pytest_plugin.selection import Selection
+from uictest.api.pytest_plugin.collection import Selection
 from uictest.plans.scenario import load
 
 SCENARIO = "schema: uictest/scenario/1\nname: {}\ninitial_speed: 30 km/h\n"

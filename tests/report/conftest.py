@@ -14,7 +14,7 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, RunManifest
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.result import read_sweep_document
 from uictest.report.traces.trace import PlotTrace, trace_of
 

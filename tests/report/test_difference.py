@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.report import percent_text, relative_percent
-from uictest.report.baseline import difference_sentences
-from uictest.report.difference import Difference, relative_text, worst_of_wheelsets
+from uictest.report.difference import Difference, difference_sentences, relative_text, worst_of_wheelsets
 
 
 @pytest.mark.parametrize(

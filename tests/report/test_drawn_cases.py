@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.judging.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
-from uictest.report.drawn_cases import DRAWN, MOST_DRAWN, drawn_cases, worst_first
+from uictest.report.content import DRAWN, MOST_DRAWN, drawn_cases, worst_first
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

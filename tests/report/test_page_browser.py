@@ -12,7 +12,7 @@ from uictest.core.recording import Recording
 from uictest.judging.evaluation import AppliedDefinition, CaseResult, Verdict
 from uictest.report import CaseDescription, RunContent
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .chromium import PLOTTED, emulate, resize, run, wait, written

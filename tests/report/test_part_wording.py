@@ -17,9 +17,9 @@ from uictest.report.formats.junit import FORMAT as JUNIT
 from uictest.report.formats.md import FORMAT as MARKDOWN, markdown_summary
 from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
-from uictest.report.page.parameter_tables import shown_parts
+from uictest.report.page.overview import shown_parts
 from uictest.report.part_wording import changed_parameters, controllers_text, part_sentences, slide_speed
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 
 MakeResult = Callable[..., CaseResult]
 MakeContent = Callable[..., RunContent]

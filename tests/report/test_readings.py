@@ -16,7 +16,7 @@ from uictest.report.formats.csv import criteria_table
 from uictest.report.formats.md import markdown_summary
 from uictest.report.formats.xlsx import workbook_bytes
 from uictest.report.page import page_html
-from uictest.report.terminal.case_lines import criterion_lines, definition_lines
+from uictest.report.terminal.verdict_table import criterion_lines, definition_lines
 from uictest.report.traces.trace import trace_of
 
 SENTENCES = (

@@ -14,7 +14,7 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .chromium import resize, run

@@ -15,7 +15,7 @@ from uictest.report.page import sweep_page_html
 from uictest.report.page.sweep.frontier_plot import frontier_plot
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .test_page import Page

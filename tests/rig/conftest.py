@@ -26,7 +26,7 @@ from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 Array = NDArray[np.float64]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, lfilter
 
-from uictest.rig.cylinder_sampling import resampled_transfer_function
+from uictest.rig.highest_creep import resampled_transfer_function
 
 IDENTIFIED = 5e-4
 LAGS = np.exp(-IDENTIFIED / np.array([30e-3, 8e-3, 3e-3]))

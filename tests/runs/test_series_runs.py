@@ -10,7 +10,7 @@ import pytest
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans import series
 from uictest.running import campaign
-from uictest.runs.series_runs import SeriesBatch, run_series, speed_kmh
+from uictest.runs.drawing import SeriesBatch, run_series, speed_kmh
 
 
 @pytest.fixture

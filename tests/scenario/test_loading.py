@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 from uictest.plans.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
-from uictest.plans.scenario.parts.friction import FrictionProfile
+from uictest.plans.scenario.parts.rail import FrictionProfile
 
 Loaded = Callable[..., list[Case]]
 Refused = Callable[..., tuple[Diagnostic, ...]]

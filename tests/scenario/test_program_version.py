@@ -5,7 +5,7 @@ import zipfile
 
 import pytest
 
-from uictest.plans.scenario.program_version import stated_version
+from uictest.plans.scenario.program_files import stated_version
 
 ROWS = [
     ('__version__ = "1.2"\n', "1.2"),

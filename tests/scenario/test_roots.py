@@ -8,7 +8,7 @@ import pytest
 from uictest.plans.scenario import Diagnostic, ScenarioErrors, load
 from uictest.plans.sweeps import load_sweep
 from uictest.recorded.field_data import load_map
-from uictest.rig.bench.loading import load_bench
+from uictest.rig.bench.recipe import load_bench
 from uictest.rig.identification.compensation_file import load_compensation
 
 SECRET = "root:x:0:0 top secret\n"

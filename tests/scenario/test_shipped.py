@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from uictest.plans.scenario import COMPENSATION_SETTINGS, Case, load
-from uictest.plans.scenario.parts.friction import FrictionProfile
+from uictest.plans.scenario.parts.rail import FrictionProfile
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
 

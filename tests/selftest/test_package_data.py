@@ -10,8 +10,7 @@ import pytest
 import uictest
 from uictest import selftest
 from uictest.selftest import package_data
-from uictest.selftest.data_digests import data_digests
-from uictest.selftest.reference import stored_data_digests
+from uictest.selftest.reference import data_digests, stored_data_digests
 
 PACKAGE = Path(uictest.__file__).parent
 CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"

@@ -5,7 +5,7 @@ import pytest
 
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
-from uictest.studies.actuations import BANDS, PAPER, counts, in_bands, in_order, mean_counts
+from uictest.studies.neighbourhood import BANDS, PAPER, counts, in_bands, in_order, mean_counts
 
 
 def stop(*vents: int) -> SimulatedStop:

@@ -4,8 +4,7 @@ import pytest
 from hypothesis import assume, given, strategies as st
 
 from uictest.studies import OwnBand, StudyQuantity, StudyValue
-from uictest.studies.band_plot import WIDTH, BandPlot, band_plot
-from uictest.studies.quantity import PaperComparison
+from uictest.studies.quantity import WIDTH, BandPlot, PaperComparison, band_plot
 
 numbers = st.floats(-1e6, 1e6)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from uictest.studies import STUDIES, StudyQuantity, experiments
-from uictest.studies.catalogue import find_studies
+from uictest.studies.study import find_studies
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),

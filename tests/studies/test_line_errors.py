@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from uictest.studies import StopRunner
 from uictest.studies.judged_conditions import JudgedConditions
-from uictest.studies.line_errors import held_out_errors, with_bc_lines
+from uictest.studies.phases import held_out_errors, with_bc_lines
 
 
 def test_two_lines_are_those_of_the_bc() -> None:

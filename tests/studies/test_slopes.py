@@ -7,7 +7,7 @@ import pytest
 
 from uictest.rig.identification import HysteresisResult
 from uictest.rig.identification.lines import FittedLine
-from uictest.studies.slopes import Loop, slope_spread, slopes_table
+from uictest.studies.phases import Loop, slope_spread, slopes_table
 
 
 def loop(level: str, **slopes: float) -> Loop:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from uictest.core import user_cache
-from uictest.core.user_cache import turns
+from uictest.core.user_cache import files as cache_files
 
 INPUTS = b"sources"
 MAKER = """
@@ -71,7 +71,7 @@ def test_a_process_that_was_killed_holds_nobody_up(root: Path) -> None:
 def test_a_process_that_was_stopped_is_not_waited_for_without_end(
     root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(turns, "PATIENCE", 0.1)
+    monkeypatch.setattr(cache_files, "PATIENCE", 0.1)
     with another_process():
         assert read_in_turn() is None
 

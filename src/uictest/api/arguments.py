@@ -1,13 +1,16 @@
-"""Arguments that several of the public functions take."""
+"""Arguments of the public functions, and `set` as the texts of `--set`."""
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from numbers import Integral
-from os import PathLike
+from decimal import Decimal
+from numbers import Integral, Real
+from os import PathLike, fspath
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from uictest import runs
 from uictest.plans.scenario.yaml import suggestion
@@ -85,3 +88,85 @@ def command_words(words: Sequence[PathName], options: Mapping[str, object]) -> l
         if each is not None
     ]
     return [*map(str, words), *(word for pair in pairs for word in pair)]
+
+
+Assignments = Mapping[str, Any]
+"""Dotted key -> value, or list of values for an axis."""
+_ENCLOSED = ("[", "{", '"', "'", "range(")
+"""How a text begins whose commas do not divide it."""
+
+
+def override_texts(assignments: Assignments | None, repeat: int | None = None) -> list[str]:
+    """Return `key=value` texts as `--set` takes them.
+
+    Args:
+        assignments: texts as in a scenario (`90 %`), numbers, booleans, None, mappings; a list of values is
+            an axis. A list inside a list is a list value.
+        repeat: stops of every case, 1 to 1000; None: as the scenarios say.
+
+    Raises:
+        TypeError: a value is of another type.
+        ValueError: a number is not finite, or `repeat` is out of its range.
+
+    """
+    texts = [f"{key}={_axis(key, value)}" for key, value in (assignments or {}).items()]
+    if repeat is None:
+        return texts
+    if not isinstance(repeat, Integral) or isinstance(repeat, bool) or not 1 <= repeat <= 1000:
+        raise ValueError(f"repeat is {repeat!r}, expected a whole number from 1 to 1000")
+    return [*texts, f"repeat={int(repeat)}"]
+
+
+def _axis(key: str, value: Any) -> str:
+    listed = _listed(value)
+    if listed is None:
+        # A text is taken as it would stand on the command line: `a,b` and `range(...)` are axes.
+        return value if isinstance(value, str) else _flow(key, value)
+    return ",".join(_item(key, each) for each in listed)
+
+
+def _listed(value: Any) -> Sequence[Any] | None:
+    """Return a list, a tuple, a range, an array or a column as a list; None for anything else."""
+    if isinstance(value, list | tuple | range):
+        return value
+    items = value.tolist() if hasattr(value, "tolist") else None
+    return items if isinstance(items, list) else None
+
+
+def _item(key: str, value: Any) -> str:
+    """Return one value of an axis; a text in which a comma would divide it is quoted."""
+    if not isinstance(value, str):
+        return _flow(key, value)
+    divided = "," in value and not value.lstrip().startswith(_ENCLOSED)
+    return json.dumps(value, ensure_ascii=False) if divided else value
+
+
+def _flow(key: str, value: Any) -> str:
+    """Return a value in YAML on one line. Raises TypeError, ValueError."""
+    if value is None or isinstance(value, bool):
+        return {None: "null", True: "true", False: "false"}[value]
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Integral):
+        return str(int(value))
+    if isinstance(value, Decimal | Real):
+        return _number(key, value)
+    if isinstance(value, PathLike):
+        return Path(fspath(value)).as_posix()
+    if isinstance(value, Mapping):
+        return "{" + _joined(f"{_flow(key, name)}: {_flow(key, each)}" for name, each in value.items()) + "}"
+    if (listed := _listed(value)) is not None:
+        return "[" + _joined(_flow(key, each) for each in listed) + "]"
+    if hasattr(value, "item"):
+        return _flow(key, value.item())
+    raise TypeError(f"set: {key} is a {type(value).__name__}; write a text, a number or a list of them")
+
+
+def _joined(texts: Iterable[str]) -> str:
+    return ", ".join(texts)
+
+
+def _number(key: str, value: Decimal | Real) -> str:
+    if not math.isfinite(value):
+        raise ValueError(f"set: {key} is {value}, expected a finite number")
+    return str(value) if isinstance(value, Decimal) else repr(float(value))

@@ -7,15 +7,16 @@ from pathlib import Path
 
 from uictest import runs
 from uictest.api.arguments import (
+    Assignments,
     PathName,
     Record,
     Trusted,
     as_paths,
     command_words,
     expression_of,
+    override_texts,
     recording_request,
 )
-from uictest.api.assignments import Assignments, override_texts
 from uictest.api.results import Results
 from uictest.plans import scenario as scenarios
 from uictest.running import campaign

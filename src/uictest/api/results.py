@@ -1,23 +1,104 @@
-"""The results of a run in Python."""
+"""The results of a run in Python, as data frames and as a small table for a notebook."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, Final, overload
 
 from uictest import report, runs
 from uictest.api.arguments import PathName
-from uictest.api.frames import frame_of
-from uictest.api.result_html import verdict_html
+from uictest.core import measures
 from uictest.core.recording import Recording, read_parquet
-from uictest.judging import evaluation
+from uictest.judging import evaluation, series
 from uictest.judging.series import SeriesResult
 from uictest.plans import scenario
 from uictest.plans.scenario.yaml import suggestion
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+def frame_of(table: report.Table, index: Sequence[str]) -> pd.DataFrame:
+    """Return a table as a data frame with the units of its columns in `attrs["units"]`.
+
+    Columns of numbers are 64-bit floats (NaN: no number), or integers and booleans where every row has one.
+    Texts are as written.
+    """
+    import pandas as pd
+
+    names = table.columns or index  # a table without rows may have no columns
+    columns = {name: _column([row.get(name) for row in table.rows]) for name in names}
+    frame = pd.DataFrame(columns, columns=list(names)).set_index(list(index))
+    return with_units(frame)
+
+
+def with_units(frame: pd.DataFrame) -> pd.DataFrame:
+    """Add the units of the columns that hold measures."""
+    frame.attrs["units"] = column_units(map(str, frame.columns))
+    return frame
+
+
+def column_units(names: Iterable[str]) -> dict[str, str]:
+    """Return the unit of each column that holds a measure, `1` for a pure number."""
+    known = {*measures.STOP_COLUMNS, *measures.WHEELSET_COLUMNS}
+    stems = {name: _stem(name) for name in names}
+    return {name: measures.column_unit(stem) for name, stem in stems.items() if stem in known}
+
+
+def _stem(name: str) -> str:
+    """Return the measure of a column, which may be of one wheelset or an end of a range."""
+    stem, _, last = name.rpartition("_")
+    return stem if last.isdigit() or last in ("lowest", "highest") else name
+
+
+def _column(values: Sequence[Any]) -> Any:
+    import numpy as np
+
+    kinds = {type(value) for value in values}
+    if not values or str in kinds:
+        return np.array(values, object)
+    if kinds in ({bool}, {int}):
+        return np.array(values)
+    return np.array([np.nan if value is None else value for value in values], float)
+
+
+_MOST_ROWS: Final = 50
+_COLOURS: Final = {"good": "#1a7f37", "bad": "#cf222e", "odd": "#8250df"}
+_MEASURES: Final = {"braking_distance_m": "distance, m", "braking_time_s": "time, s"}
+"""Column of measures -> heading."""
+
+
+def verdict_html(content: report.RunContent) -> str:
+    """Return the counts of a run and one row for each case, those not as expected first. Text is escaped."""
+    ranked = sorted(content.results, key=lambda result: result.met)
+    rows = [*(_series_row(each) for each in content.series), *map(_case_row, ranked[:_MOST_ROWS])]
+    more = len(ranked) - _MOST_ROWS
+    note = f"<p>and {report.counted(more, 'more case')}: <code>frame()</code> has all</p>" if more > 0 else ""
+    heads = "".join(f"<th>{escape(head)}</th>" for head in ("case", "verdict", *_MEASURES.values(), "reason"))
+    table = f"<table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+    return f"<p>{escape(content.tally)}</p>{table if rows else ''}{note}"
+
+
+def _case_row(result: evaluation.CaseResult) -> str:
+    numbers = [report.number((result.measures or {}).get(name)) for name in _MEASURES]
+    return _row(result.id, report.result_word(result), numbers, "" if result.met else result.reason)
+
+
+def _series_row(result: series.SeriesResult) -> str:
+    word = report.series_word(result)
+    return _row(result.id, word, ["-"] * len(_MEASURES), "" if result.met else result.reason)
+
+
+def _row(name: str, word: str, numbers: Sequence[str], reason: str) -> str:
+    coloured = f'<td style="color:{_COLOURS[report.tone(word)]}">{escape(word)}</td>'
+    return f"<tr>{_cells([name])}{coloured}{_cells(numbers)}{_cells([reason])}</tr>"
+
+
+def _cells(texts: Iterable[str]) -> str:
+    return "".join(f"<td>{escape(report.printable(text))}</td>" for text in texts)
+
 
 _SHOWN = 10
 """Cases that the text form lists."""

@@ -10,16 +10,17 @@ from typing import Literal, NamedTuple
 
 from uictest import report, runs
 from uictest.api.arguments import (
+    Assignments,
     PathName,
     Record,
     Trusted,
     as_paths,
     checked_seed,
     command_words,
+    override_texts,
     recording_request,
     thread_count,
 )
-from uictest.api.assignments import Assignments, override_texts
 from uictest.api.loading import selected
 from uictest.api.results import Results
 from uictest.core import recording

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
-from typing import Annotated, Final
+from typing import Annotated, Any, Final, TypeVar
 
 import typer
 
 from uictest import __version__
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data
-from uictest.cli.registration import command
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def command(group: typer.Typer, name: str) -> Callable[[Function], Function]:
+    """Return the decorator that makes a function a command of a group."""
+
+    def add(function: Function) -> Function:
+        return group.command(name, short_help=first_sentence(function.__doc__ or ""))(function)
+
+    return add
+
+
+def first_sentence(text: str) -> str:
+    """Return the first sentence of a help text on one line; typer would cut it at the end of a line."""
+    words = text.split()
+    end = next((place for place, word in enumerate(words, start=1) if word.endswith(".")), len(words))
+    return " ".join(words[:end])
+
 
 _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "

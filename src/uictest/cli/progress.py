@@ -1,4 +1,4 @@
-"""Progress of stops: a bar on a terminal, a line every 30 s elsewhere."""
+"""Progress of stops and of a compilation: a bar on a terminal, lines elsewhere."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from uictest import rig
 from uictest.cli.output import coloured, interactive, message
 
 if TYPE_CHECKING:
     from rich.console import Console
+
 
 HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 
@@ -73,3 +75,69 @@ def announce_in_process(*, foreign: bool, quiet: bool = False) -> None:
     """Announce that foreign controllers, if there are any (`foreign`), can crash this process."""
     if foreign and not quiet:
         message("uictest: --in-process: controllers from outside are not isolated, a crash ends everything")
+
+
+_EVERY: Final = 5.0
+"""s between two lines where there is no terminal."""
+
+
+@contextlib.contextmanager
+def compilation_shown(*, quiet: bool = False, colour: str = "auto") -> Iterator[None]:
+    """Show on stderr what is compiled meanwhile, how much of it is done and how long it may still take.
+
+    Where the cache holds the code nothing is compiled, and nothing shown; nor if `quiet`.
+    """
+    with contextlib.ExitStack() as shown:
+        if quiet:
+            watcher: rig.Watcher = _ignore
+        else:
+            watcher = _Bar(shown, colour) if interactive(sys.stderr) else _Lines()
+        shown.enter_context(rig.compilation_watched(watcher))
+        yield
+
+
+def _ignore(title: str, done: float) -> None:
+    pass
+
+
+class _Bar:
+    """One bar for each compilation; those that have ended disappear with `shown`."""
+
+    def __init__(self, shown: contextlib.ExitStack, colour: str) -> None:
+        self._shown, self._colour = shown, colour
+
+    def __call__(self, title: str, done: float) -> None:
+        if done == 0.0:
+            self._begin(title)
+        self._bars.update(self._bar, completed=done)
+
+    def _begin(self, title: str) -> None:
+        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+        message(_announcement(title))
+        columns = (TextColumn("compiling"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+        console = error_console(self._colour)
+        self._bars = self._shown.enter_context(Progress(*columns, console=console, transient=True))
+        self._bar = self._bars.add_task("compiling", total=1.0)
+
+
+class _Lines:
+    """A line when a compilation begins, one every few seconds, and one when it has ended."""
+
+    _begun = _told = 0.0
+
+    def __call__(self, title: str, done: float) -> None:
+        now = monotonic()
+        elapsed = now - self._begun
+        if done == 0.0:
+            self._begun = self._told = now
+            message(_announcement(title))
+        elif done == 1.0:
+            message(f"uictest: compiled in {elapsed:.0f} s")
+        elif now - self._told >= _EVERY:
+            self._told = now
+            message(f"uictest: {done:.0%} compiled, about {elapsed * (1 - done) / done:.0f} s left")
+
+
+def _announcement(title: str) -> str:
+    return f"uictest: compiling {title}, once per installation..."

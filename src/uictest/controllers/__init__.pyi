@@ -9,6 +9,8 @@ from .adapters.real_time import ResponseTimes as ResponseTimes
 from .adapters.registry import open_controller as open_controller
 from .adapters.turns import interrupt_turns as interrupt_turns
 from .contract import (
+    CONTROLLERS as CONTROLLERS,
+    DEFAULT as DEFAULT,
     Conflict as Conflict,
     ControlledWheelset as ControlledWheelset,
     Controller as Controller,
@@ -18,9 +20,14 @@ from .contract import (
     TrainMemory as TrainMemory,
 )
 from .declared import (
+    HEADER as HEADER,
+    LONGEST_VERSION as LONGEST_VERSION,
+    ControllerProgram as ControllerProgram,
+    Kind as Kind,
     Problem as Problem,
     nothing_declared as nothing_declared,
     parameter_problems as parameter_problems,
+    shown_version as shown_version,
 )
 from .exchange import (
     CLOSING as CLOSING,
@@ -49,6 +56,3 @@ from .interface import (
     Outputs as Outputs,
     PythonController as PythonController,
 )
-from .program import HEADER as HEADER, ControllerProgram as ControllerProgram, Kind as Kind
-from .registry import CONTROLLERS as CONTROLLERS, DEFAULT as DEFAULT
-from .version import LONGEST_VERSION as LONGEST_VERSION, shown_version as shown_version

@@ -1,9 +1,12 @@
-"""What every controller is given, and what it declares."""
+"""What every controller is given, what it declares, and the controllers that there are."""
 
+import pkgutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, NamedTuple
 
+from uictest.controllers import built_in
 from uictest.core.record import Record, fields_of
 
 
@@ -127,3 +130,18 @@ class Controller:
     def declared_parameters(self) -> dict[str, DeclaredParameter]:
         """Return the declarations of the parameters by name, those that every controller has first."""
         return {name: getattr(self.parameters, name) for name in fields_of(self.parameters)}
+
+
+def _built_in() -> dict[str, Controller]:
+    """Return the controller of every module in :mod:`uictest.controllers.built_in` by its name."""
+    modules = [
+        import_module(f"{built_in.__name__}.{module.name}")
+        for module in pkgutil.iter_modules(built_in.__path__)
+    ]
+    return {module.CONTROLLER.name: module.CONTROLLER for module in modules}
+
+
+CONTROLLERS = _built_in()
+"""Every controller by its name."""
+DEFAULT = "threshold"
+"""Name of the controller of a scenario that names none."""

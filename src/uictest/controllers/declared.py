@@ -2,8 +2,10 @@
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from difflib import get_close_matches
-from typing import Any, Final, NamedTuple, Protocol
+from pathlib import Path
+from typing import Any, Final, Literal, NamedTuple, Protocol
 
 _SHOWN: Final = 8
 """Names that a message lists at most; chosen."""
@@ -90,3 +92,41 @@ def _line(value: Any) -> str:
     return (
         "{default: NUMBER, unit: UNIT}" if kind == "a number" else f"{{default: {kind.split()[-1].upper()}}}"
     )
+
+
+HEADER: Final = Path(__file__).with_name("uictest_controller.h")
+"""What a controller in C includes."""
+
+Kind = Literal["python", "library", "fmu", "connect", "registered"]
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerProgram:
+    """A controller that is no part of this package.
+
+    Attributes:
+        kind: the key that names it in a scenario.
+        location: absolute path of its file, address of its socket, or its registered name.
+        sha256: of the file; empty where there is none.
+        parameters: its parameters as a JSON object.
+        options: what only this kind has, such as ``class``.
+        time_limit: longest time for one answer, s.
+        real_time: whether its cycles are paced by the clock; only a program at a socket can be.
+    """
+
+    kind: Kind
+    location: str
+    sha256: str = ""
+    parameters: str = "{}"
+    options: Mapping[str, Any] = field(default_factory=dict)
+    time_limit: float = 5.0
+    real_time: bool = False
+
+
+LONGEST_VERSION: Final = 100
+"""Characters of a version at most: it stands in sentences. Chosen."""
+
+
+def shown_version(text: str) -> str:
+    """Return a version that a program states, empty where it cannot be shown on one line."""
+    return text if text.isprintable() and len(text) <= LONGEST_VERSION else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from uictest.controllers.version import shown_version
+from uictest.controllers.declared import shown_version
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint

@@ -1,14 +1,18 @@
-from .baseline import (
+from .content import (
+    DRAWN as DRAWN,
+    MOST_DRAWN as MOST_DRAWN,
+    CaseDescription as CaseDescription,
+    RunContent as RunContent,
+    drawn_cases as drawn_cases,
+)
+from .csv_text import Cell as Cell, Table as Table, csv_text as csv_text, prose as prose
+from .difference import (
     BaselineComparison as BaselineComparison,
+    Difference as Difference,
+    Value as Value,
     baseline_summary as baseline_summary,
     case_word as case_word,
     not_compared_sentences as not_compared_sentences,
-)
-from .content import CaseDescription as CaseDescription, RunContent as RunContent
-from .csv_text import Cell as Cell, Table as Table, csv_text as csv_text
-from .difference import (
-    Difference as Difference,
-    Value as Value,
     percent_text as percent_text,
     relative_percent as relative_percent,
     relative_text as relative_text,
@@ -17,13 +21,6 @@ from .difference import (
     worst_of_wheelsets as worst_of_wheelsets,
 )
 from .document import differences_form as differences_form, subjects_form as subjects_form
-from .domain_wording import (
-    deviation_text as deviation_text,
-    domain_lines as domain_lines,
-    domain_notices as domain_notices,
-    interval_text as interval_text,
-)
-from .drawn_cases import DRAWN as DRAWN, MOST_DRAWN as MOST_DRAWN, drawn_cases as drawn_cases
 from .escaping import (
     argument as argument,
     csv_cell as csv_cell,
@@ -55,25 +52,32 @@ from .manifest import (
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
-from .markdown_table import prose as prose
 from .own_page import may_replace as may_replace
-from .recording_path import RECORDINGS as RECORDINGS, recording_path as recording_path
+from .part_wording import (
+    deviation_text as deviation_text,
+    domain_lines as domain_lines,
+    domain_notices as domain_notices,
+    interval_text as interval_text,
+)
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
-from .run_contents import (
-    read_run as read_run,
-    run_content as run_content,
-    with_recorded_traces as with_recorded_traces,
-)
-from .run_report import (
+from .run_folder import (
+    RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
+    read_run as read_run,
+    recording_path as recording_path,
+    run_content as run_content,
     run_name as run_name,
+    with_recorded_traces as with_recorded_traces,
     write_recording as write_recording,
     write_reports as write_reports,
 )
-from .series.github import series_annotations as series_annotations
-from .series.lines import series_line as series_line, series_lines as series_lines
-from .series.table import series_table as series_table
+from .series.table import (
+    series_annotations as series_annotations,
+    series_line as series_line,
+    series_lines as series_lines,
+    series_table as series_table,
+)
 from .series.wording import (
     count_sentences as count_sentences,
     not_counted_sentences as not_counted_sentences,
@@ -83,24 +87,27 @@ from .series.wording import (
     series_word as series_word,
 )
 from .sheet_columns import sheet_column as sheet_column
-from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
-from .sweep.content import SweepContent as SweepContent
-from .sweep.domain import (
-    OutsideCount as OutsideCount,
-    SweepDomain as SweepDomain,
-    domain_notes as domain_notes,
+from .sweep.folder import (
+    SWEEP_MANIFEST_SCHEMA as SWEEP_MANIFEST_SCHEMA,
+    SWEEP_RESULTS as SWEEP_RESULTS,
+    SweepContent as SweepContent,
+    read_sweep as read_sweep,
+    write_sweep_formats as write_sweep_formats,
+    write_sweep_result as write_sweep_result,
 )
-from .sweep.format_registry import write_sweep_formats as write_sweep_formats
 from .sweep.formats import sweep_format_names as sweep_format_names
 from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.github import sweep_annotations as sweep_annotations
 from .sweep.junit import sweep_junit_xml as sweep_junit_xml
-from .sweep.map_text import map_lines as map_lines
-from .sweep.reading import (
-    SWEEP_MANIFEST_SCHEMA as SWEEP_MANIFEST_SCHEMA,
-    SWEEP_RESULTS as SWEEP_RESULTS,
-    read_sweep as read_sweep,
+from .sweep.limits import (
+    OutsideCount as OutsideCount,
+    SurveyBias as SurveyBias,
+    SurveyStep as SurveyStep,
+    SweepDomain as SweepDomain,
+    domain_notes as domain_notes,
+    survey_notes as survey_notes,
 )
+from .sweep.map_text import map_lines as map_lines
 from .sweep.result import (
     MET as MET,
     SWEEP_SCHEMA as SWEEP_SCHEMA,
@@ -117,12 +124,8 @@ from .sweep.result import (
     SweepResult as SweepResult,
     Trend as Trend,
 )
-from .sweep.survey import (
-    SurveyBias as SurveyBias,
-    SurveyStep as SurveyStep,
-    survey_notes as survey_notes,
-)
-from .sweep.tail_text import tail_lines as tail_lines
+from .sweep.summary_rows import LARGEST_CSV as LARGEST_CSV, every_case as every_case
+from .sweep.tail_tables import tail_lines as tail_lines
 from .sweep.tails import (
     DrawCount as DrawCount,
     KDry as KDry,
@@ -141,14 +144,6 @@ from .sweep.wording import (
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
-from .sweep.writing import write_sweep_result as write_sweep_result
-from .terminal.case_lines import (
-    case_line as case_line,
-    criterion_lines as criterion_lines,
-    definition_lines as definition_lines,
-    missing_lines as missing_lines,
-    part_lines as part_lines,
-)
 from .terminal.fitted_columns import (
     TableColumn as TableColumn,
     aligned as aligned,
@@ -158,18 +153,27 @@ from .terminal.fitted_columns import (
     table_width as table_width,
     wrapped_name as wrapped_name,
 )
-from .terminal.verdict_table import explanation_text as explanation_text, verdict_table as verdict_table
-from .traces.extremes import thinned as thinned
+from .terminal.verdict_table import (
+    case_line as case_line,
+    criterion_lines as criterion_lines,
+    definition_lines as definition_lines,
+    explanation_text as explanation_text,
+    missing_lines as missing_lines,
+    part_lines as part_lines,
+    verdict_table as verdict_table,
+)
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     Panel as Panel,
     PlotLine as PlotLine,
+    channel_title as channel_title,
+    shown_unit as shown_unit,
 )
-from .traces.shown_channels import channel_title as channel_title, shown_unit as shown_unit
 from .traces.trace import (
     Curve as Curve,
     PlotTrace as PlotTrace,
     interval_of as interval_of,
+    thinned as thinned,
     trace_of as trace_of,
 )
 from .wording import (

@@ -1,13 +1,16 @@
-"""Rows as CSV text: user text guarded, missing numbers as empty cells."""
+"""Tables as CSV and as Markdown: user text guarded, missing numbers as empty cells."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+import math
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, Self
 
-from uictest.report.escaping import csv_cell
+from uictest.report.escaping import csv_cell, printable
 
 Cell = str | float | int | bool | None
 
@@ -40,3 +43,79 @@ def _cell(value: Cell) -> str:
     if isinstance(value, str):
         return csv_cell(value)
     return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+_LONGEST = 300  # characters of one text in a cell
+_BACKTICKS = re.compile("`+")
+_ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!:$^]")
+_RULES = {"l": "---", "r": "--:"}
+_RESERVE = 200  # bytes kept for the line that says what was left out
+
+
+@dataclass(frozen=True, slots=True)
+class MarkdownTable:
+    """A table whose cells are Markdown already.
+
+    Args:
+        columns: their headings.
+        alignment: a letter for each column: `l` for texts, `r` for numbers.
+        rows: see `row`.
+        rest: what stands behind the number of rows that were left out, e.g. `more cases are in ...`.
+        most: rows that a reader is to be given, None for all.
+
+    """
+
+    columns: Sequence[str]
+    alignment: str
+    rows: Sequence[str]
+    rest: str = ""
+    most: int | None = None
+
+    def within(self, room: int) -> str:
+        """Return the table in at most so many bytes; empty where there is no room for a single row.
+
+        Where rows were left out, a last line says how many.
+        """
+        head = row(self.columns) + f"|{'|'.join(_RULES[letter] for letter in self.alignment)}|\n"
+        shown = list(_fitting(self.rows[: self.most], room - len(head.encode()) - _RESERVE))
+        if not shown and self.rows:
+            return ""
+        left_out = len(self.rows) - len(shown)
+        return head + "".join(shown) + (f"\n{left_out} {self.rest}\n" if left_out else "")
+
+
+def row(cells: Iterable[str]) -> str:
+    """Return a row of a table."""
+    return f"| {' | '.join(cells)} |\n"
+
+
+def _fitting(rows: Iterable[str], room: int) -> Iterator[str]:
+    for each in rows:
+        room -= len(each.encode())
+        if room < 0:
+            return
+        yield each
+
+
+def code(text: str) -> str:
+    """Return a text as a code span that shows it letter by letter, also inside a table."""
+    # In a code span nothing can be escaped, but a bar ends a cell: it is spelled out like what is invisible.
+    shown = _cut(printable(text)).replace("|", "\\x7c")
+    longest = max(map(len, _BACKTICKS.findall(shown)), default=0)
+    fence = "`" * (longest + 1)
+    padding = " " if shown.startswith("`") or shown.endswith("`") else ""
+    return f"{fence}{padding}{shown}{padding}{fence}" if shown else ""
+
+
+def prose(text: str) -> str:
+    """Return a text with every character that Markdown or HTML could act upon as an entity."""
+    return _ACTIVE.sub(lambda match: f"&#{ord(match.group())};", _cut(printable(text)))
+
+
+def number_cell(value: float | None, form: str) -> str:
+    """Return a number as a cell in a format, a dash where there is none."""
+    return "–" if value is None or math.isnan(value) else format(value, form)  # noqa: RUF001 - a dash on paper
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

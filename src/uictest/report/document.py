@@ -15,9 +15,8 @@ from pydantic import (
 )
 
 from uictest.judging import evaluation
-from uictest.report.baseline import BaselineComparison
 from uictest.report.content import CaseDescription
-from uictest.report.difference import Difference
+from uictest.report.difference import BaselineComparison, Difference
 
 _CONFIG: Final = ConfigDict(extra="forbid", defer_build=True)
 _SIDES: Final = ("first", "second")

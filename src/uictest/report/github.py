@@ -9,8 +9,13 @@ from typing import Literal
 
 from uictest.core import files
 from uictest.judging import evaluation
-from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
-from uictest.report.difference import Difference
+from uictest.report.difference import (
+    BaselineComparison,
+    Difference,
+    case_explanation,
+    case_word,
+    difference_sentences,
+)
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.part_wording import changes_line
 from uictest.report.repeat_wording import repeat_sentences, stops_text

@@ -37,20 +37,19 @@ from .external.drive import (
     Drives as Drives,
     drive as drive,
 )
-from .external.in_process import (
+from .external.opened import empty_exchange as empty_exchange
+from .external.workers import (
     RunInputs as RunInputs,
+    Workers as Workers,
     in_real_time as in_real_time,
     run_in_process as run_in_process,
 )
-from .external.opened import empty_exchange as empty_exchange
-from .external.workers import Workers as Workers
 from .highest_creep import highest_creep_forces as highest_creep_forces
 from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS
-from .noise_key import noise_key_text as noise_key_text, noise_keys as noise_keys
+from .noise_key import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
 from .recorded_rail import RecordedRail as RecordedRail
 from .simulation import (
     SimulatedStop as SimulatedStop,
     recording_of_stop as recording_of_stop,
     simulate as simulate,
 )
-from .stop_inputs import StopInputs as StopInputs

@@ -20,15 +20,13 @@ from uictest.rig.derived_parameters import (
     friction_factor_over_time,
 )
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
-from uictest.rig.disc_parameters import DISC_BRAKE
-from uictest.rig.fault_parameters import FAULTS
+from uictest.rig.disc_parameters import DISC_BRAKE, FAULTS
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.external_controller import EXTERNAL
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.noise_key import noise_keys
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs, noise_keys
 
 
 def assemble(case: Case) -> StopInputs:

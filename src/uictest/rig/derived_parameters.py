@@ -24,8 +24,7 @@ from uictest.plans.scenario import (
     rig_differences,
     wheelset_value,
 )
-from uictest.rig.cylinder_sampling import resampled_transfer_function
-from uictest.rig.highest_creep import highest_creep_law
+from uictest.rig.highest_creep import highest_creep_law, resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail_memory import MARGIN, POINTS
 

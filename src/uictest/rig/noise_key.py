@@ -1,4 +1,4 @@
-"""Key of the sensors' noise: what the train, its brake and the rail are, never what the case is called.
+"""What the rig is given for one stop, and the key of its sensors' noise.
 
 With the seed it decides every draw. Neither the controller nor anything else of the rig has a part in it, so
 that two controllers, two compensations or two topologies meet the same noise in the same stop.
@@ -7,11 +7,12 @@ that two controllers, two compensations or two topologies meet the same noise in
 from __future__ import annotations
 
 import zlib
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.controllers import Config, ControllerProgram
 from uictest.core.ensemble import alike, rows_at
 from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
 
@@ -57,3 +58,22 @@ def _crc32_of_rows(rows: NDArray[np.float64]) -> list[int]:
 def noise_key_text(parameters: np.void) -> str:
     """Return the key in a parameter record as results state it: eight hexadecimal digits."""
     return f"{int(parameters['noise_key']):08x}"
+
+
+class StopInputs(NamedTuple):
+    """What the rig is given for one stop.
+
+    Attributes:
+        parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
+        wheelset_parameters: four records of
+            :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
+        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
+        program: what is loaded where the controller comes from outside, else None.
+        config: what that controller is given before the stop, else None.
+    """
+
+    parameters: Any
+    wheelset_parameters: Any
+    rail: NDArray[np.float64]
+    program: ControllerProgram | None = None
+    config: Config | None = None

@@ -9,8 +9,7 @@ from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.finished_stop import FinishedStop
-from uictest.rig.external.in_process import RunInputs
-from uictest.rig.external.workers import Workers
+from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
     CAR_CHANNELS,
     CONTROLLER_CHANNELS,

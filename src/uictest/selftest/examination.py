@@ -3,12 +3,31 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from uictest.selftest.check import Answer, Check, NotCheckedError
-from uictest.selftest.checks import all_checks
-from uictest.selftest.environment import environment
-from uictest.selftest.finding import SEVERITY, Finding, Status
+from uictest.selftest.air import AIR_CHECKS
+from uictest.selftest.bits import controller_checks, stop_checks
+from uictest.selftest.check import SEVERITY, Answer, Check, Finding, NotCheckedError, Status
+from uictest.selftest.dry_stop import DRY_STOP_CHECKS
+from uictest.selftest.environment import environment, environment_checks
+from uictest.selftest.friction import CONTACT_CHECKS, FRICTION_CHECKS
+from uictest.selftest.judging import judging_checks
 from uictest.selftest.known_stops import KnownStops
+from uictest.selftest.package_data import data_checks
 from uictest.selftest.reference import reference_version
+
+
+def all_checks(stops: KnownStops) -> tuple[Check, ...]:
+    """Return all checks; those of stored stops are asked of `stops`."""
+    return (
+        *stop_checks(stops),
+        *DRY_STOP_CHECKS,
+        *AIR_CHECKS,
+        *CONTACT_CHECKS,
+        *FRICTION_CHECKS,
+        *judging_checks(),
+        *controller_checks(),
+        *data_checks(),
+        *environment_checks(),
+    )
 
 
 @dataclass(frozen=True, slots=True)

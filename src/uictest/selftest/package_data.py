@@ -4,9 +4,8 @@ from collections.abc import Iterator, Mapping
 from typing import Final
 
 from uictest.selftest.check import Answer, Check
-from uictest.selftest.data_digests import data_digests
 from uictest.selftest.known_stops import KnownStops
-from uictest.selftest.reference import stored_data_digests
+from uictest.selftest.reference import data_digests, stored_data_digests
 
 _MOST_NAMED: Final = 5
 

@@ -1,13 +1,13 @@
-"""The stored numbers of the known stops: `reference.json`, made by `scripts/selftest_reference.py`."""
+"""The stored numbers and digests of this version."""
 
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
 from uictest import __version__
-from uictest.selftest.data_digests import data_digests
 from uictest.selftest.known_stops import (
     KnownStops,
     Numbers,
@@ -15,6 +15,29 @@ from uictest.selftest.known_stops import (
     numbers_of_stop,
 )
 from uictest.selftest.template_stops import python_stop
+
+_PACKAGE: Final = Path(__file__).parents[1]
+_FOLDERS: Final = ("plans/library", "selftest/stops", "selftest/record", "plans/templates")
+"""Where the parts, criteria, known stops and first files of users lie."""
+_OF_PYTHON: Final = "__pycache__"
+
+
+def data_digests(package: Path = _PACKAGE) -> dict[str, str]:
+    """Return the SHA-256 of every shipped data file below a package, by its path."""
+    return {
+        path.relative_to(package).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for folder in _FOLDERS
+        for path in _files(package / folder)
+    }
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Yield the files below a folder, without what Python leaves there and what editors hide."""
+    for path in sorted(folder.rglob("*"), key=Path.as_posix):
+        hidden = any(part.startswith(".") or part == _OF_PYTHON for part in path.relative_to(folder).parts)
+        if path.is_file() and not hidden:
+            yield path
+
 
 SCHEMA: Final = "uictest/known-stops/1"
 REFERENCE: Final = Path(__file__).parent / "reference.json"

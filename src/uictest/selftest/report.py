@@ -8,8 +8,8 @@ from typing import Any, Final
 from xml.etree import ElementTree
 
 from uictest.report import TableColumn, aligned, columns_not_shown, counted, fitted, printable, xml_text
+from uictest.selftest.check import SEVERITY, Finding
 from uictest.selftest.examination import Examination
-from uictest.selftest.finding import SEVERITY, Finding
 
 SCHEMA: Final = "uictest/selftest/1"
 

@@ -1,19 +1,23 @@
-"""A study: one experiment of the paper (Lee and Kang, 2015), or one of ours about its rig, and its result."""
+"""A study and its findings; every study there is."""
 
 from __future__ import annotations
 
+import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.studies import experiments
 from uictest.studies.quantity import PaperComparison, Result, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 
 Table = Mapping[str, Sequence[Any]]
 """Columns of equal length; a name ends in the unit, as in `pressure_bar`."""
@@ -101,3 +105,17 @@ def column(samples: NDArray[Any], unit: float, digits: int) -> list[float]:
     """Return samples, SI, in a unit of this size, rounded for a column of a table."""
     rounded: list[float] = np.round(samples / unit, digits).tolist()
     return rounded
+
+
+def find_studies() -> dict[str, Study]:
+    """Return every study by its name, in the order in which they are listed and run."""
+    modules = (
+        import_module(f"{experiments.__name__}.{module.name}")
+        for module in pkgutil.iter_modules(experiments.__path__)
+    )
+    studies: list[Study] = sorted((module.STUDY for module in modules), key=lambda study: study.position)
+    return {study.name: study for study in studies}
+
+
+STUDIES: dict[str, Study] = find_studies()
+"""Every study by its name."""

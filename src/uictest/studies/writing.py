@@ -9,9 +9,9 @@ from pathlib import Path
 
 from uictest.core import files
 from uictest.studies.comparison import comparison_table
-from uictest.studies.document import document
 from uictest.studies.figures.style import RC
 from uictest.studies.study import Drawing, StudyResult, Table
+from uictest.studies.table import document
 
 
 def write_tables(folder: Path, result: StudyResult) -> list[Path]:

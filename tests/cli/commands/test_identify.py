@@ -12,8 +12,7 @@ import pytest
 from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
 from uictest.plans.scenario import load_part
 from uictest.plans.scenario.parts.compensation import Compensation
-from uictest.rig.identification.lines import FittedLine
-from uictest.rig.identification.play import computed_force
+from uictest.rig.identification.lines import FittedLine, computed_force
 
 STEP = 0.001
 SQUEEZING, RELEASING = FittedLine(0.042, -1800.0), FittedLine(0.0475, -1650.0)

@@ -3,16 +3,16 @@
 import pytest
 
 from uictest.cli import progress
-from uictest.cli.sweep import progress as sweep_progress
+from uictest.cli.sweep import execution
 
 
 def test_a_line_now_and_then_with_rate_and_time_left(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     moments = iter([100.0, 101.0, 102.0, 140.0])
-    monkeypatch.setattr(sweep_progress, "monotonic", lambda: next(moments))
+    monkeypatch.setattr(execution, "monotonic", lambda: next(moments))
     monkeypatch.setattr(progress, "HEARTBEAT", 30.0)
-    with sweep_progress.sweep_progress(1000, 100, quiet=False) as advance:
+    with execution.sweep_progress(1000, 100, quiet=False) as advance:
         for _ in range(3):
             advance(40)
     assert capsys.readouterr().err == "uictest: 220 of 1000 cases, 3 cases/s, 260 s left\n"
@@ -20,6 +20,6 @@ def test_a_line_now_and_then_with_rate_and_time_left(
 
 def test_quiet_says_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(progress, "HEARTBEAT", 0.0)
-    with sweep_progress.sweep_progress(10, 0, quiet=True) as advance:
+    with execution.sweep_progress(10, 0, quiet=True) as advance:
         advance(5)
     assert capsys.readouterr().err == ""

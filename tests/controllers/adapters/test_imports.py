@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from uictest.controllers.adapters import imports
+from uictest.controllers.adapters import python_class
 
 
 @pytest.fixture
@@ -37,9 +37,9 @@ def importing_elsewhere() -> Iterator[None]:
 def test_an_import_of_another_thread_is_no_error_of_a_controller(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(imports, "_FOLDERS", set())
-    imports.check_imports(tmp_path / "wsp.py")
-    imports.check_imports(tmp_path / "other" / "wsp.py")
+    monkeypatch.setattr(python_class, "_FOLDERS", set())
+    python_class.check_imports(tmp_path / "wsp.py")
+    python_class.check_imports(tmp_path / "other" / "wsp.py")
 
 
 def test_looking_for_modules_imports_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -48,5 +48,5 @@ def test_looking_for_modules_imports_none(tmp_path: Path, monkeypatch: pytest.Mo
             raise ImportError(f"{name} needs an extra")
 
     monkeypatch.setitem(sys.modules, "lazy_module_of_a_test", Lazy("lazy_module_of_a_test"))
-    monkeypatch.setattr(imports, "_FOLDERS", {tmp_path})
-    imports.check_imports(tmp_path / "other" / "wsp.py")
+    monkeypatch.setattr(python_class, "_FOLDERS", {tmp_path})
+    python_class.check_imports(tmp_path / "other" / "wsp.py")

@@ -10,7 +10,7 @@ import pytest
 
 from uictest.core.recording.contents import Group
 from uictest.core.recording.formats import Dialect, UnreadableError
-from uictest.core.recording.formats.limits import MOST_CHANNELS
+from uictest.core.recording.formats.problems import MOST_CHANNELS
 from uictest.core.recording.formats.reader import read_here
 
 ROWS = "0.0,80.5,1\n0.1,80.25,2\n0.2,80.0,3\n"

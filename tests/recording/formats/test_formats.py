@@ -20,8 +20,7 @@ from uictest.core.recording.formats import (
     writer_of,
 )
 from uictest.core.recording.formats.layout import name_and_unit
-from uictest.core.recording.formats.limits import MOST_CHANNELS, MOST_VALUES, check_size
-from uictest.core.recording.formats.problems import required_module
+from uictest.core.recording.formats.problems import MOST_CHANNELS, MOST_VALUES, check_size, required_module
 from uictest.core.recording.formats.reader import read_here
 
 Written = Callable[[str], Path]

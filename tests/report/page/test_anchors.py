@@ -4,7 +4,7 @@ from urllib.parse import unquote
 
 from hypothesis import given, strategies as st
 
-from uictest.report.page.anchors import case_anchor, fragment
+from uictest.report.page.links import case_anchor, fragment
 
 
 @given(st.text())

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from itertools import product
 
 from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report.page.matrix import maps_of
+from uictest.report.page.overview import maps_of
 
 MakeResult = Callable[..., CaseResult]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from uictest.report.page import plotting_script as module
-from uictest.report.page.plotting_script import packed_script, plotting_script
+from uictest.report.page import rendering as module
+from uictest.report.page.rendering import packed_script, plotting_script
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from uictest.report import CASES_IN_PYTHON, RunManifest
-from uictest.report.page.rerun_command import rerun_command
+from uictest.report.page.links import rerun_command
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.report import MapAxis, SweepMap, WrittenValue
-from uictest.report.sweep.folding import fold, folded, is_large, short_label
+from uictest.report.sweep.map_text import fold, folded, is_large, short_label
 
 
 def _map(rows: int, columns: int) -> SweepMap:

@@ -8,8 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.report import format_names, sweep_format_names
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.format_registry import write_sweep_formats
+from uictest.report.sweep.folder import SweepContent, write_sweep_formats
 
 MakeSweep = Callable[..., SweepContent]
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.judging.evaluation import CaseResult
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.github import MOST_ANNOTATED, sweep_annotations
 
 MakeResult = Callable[..., CaseResult]

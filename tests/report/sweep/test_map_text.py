@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.report import MapAxis, SweepMap, WrittenValue, map_lines
-from uictest.report.sweep.folding import fold
+from uictest.report.sweep.map_text import fold
 
 _RANGE = re.compile(r"(\S+) \.\. (\S+) \((\d+) values\)")
 

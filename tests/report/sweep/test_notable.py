@@ -3,8 +3,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.judging.evaluation import CaseResult
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.wording import notable_cases
 
 MakeResult = Callable[..., CaseResult]
 MakeSweep = Callable[..., SweepContent]

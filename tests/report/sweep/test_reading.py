@@ -9,8 +9,7 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult
 from uictest.report import write_recording
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.reading import read_sweep
+from uictest.report.sweep.folder import SweepContent, read_sweep
 from uictest.report.sweep.result import sweep_document
 
 MakeResult = Callable[..., CaseResult]

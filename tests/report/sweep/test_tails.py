@@ -14,13 +14,11 @@ from hypothesis import given, strategies as st
 
 from uictest.report import tail_lines
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.formats.md import sweep_markdown
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 from uictest.report.sweep.k_dry_file import k_dry_yaml
-from uictest.report.sweep.tail_rows import k_dry_rows
-from uictest.report.sweep.tail_tables import MOST_TABLES
-from uictest.report.sweep.tail_wording import k_dry_text
+from uictest.report.sweep.tail_tables import MOST_TABLES, k_dry_rows, k_dry_text
 
 from ..test_page import Page
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from uictest.judging.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
-from uictest.report.terminal.case_lines import case_line, criterion_lines, definition_lines
+from uictest.report.terminal.verdict_table import case_line, criterion_lines, definition_lines
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, strategies as st
 
-from uictest.report.traces.extremes import extremes, thinned
+from uictest.report.traces.trace import extremes, thinned
 
 _SAMPLES = st.lists(st.integers(-50, 50) | st.none(), min_size=1, max_size=300)
 

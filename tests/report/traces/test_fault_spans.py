@@ -4,8 +4,7 @@ import numpy as np
 
 from uictest.core.recording import Recording
 from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
-from uictest.report.traces.fault_spans import FaultSpan, fault_spans
-from uictest.report.traces.trace import trace_of
+from uictest.report.traces.trace import FaultSpan, fault_spans, trace_of
 
 TIME = np.arange(0.0, 10.0, 0.1)
 

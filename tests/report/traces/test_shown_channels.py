@@ -3,8 +3,7 @@ from __future__ import annotations
 import pytest
 
 from uictest.core.units import SIZES
-from uictest.report.traces.quantities import PLOT_QUANTITIES, channel_names
-from uictest.report.traces.shown_channels import channel_title, shown_unit
+from uictest.report.traces.quantities import PLOT_QUANTITIES, channel_names, channel_title, shown_unit
 
 SI = {"km/h": "m/s", "bar": "Pa", "kN": "N", "degC": "K", "%": "1", "m": "m", "1": "1"}
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.core.recording import Recording
-from uictest.report.page.stop.bars import magnet_bars, vents
+from uictest.report.page.stop.mark import magnet_bars, vents
 from uictest.report.traces.quantities import MAGNETS
 from uictest.report.traces.trace import BINS, deceleration, slide, trace_of
 

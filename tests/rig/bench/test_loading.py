@@ -6,7 +6,7 @@ import pytest
 
 from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.yaml.model import quantities_in
-from uictest.rig.bench.loading import load_bench, recipe_names, recipe_path
+from uictest.rig.bench.recipe import load_bench, recipe_names, recipe_path
 
 
 @pytest.mark.parametrize("name", recipe_names())

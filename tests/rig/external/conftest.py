@@ -13,7 +13,7 @@ import pytest
 from uictest.controllers import HEADER
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 HERE = Path(__file__).parent
 Compile = Callable[..., Path]

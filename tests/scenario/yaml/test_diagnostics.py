@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, diagnose, in_reading_order
-from uictest.plans.scenario.yaml.tree import Document, Place
-from uictest.plans.scenario.yaml.wording import nearest, quoted, suggestion, visible
+from uictest.plans.scenario.yaml.tree import Document, Place, nearest, quoted, suggestion, visible
 
 
 def place(text: str, line: int, column: int, display: str = "a.yaml") -> Place:

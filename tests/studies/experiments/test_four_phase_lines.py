@@ -8,7 +8,7 @@ import pytest
 
 from uictest.rig.identification.lines import FittedLine
 from uictest.studies.experiments.four_phase_lines import _gain, apart
-from uictest.studies.line_errors import LineErrors
+from uictest.studies.phases import LineErrors
 
 
 def hysteresis(**lines: FittedLine) -> Any:

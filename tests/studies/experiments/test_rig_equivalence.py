@@ -9,9 +9,8 @@ import pytest
 
 from uictest.core.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
-from uictest.studies.actuations import mean_counts
 from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
-from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point
+from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point, mean_counts
 
 
 def stop(distance: float, *vents: int) -> SimulatedStop:

@@ -8,7 +8,7 @@ import pytest
 
 from uictest import rig
 from uictest.studies import StopRunner
-from uictest.studies.field.assumptions import DRY, Assumptions
+from uictest.studies.field.families import DRY, Assumptions
 from uictest.studies.field.field_rig import FieldRig, field_stop
 
 SPEED = 80.0 / 3.6

@@ -6,8 +6,7 @@ import pytest
 
 from uictest.studies import StopRunner
 from uictest.studies.field import real_train
-from uictest.studies.field.assumptions import SHAPES, Assumptions
-from uictest.studies.field.families import CARRY_OVERS, FAMILIES, Family
+from uictest.studies.field.families import CARRY_OVERS, FAMILIES, SHAPES, Assumptions, Family
 from uictest.studies.field.field_rig import FieldRig
 from uictest.studies.field.search import Trial, closest, evenly_spread, neighbours, search
 

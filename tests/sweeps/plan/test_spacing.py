@@ -7,8 +7,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.analysis.summaries.bins import bins_of_plan
-from uictest.analysis.summaries.spacing import logarithmic_keys, spaced_logarithmically
+from uictest.analysis.summaries.tally import bins_of_plan, logarithmic_keys, spaced_logarithmically
 from uictest.report import DrawnInterval
 
 from ..conftest import Load

@@ -16,11 +16,11 @@ from uictest import rig
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
 from uictest.plans.sweeps import Plan
-from uictest.plans.sweeps.survey import in_survey_steps
+from uictest.plans.sweeps.base_case import in_survey_steps
 from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.manifest import program_digest
-from uictest.running.chunked.survey import biases_by_measure, survey_biases, survey_step
+from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
 from ..conftest import GRID, SCENARIO, Load, formula
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.analysis.summaries.ranked_draws import RankedDraws, SmallestValues
+from uictest.analysis.summaries.tails import RankedDraws, SmallestValues
 
 numbers = st.lists(
     st.lists(st.one_of(st.floats(-9.0, 9.0).map(lambda x: round(x, 1)), st.just(np.nan)), max_size=9),

@@ -206,7 +206,7 @@ def test_one_row_per_case_in_both_summaries(finished: Callable[..., tuple[SweepR
 def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeRunner, tmp_path: Path) -> None:
     import pyarrow as pa
 
-    from uictest.analysis.summaries.summary_files import without_formulas
+    from uictest.analysis.summaries.worst import without_formulas
 
     assert without_formulas(pa.table({"a": ["=1+1", "+2", "x"], "b": [1, 2, 3]})).column("a").to_pylist() == [
         "'=1+1",

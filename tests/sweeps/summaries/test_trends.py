@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pyarrow as pa
 
-from uictest.analysis.summaries.bins import bins_of_plan
 from uictest.analysis.summaries.histograms import ReportedMeasure
+from uictest.analysis.summaries.tally import bins_of_plan
 from uictest.analysis.summaries.trends import TrendSums
 
 from ..conftest import GRID, Load

@@ -1,25 +1,33 @@
-from .accepted import accepted_document as accepted_document
-from .baseline import Baseline as Baseline, read_baseline as read_baseline
-from .difference import Comparison as Comparison
-from .folders import compare_run_folders as compare_run_folders, with_overlays as with_overlays
+from .baseline import (
+    Baseline as Baseline,
+    accepted_document as accepted_document,
+    read_baseline as read_baseline,
+)
+from .difference import (
+    Comparison as Comparison,
+    comparison_json as comparison_json,
+    comparison_lines as comparison_lines,
+    verdict_line as verdict_line,
+)
 from .page import comparison_html as comparison_html, variants_html as variants_html
 from .paired.difference import (
     PairedDifference as PairedDifference,
     PairedGroup as PairedGroup,
     paired_group as paired_group,
 )
-from .paired.document import variants_json as variants_json
 from .paired.drawn_stops import Draw as Draw
-from .paired.pairing import NotPaired as NotPaired, PairedComparison as PairedComparison
+from .paired.pairing import (
+    NotPaired as NotPaired,
+    PairedComparison as PairedComparison,
+    variants_json as variants_json,
+)
 from .paired.variants import compare_variants as compare_variants
 from .paired.wording import variants_lines as variants_lines
 from .parameters import ParameterChange as ParameterChange, ParameterOfRun as ParameterOfRun
-from .recordings import compare_recordings as compare_recordings
-from .runs import compare_runs as compare_runs
-from .scope import Scope as Scope
-from .tolerance import Tolerance as Tolerance, Tolerances as Tolerances
-from .wording import (
-    comparison_json as comparison_json,
-    comparison_lines as comparison_lines,
-    verdict_line as verdict_line,
+from .recordings import (
+    compare_recordings as compare_recordings,
+    compare_run_folders as compare_run_folders,
+    with_overlays as with_overlays,
 )
+from .runs import compare_runs as compare_runs
+from .tolerance import Scope as Scope, Tolerance as Tolerance, Tolerances as Tolerances

@@ -1,12 +1,13 @@
-"""Tolerances, and the comparison of two numbers."""
+"""Tolerances, the comparison of two numbers, and which cases a run selects."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from pathlib import PurePosixPath
 
 from uictest.report import Difference
 
@@ -95,3 +96,24 @@ def compare_numbers(
     deviation = abs(second - first)
     allowed = tolerances.of(quantity).allowed(max(abs(first), abs(second)))
     return Difference(case, quantity, first, second, deviation <= allowed, unit, deviation, allowed)
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """The cases and series that a run selects.
+
+    Args:
+        selected: ids of the cases and series to be run.
+        searched: scenario files and folders of which every case was selected; none where an expression, a tag
+            or the last failures chose among them.
+
+    """
+
+    selected: frozenset[str]
+    searched: Sequence[str] = ()
+
+    def misses(self, own_id: str, file: str) -> bool:
+        """Return whether the files searched should contain a case or a series and do not."""
+        path = PurePosixPath(file)
+        places = (path, *path.parents)
+        return own_id not in self.selected and any(PurePosixPath(name) in places for name in self.searched)

@@ -13,14 +13,11 @@ from uictest.analysis import validation
 from uictest.analysis.summaries.domain import DomainTally
 from uictest.analysis.summaries.frontier import UNKNOWN, Verdicts
 from uictest.analysis.summaries.histograms import HistogramCounts, reported_measures
-from uictest.analysis.summaries.maps import MapSums
 from uictest.analysis.summaries.sensitivity import sobol_sensitivities, uncertainty_note
-from uictest.analysis.summaries.spacing import logarithmic_keys
-from uictest.analysis.summaries.summary_files import summary_files
 from uictest.analysis.summaries.tails import TailDraws
-from uictest.analysis.summaries.tally import Tally
-from uictest.analysis.summaries.trends import MOST_VALUES, TrendSums
-from uictest.analysis.summaries.worst import WorstCases
+from uictest.analysis.summaries.tally import Tally, logarithmic_keys
+from uictest.analysis.summaries.trends import MOST_VALUES, MapSums, TrendSums
+from uictest.analysis.summaries.worst import WorstCases, summary_files
 from uictest.judging.evaluation import EffectiveParts
 from uictest.plans.scenario import named_requirements
 from uictest.plans.sweeps import Plan, drawn_ranges, saltelli_sample

@@ -1,29 +1,24 @@
-from .agreement import (
-    Agreement as Agreement,
-    Differences as Differences,
-    agreement_of as agreement_of,
-)
 from .columns import (
     Columns as Columns,
     DeviationOfStops as DeviationOfStops,
     deviations_of_stops as deviations_of_stops,
 )
-from .conditions import (
-    Conditions as Conditions,
-    conditions_of as conditions_of,
-    is_condition as is_condition,
-)
 from .document import (
     RESULT as RESULT,
+    StopUnderConditions as StopUnderConditions,
     Validation as Validation,
     ValidationReference as ValidationReference,
     read_validation as read_validation,
     validation_json as validation_json,
+    validation_of as validation_of,
 )
 from .domain import (
+    Conditions as Conditions,
     Domain as Domain,
+    conditions_of as conditions_of,
     deviations as deviations,
     domains_of as domains_of,
+    is_condition as is_condition,
 )
 from .report import (
     figures_csv as figures_csv,
@@ -35,12 +30,11 @@ from .report import (
     validation_lines as validation_lines,
 )
 from .stops import (
+    Agreement as Agreement,
     ComparedStop as ComparedStop,
+    Differences as Differences,
+    agreement_of as agreement_of,
     as_recorded as as_recorded,
     figures_of as figures_of,
     seed_of as seed_of,
-)
-from .summary import (
-    StopUnderConditions as StopUnderConditions,
-    validation_of as validation_of,
 )

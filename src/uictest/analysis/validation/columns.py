@@ -8,8 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.analysis.validation.conditions import Conditions, Range
-from uictest.analysis.validation.domain import Domain, holds, inside_of_other_parts, outside_of
+from uictest.analysis.validation.domain import (
+    Conditions,
+    Domain,
+    Range,
+    holds,
+    inside_of_other_parts,
+    outside_of,
+)
 from uictest.judging.evaluation import Deviation
 
 Columns = Mapping[str, NDArray[np.float64]]

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Final
 
-from uictest.analysis.validation.agreement import Agreement, Differences
-from uictest.analysis.validation.conditions import Conditions
 from uictest.analysis.validation.document import Validation
-from uictest.analysis.validation.domain import Domain
-from uictest.analysis.validation.stops import ComparedStop
+from uictest.analysis.validation.domain import Conditions, Domain
+from uictest.analysis.validation.stops import Agreement, ComparedStop, Differences
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.report import (

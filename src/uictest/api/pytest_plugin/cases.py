@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from uictest import report
-from uictest.api.pytest_plugin.changes import Changes
-from uictest.api.pytest_plugin.item import RigItem, numbers_in, simulated, with_reasons_first
+from uictest.api.pytest_plugin.item import Changes, RigItem, numbers_in, simulated, with_reasons_first
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml

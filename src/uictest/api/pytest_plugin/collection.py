@@ -1,20 +1,95 @@
-"""The hooks of a test run that collects scenarios."""
+"""Which files hold scenarios or series, and the hooks of a test run that collects them."""
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+import os
+import re
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final, Literal
 
 import pytest
 
 from uictest import rig
 from uictest.api.pytest_plugin.cases import CaseItem, ScenarioFile
-from uictest.api.pytest_plugin.changes import Changes
-from uictest.api.pytest_plugin.item import RigItem
+from uictest.api.pytest_plugin.item import Changes, RigItem
 from uictest.api.pytest_plugin.reports import Reports
-from uictest.api.pytest_plugin.selection import Selection
 from uictest.api.pytest_plugin.series_criteria import SeriesFile, SeriesItem
+from uictest.plans import scenario
+
+_SCHEMA: Final = re.compile(
+    rb"""(?:\A\s*\{\s*|^)["']?schema["']?\s*:\s*["']?(uictest/[^\s"'#,}]+)""", re.MULTILINE
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """The files to collect.
+
+    Args:
+        named: files and folders that the ini file names, absolute.
+        every: whether all files with a schema of scenarios or series are collected.
+
+    """
+
+    named: frozenset[Path]
+    every: bool
+
+    @classmethod
+    def of(cls, config: pytest.Config) -> Selection:
+        """Return what the command line and the ini file ask for. Raises pytest.UsageError."""
+        return cls(_named(config.rootpath, config.getini("uictest_files")), config.getoption("uictest"))
+
+    def kind_of(self, path: Path) -> Literal["scenario", "series"] | None:
+        """Return what a file holds; None if it is not to be collected.
+
+        A folder is searched as by `uictest run`: sweeps, parts, hidden files, and files that begin with an
+        underscore are left out. Where every file is collected, it must state its schema.
+        """
+        kind = _kind_by_name(path.name)
+        if kind is None or not (self.every or self._names(path)):
+            return None
+        schema = _schema_in(path)
+        if self._names(path):
+            return None if schema in scenario.OTHER_SCHEMAS and kind == "scenario" else kind
+        return kind if schema.startswith(f"uictest/{kind}/") else None
+
+    def _names(self, path: Path) -> bool:
+        return any(place in self.named for place in (path, *path.parents))
+
+
+def _named(root: Path, patterns: Iterable[str]) -> frozenset[Path]:
+    """Return what the patterns match below a folder. Raises pytest.UsageError for one without a match."""
+    named: set[Path] = set()
+    for pattern in patterns:
+        matches = _matches(root, pattern)
+        if not matches:  # a misspelt pattern would leave tests out without a word
+            raise pytest.UsageError(f"uictest_files: {pattern!r} matches nothing below {root}")
+        named |= matches
+    return frozenset(named)
+
+
+def _matches(root: Path, pattern: str) -> set[Path]:
+    place = Path(os.path.abspath(root / pattern))  # noqa: PTH100 - `.` and `..` are left out, links left alone
+    if place.exists():
+        return {place}
+    return set() if Path(pattern).is_absolute() else set(root.glob(pattern))
+
+
+def _kind_by_name(name: str) -> Literal["scenario", "series"] | None:
+    if name.endswith(scenario.SERIES_SUFFIXES):
+        return None if name.startswith(".") else "series"
+    return "scenario" if scenario.may_be_scenario(name) else None
+
+
+def _schema_in(path: Path) -> str:
+    """Return the schema that a file states; empty where it states none of ours or cannot be read."""
+    try:
+        match = _SCHEMA.search(path.read_bytes())
+    except OSError:
+        return ""
+    return match[1].decode("utf-8", "replace") if match else ""
 
 
 def register(config: pytest.Config) -> None:

@@ -1,2 +1,1 @@
-from .rig import Rig as Rig
-from .state import RigState as RigState
+from .rig import Rig as Rig, RigState as RigState

@@ -10,10 +10,10 @@ from typing import Annotated
 import typer
 
 from uictest import runs
-from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
+from uictest.cli.progress import compilation_shown
 from uictest.core import recording
 from uictest.core.recording import formats
 from uictest.plans import scenario

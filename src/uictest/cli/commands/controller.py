@@ -11,9 +11,9 @@ from typing import Annotated, Any, Final
 import typer
 
 from uictest.cli import options
+from uictest.cli.app import command
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
-from uictest.cli.registration import command
 from uictest.core import files
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml

@@ -12,10 +12,10 @@ import typer
 from uictest import runs
 from uictest.api import rig_fmu
 from uictest.cli.cases import case_lines, select_by_options
-from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
 from uictest.cli.output import data, message
+from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.plans import scenario
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from uictest import runs
+from uictest.cli.app import command
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.identify_options import (
     ActingTime,
@@ -34,8 +35,7 @@ from uictest.cli.identify_options import (
 )
 from uictest.cli.options import Trusted, Verbosity
 from uictest.cli.output import data, message
-from uictest.cli.registration import command
-from uictest.cli.rig_of_record import rig_of_record
+from uictest.cli.recordings import rig_of_record
 from uictest.core import files
 from uictest.plans import library, scenario
 from uictest.plans.scenario import yaml

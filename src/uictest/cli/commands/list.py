@@ -15,18 +15,16 @@ from uictest.cli.cases import (
     case_lines,
     case_table,
     cases_json,
+    joined_json,
     select_by_options,
+    select_series_by_options,
+    series_json,
+    series_lines,
 )
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
 from uictest.cli.output import data, message, terminal_width
 from uictest.cli.requirement_listing import RequirementRequest, list_requirements
-from uictest.cli.series import (
-    joined_json,
-    select_series_by_options,
-    series_json,
-    series_lines,
-)
 from uictest.plans import scenario, series, sweeps
 
 

@@ -11,10 +11,10 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs, studies
-from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Colour, Colouring, Jobs, ListFormat, PlainFormat, Verbosity
 from uictest.cli.output import coloured, data, interactive, message
+from uictest.cli.progress import compilation_shown
 from uictest.plans.scenario import yaml
 
 _INSTALL_FIGURES = "pip install 'uictest[figures]'"

@@ -15,17 +15,15 @@ from uictest.cli.cases import (
     case_lines,
     cases_json,
     drawn_first,
-    select_by_options,
-)
-from uictest.cli.exit_codes import ExitCode, of_run, worst
-from uictest.cli.output import data, message
-from uictest.cli.pruning import keep_newest, named_paths
-from uictest.cli.series import (
     joined_json,
+    select_by_options,
     select_series_by_options,
     series_json,
     series_lines,
 )
+from uictest.cli.exit_codes import ExitCode, of_run, worst
+from uictest.cli.output import data, message
+from uictest.cli.pruning import keep_newest, named_paths
 from uictest.judging import evaluation
 from uictest.plans import scenario, series
 from uictest.running import campaign

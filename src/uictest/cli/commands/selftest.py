@@ -8,9 +8,9 @@ from typing import Final
 
 from uictest import selftest as known_answers
 from uictest.cli import options
-from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data, terminal_width
+from uictest.cli.progress import compilation_shown
 from uictest.core import files
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}

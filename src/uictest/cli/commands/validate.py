@@ -13,10 +13,9 @@ import typer
 from uictest import rig, runs
 from uictest.analysis import validation
 from uictest.cli import options
-from uictest.cli.compilation import compilation_shown
 from uictest.cli.exit_codes import ExitCode, worst
 from uictest.cli.output import data, message, terminal_width
-from uictest.cli.progress import progress
+from uictest.cli.progress import compilation_shown, progress
 from uictest.plans import scenario
 
 Files = Annotated[

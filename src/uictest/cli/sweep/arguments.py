@@ -1,14 +1,15 @@
-"""Convert the arguments of `uictest sweep` to plans, selections and searches."""
+"""Convert the arguments of `uictest sweep` to plans, selections and searches; find sweep files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import typer
 
 from uictest import runs
 from uictest.analysis import summaries
-from uictest.plans import sweeps
+from uictest.plans import scenario, sweeps
 from uictest.running import campaign, chunked
 
 
@@ -72,3 +73,22 @@ def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
         return runs.measure_names(names)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--measure") from error
+
+
+def is_sweep(path: Path) -> bool:
+    """Return whether a path names a sweep file."""
+    return path.name.endswith(scenario.SWEEP_SUFFIXES)
+
+
+def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield the sweep files among the paths, and those below folders that are not hidden."""
+    for path in paths:
+        if path.is_dir():
+            below = sorted(path.rglob("*.sweep.y*ml"), key=Path.as_posix)
+            yield from (each for each in below if is_sweep(each) and not _hidden(each.relative_to(path)))
+        elif is_sweep(path):
+            yield path
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)

@@ -1,20 +1,140 @@
-"""Run a sweep, show it, and return its exit code."""
+"""Run a sweep, show it while it runs, and return its exit code."""
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
-from time import perf_counter
+from time import monotonic, perf_counter
 
 from uictest import report, runs
+from uictest.cli import progress as steps
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Format
-from uictest.cli.output import message
+from uictest.cli.output import interactive, message
+from uictest.cli.progress import announce_in_process, compilation_shown
 from uictest.cli.sweep.display import show_annotations, show_result
-from uictest.cli.sweep.following import TerminalSweepObserver
 from uictest.core import files
 from uictest.report import counted
 from uictest.running import chunked
 from uictest.runs import history
+
+Advance = Callable[[int], None]
+
+
+@contextlib.contextmanager
+def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
+    """Lend a function that counts finished cases; `done` of `total` were finished before."""
+    if quiet:
+        yield lambda cases: None
+    elif interactive(sys.stderr):
+        with _bar(total, done) as advance:
+            yield advance
+    else:
+        yield _Heartbeat(total, done).advance
+
+
+@contextlib.contextmanager
+def _bar(total: int, done: int) -> Iterator[Advance]:
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        ProgressColumn,
+        Task,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
+
+    columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
+    console = steps.error_console()
+    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
+        task = bar.add_task("simulating", total=total, completed=done)
+        yield lambda cases: bar.advance(task, cases)
+
+
+class _Heartbeat:
+    """A line when a chunk is finished, unless the last line is recent."""
+
+    def __init__(self, total: int, done: int) -> None:
+        self._total, self._before, self._done = total, done, 0
+        self._started = self._last_line = monotonic()
+
+    def advance(self, cases: int) -> None:
+        """Count finished cases, and print a line if the last one is old enough."""
+        self._done += cases
+        now = monotonic()
+        if now - self._last_line >= steps.HEARTBEAT:
+            self._last_line = now
+            message(self._line(now - self._started))
+
+    def _line(self, seconds: float) -> str:
+        rate = self._done / seconds
+        finished = self._before + self._done
+        remaining = (self._total - finished) / rate
+        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
+
+
+class TerminalSweepObserver(runs.SweepObserver):
+    """Writes messages and progress to stderr; if `quiet`, only what went wrong or was asked for.
+
+    `merging` says whether the chunks of shards are merged.
+    """
+
+    def __init__(self, *, quiet: bool, merging: bool) -> None:
+        self._quiet = quiet
+        self._merging = merging
+
+    def foreign_in_process(self) -> None:
+        """Announce that controllers from outside can crash this process."""
+        announce_in_process(foreign=True, quiet=self._quiet)
+
+    def compiling(self) -> AbstractContextManager[None]:
+        """Show the compilation of the rig."""
+        return compilation_shown(quiet=self._quiet)
+
+    def damaged(self, chunk: Path) -> None:
+        """Report a damaged chunk."""
+        message(f"uictest: {chunk} is damaged: recomputing this chunk")
+
+    def damaged_in_shard(self, chunk: Path) -> None:
+        """Report a damaged chunk of a shard."""
+        message(f"uictest: {chunk} is damaged: skipped")
+
+    def merged(self, chunks: int, shard: Path) -> None:
+        """Report what a shard brought."""
+        message(f"uictest: {counted(chunks, 'chunk')} from {shard}")
+
+    def found(self, cases: int, missing: int) -> None:
+        """Report how many cases are already finished, or how many no shard provided."""
+        if self._merging and missing:
+            verb = "is" if missing == 1 else "are"
+            pronoun = "it" if missing == 1 else "them"
+            message(
+                f"uictest: {missing} of {counted(cases, 'case')} {verb} missing from the shards: "
+                f"simulating {pronoun} here"
+            )
+        elif missing < cases and not self._quiet:
+            message(f"uictest: {cases - missing} of {counted(cases, 'case')} are already finished")
+
+    def simulating(self, cases: int, finished: int) -> AbstractContextManager[Callable[[int], None]]:
+        """Show the progress of the cases."""
+        return sweep_progress(cases, finished, quiet=self._quiet)
+
+    def waiting(self, address: str) -> None:
+        """Report that a cluster has no workers yet."""
+        message(f"uictest: waiting for workers at {address}")
+
+    def searching(self, key: str) -> None:
+        """Report that the frontier is being searched."""
+        if not self._quiet:
+            message(f"uictest: searching the frontier along {key}")
 
 
 def execute_sweep(run: runs.SweepRun, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:

@@ -6,11 +6,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.declared_values import reject_undeclared
+from uictest.controllers.adapters.built_in_form import reject_undeclared
 from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
+from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.exchange import ABI_VERSION, WHEELSETS
 from uictest.controllers.interface import Config
-from uictest.controllers.program import ControllerProgram
 
 _Radii = ctypes.c_double * WHEELSETS
 

@@ -4,14 +4,13 @@ import json
 from functools import cache
 from typing import Any
 
-from uictest.controllers.adapters.built_in_form import CompiledInstance
-from uictest.controllers.adapters.declared_values import reject_undeclared
+from uictest.controllers.adapters.built_in_form import CompiledInstance, reject_undeclared
 from uictest.controllers.adapters.instance import ControllerError, ControllerInstance, reason_of
 from uictest.controllers.adapters.python_class import object_of
 from uictest.controllers.contract import Controller
+from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.installed import installed, installed_names, package_of
 from uictest.controllers.interface import Config
-from uictest.controllers.program import ControllerProgram
 
 
 def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:

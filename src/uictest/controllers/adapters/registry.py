@@ -4,8 +4,8 @@ from importlib import import_module
 from typing import Final
 
 from uictest.controllers.adapters.instance import ControllerInstance
+from uictest.controllers.declared import ControllerProgram, Kind
 from uictest.controllers.interface import Config
-from uictest.controllers.program import ControllerProgram, Kind
 
 _MODULES: Final[dict[Kind, str]] = {
     "python": "python_class",

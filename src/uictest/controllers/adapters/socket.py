@@ -1,22 +1,163 @@
-"""Controllers in a program of their own that listens on a TCP port; uictest connects for every stop."""
+"""Controllers in a program of their own, which listens on a TCP port.
+
+Every frame is a header and a body. The header holds the kind of the frame (four letters), the number of bytes
+of its body (32 bits) and the number of the frame (64 bits): uictest numbers what it sends on a connection
+from 0. The program answers every frame but the last with one of the same kind and number, or with FAIL and a
+reason.
+
+    kind   body from uictest                                    body of the answer
+    HELO   GREETING, then the parameters as JSON in UTF-8       PROGRAM
+    RSET   none                                                 none
+    STEP   `uictest_inputs`                                     `uictest_outputs`
+    DONE   none                                                 no answer: both sides close the connection
+    FAIL   -                                                    reason in UTF-8, at most 1000 bytes
+
+Header, order of the frames and the first field of HELO stay as they are in every version of the protocol.
+"""
 
 import ctypes
+import socket
+import struct
+from contextlib import suppress
+from time import monotonic
+from typing import Final
 
-from uictest.controllers.adapters.connection import Connection
-from uictest.controllers.adapters.instance import CallbackInstance
+from uictest.controllers.adapters.instance import CallbackInstance, ControllerError
 from uictest.controllers.adapters.real_time import RealTime, ResponseTimes
-from uictest.controllers.adapters.socket_frames import (
-    HELLO,
-    PROGRAM,
-    RESET,
-    STEP,
-    greeting,
-    program_name,
-)
 from uictest.controllers.adapters.turns import Turn
-from uictest.controllers.exchange import INPUTS, OUTPUTS
+from uictest.controllers.declared import ControllerProgram
+from uictest.controllers.exchange import INPUTS, OUTPUTS, WHEELSETS
 from uictest.controllers.interface import Config
-from uictest.controllers.program import ControllerProgram
+
+PROTOCOL_VERSION: Final = 1
+
+HEADER: Final = struct.Struct("<4sIQ")
+"""Kind, bytes of the body, number of the frame."""
+GREETING: Final = struct.Struct(f"<4I2d{WHEELSETS}d32s")
+"""Protocol version, bytes of `uictest_inputs`, of `uictest_outputs`, wheelsets, cycle time (s), initial speed
+(m/s), wheel radii (m), SHA-256 of the case."""
+PROGRAM: Final = struct.Struct("<I60s")
+"""Protocol version, name and version of the program in UTF-8, filled up with zeros."""
+
+HELLO: Final = b"HELO"
+RESET: Final = b"RSET"
+STEP: Final = b"STEP"
+DONE: Final = b"DONE"
+FAILED: Final = b"FAIL"
+LONGEST_REASON: Final = 1000
+LONGEST_PARAMETERS: Final = (1 << 16) - GREETING.size
+"""Bytes; chosen, so that a program may receive every frame in memory of 64 KiB."""
+
+
+def greeting(config: Config, parameters: str) -> bytes:
+    """Return the body of the first frame. Raises ControllerError where the parameters are too long."""
+    text = parameters.encode()
+    if len(text) > LONGEST_PARAMETERS:
+        raise ControllerError(
+            f"parameters: {len(text)} bytes as JSON, at most {LONGEST_PARAMETERS} can be sent"
+        )
+    sizes = INPUTS.itemsize, OUTPUTS.itemsize, config.wheelsets
+    speeds = config.cycle_time, config.initial_speed, *config.wheel_radius
+    return GREETING.pack(PROTOCOL_VERSION, *sizes, *speeds, bytes.fromhex(config.case_sha256)) + text
+
+
+def program_name(body: bytes) -> str:
+    """Return name and version of the program from its answer. Raises ControllerError for another protocol."""
+    version, name = PROGRAM.unpack(body)
+    if version != PROTOCOL_VERSION:
+        raise ControllerError(f"the program has protocol version {version}, expected {PROTOCOL_VERSION}")
+    return text_of(name)
+
+
+def text_of(content: bytes) -> str:
+    """Return the text before the first zero."""
+    return content.partition(b"\0")[0].decode("utf-8", "replace").strip()
+
+
+_NAMES: Final = {HELLO: "greeting", RESET: "reset frame", STEP: "step frame"}
+
+
+class Connection:
+    """Sends frames and receives their answers, each answer within a limit of time.
+
+    Whatever the program does instead raises ControllerError with what was received.
+    """
+
+    def __init__(self, stream: socket.socket, time_limit: float) -> None:
+        stream.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._stream = stream
+        self._time_limit = time_limit
+        self._number = 0
+        self._memory = memoryview(bytearray(HEADER.size + LONGEST_REASON))
+
+    def request(self, kind: bytes, body: bytes, size: int) -> bytes:
+        """Send a frame and return the body of its answer, so many bytes. Raises ControllerError."""
+        deadline = monotonic() + self._time_limit
+        self._send(kind, body)
+        received = self._receive(0, HEADER.size, kind, deadline)
+        end = HEADER.size + self._checked_length(kind, size)
+        received = self._receive(received, end, kind, deadline)
+        answer = bytes(self._memory[HEADER.size : end])
+        if bytes(self._memory[:4]) == FAILED:
+            raise ControllerError(text_of(answer) or "no reason given")
+        if received > end:
+            raise ControllerError(f"{received - end} bytes follow the answer to the {_NAMES[kind]}")
+        self._number += 1
+        return answer
+
+    def finish(self) -> None:
+        """Say that the stop is over; the connection may be broken already."""
+        with suppress(OSError):
+            self._stream.sendall(HEADER.pack(DONE, 0, self._number))
+
+    def _send(self, kind: bytes, body: bytes) -> None:
+        try:
+            self._stream.settimeout(self._time_limit)
+            self._stream.sendall(HEADER.pack(kind, len(body), self._number) + body)
+        except TimeoutError:
+            limit = f"{self._time_limit:g} s"
+            raise ControllerError(f"the program did not receive the {_NAMES[kind]} within {limit}") from None
+        except OSError as error:
+            raise ControllerError(f"the connection broke: {error.strerror or error}") from None
+
+    def _receive(self, received: int, needed: int, kind: bytes, deadline: float) -> int:
+        """Receive until so many bytes of the answer are there; return how many there are."""
+        while received < needed:
+            part = self._receive_part(received, needed, kind, deadline)
+            if part == 0:
+                place = f"after {received} of {needed} bytes of" if received else "before"
+                raise ControllerError(
+                    f"the program closed the connection {place} its answer to the {_NAMES[kind]}"
+                )
+            received += part
+        return received
+
+    def _receive_part(self, received: int, needed: int, kind: bytes, deadline: float) -> int:
+        try:
+            if (remaining := deadline - monotonic()) <= 0.0:
+                raise TimeoutError
+            self._stream.settimeout(remaining)
+            return self._stream.recv_into(self._memory[received:])
+        except TimeoutError:
+            amount = f"only {received} of {needed} bytes of the answer" if received else "no answer"
+            limit = f"{self._time_limit:g} s"
+            raise ControllerError(f"{amount} to the {_NAMES[kind]} within {limit}") from None
+        except OSError as error:
+            raise ControllerError(f"the connection broke: {error.strerror or error}") from None
+
+    def _checked_length(self, kind: bytes, size: int) -> int:
+        """Return the bytes of the answer's body. Raises ControllerError where its header is another one."""
+        found, length, number = HEADER.unpack_from(self._memory)
+        if found == FAILED and length <= LONGEST_REASON:
+            return int(length)
+        answer = f"the answer to the {_NAMES[kind]}"
+        if found != kind:
+            raise ControllerError(f"{answer} begins with {found!r}, expected {kind!r}")
+        if number != self._number:
+            raise ControllerError(f"{answer} has the number {number}, expected {self._number}")
+        if length != size:
+            raise ControllerError(f"{answer} has {length} bytes, expected {size}")
+        return size
 
 
 class SocketInstance(CallbackInstance):

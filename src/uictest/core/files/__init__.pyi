@@ -8,17 +8,15 @@ from .run_folder import (
     point_latest as point_latest,
     remove_run as remove_run,
 )
-from .temporary import (
-    new_temporary_folder as new_temporary_folder,
-    remove_temporary_folder as remove_temporary_folder,
-    temporary_folder as temporary_folder,
-)
 from .writing import (
     append as append,
     make_folder as make_folder,
     new_file as new_file,
+    new_temporary_folder as new_temporary_folder,
     remove as remove,
     remove_partial_files as remove_partial_files,
+    remove_temporary_folder as remove_temporary_folder,
+    temporary_folder as temporary_folder,
     write as write,
     write_to as write_to,
 )

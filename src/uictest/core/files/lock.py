@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Final, Self
 
-from uictest.core.files.place import is_at, opened, opened_file
+from uictest.core.files.listing import is_at, opened, opened_file
 
 LOCK: Final = ".uictest.lock"
 _MARK: Final = b"uictest lock: "

@@ -16,9 +16,18 @@ from pathlib import Path
 from types import TracebackType
 from typing import Final, Self
 
-from uictest.core.files.listing import begin_list, foreign_paths, remove_contents
+from uictest.core.files.listing import (
+    begin_list,
+    exists,
+    foreign_paths,
+    is_link,
+    names_in,
+    opened,
+    opened_file,
+    partial_name,
+    remove_contents,
+)
 from uictest.core.files.lock import LOCK, FolderInUseError, FolderLock
-from uictest.core.files.place import exists, is_link, names_in, opened, opened_file, partial_name
 from uictest.core.files.writing import make_folder
 
 LATEST: Final = "latest"

@@ -1,17 +1,19 @@
-"""Atomic writing: a file appears whole or not at all, written beside its place and renamed into it."""
+"""Atomic writing: a file appears whole or not at all; temporary folders."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
 import os
+import shutil
 import stat
+import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path, PurePath
 from typing import BinaryIO
 
-from uictest.core.files.listing import add_to_list
-from uictest.core.files.place import is_partial, names_in, opened, partial_name
+from uictest.core.files.listing import add_to_list, is_partial, names_in, opened, partial_name
 
 
 @contextlib.contextmanager
@@ -142,3 +144,20 @@ def _errors_about(folder: Path, name: str, temporary: str) -> Iterator[None]:
         if error.errno is None or (error.filename not in about and error.filename != folder):
             raise
         raise OSError(error.errno, error.strerror, str(folder / name)) from error
+
+
+@contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """Lend a folder that is removed at the end of the block. Raises OSError."""
+    with tempfile.TemporaryDirectory(prefix="uictest-") as folder:
+        yield Path(folder)
+
+
+def new_temporary_folder(kind: str) -> Path:
+    """Return a new folder, which `remove_temporary_folder` removes. Raises OSError."""
+    return Path(tempfile.mkdtemp(prefix=f"uictest-{kind}-"))
+
+
+def remove_temporary_folder(folder: Path) -> None:
+    """Remove a folder of `new_temporary_folder` as far as possible."""
+    shutil.rmtree(folder, ignore_errors=True)

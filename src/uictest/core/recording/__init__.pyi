@@ -1,5 +1,4 @@
-from .contents import Contents as Contents, Group as Group, Samples as Samples
-from .conversion import recording_of as recording_of
+from .contents import Contents as Contents, Group as Group, Samples as Samples, recording_of as recording_of
 from .parquet import (
     parquet_bytes as parquet_bytes,
     read_parquet as read_parquet,
@@ -7,10 +6,12 @@ from .parquet import (
 )
 from .plausibility import (
     LARGEST as LARGEST,
+    STATES as STATES,
     Implausible as Implausible,
     beyond as beyond,
     implausible_time as implausible_time,
     implausible_unit as implausible_unit,
+    state_kind as state_kind,
 )
 from .recording import (
     BRAKE_COMMAND_TIME as BRAKE_COMMAND_TIME,
@@ -18,4 +19,3 @@ from .recording import (
     TIME as TIME,
     Recording as Recording,
 )
-from .states import STATES as STATES, state_kind as state_kind

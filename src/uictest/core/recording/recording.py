@@ -1,20 +1,100 @@
-"""A recording: the channels of one stop over time."""
+"""A recording: the channels of one stop over time, as a data frame and as a figure."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording.frame import frame_of
-from uictest.core.recording.plot import figure_of
-
 if TYPE_CHECKING:
     import pandas as pd
     import plotly.graph_objects as go
+
+
+def frame_of(
+    channels: Mapping[str, NDArray[Any]], units: Mapping[str, str], metadata: Mapping[str, str]
+) -> pd.DataFrame:
+    """Return one column per channel over the first, which is the time; units and facts in `attrs`."""
+    import pandas as pd
+
+    time, *others = channels
+    index = pd.Index(channels[time], name=time)
+    frame = pd.DataFrame({name: channels[name] for name in others}, index=index)
+    frame.attrs = {"units": dict(units), "metadata": dict(metadata)}
+    return frame
+
+
+Channels = Mapping[str, NDArray[Any]]
+
+DEFAULT: Final = ("speed", "wheel_speed_*", "slide_*", "cylinder_pressure_*", "clamping_force_*")
+"""What a figure shows unless other channels are named."""
+
+_COLOURS: Final = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7")
+"""Of the train, then of each wheelset: told apart by colour-blind eyes (Okabe and Ito, 2008)."""
+_DASHES: Final = ("solid", "solid", "dash", "dot", "dashdot")
+_PANEL: Final = 190
+"""Height of a panel in pixels; chosen."""
+_FRAME: Final = 110
+
+
+def figure_of(channels: Channels, units: Mapping[str, str], patterns: Sequence[str] | None) -> go.Figure:
+    """Return a figure of some channels.
+
+    Args:
+        channels: the first is the time, s.
+        units: of every channel.
+        patterns: names of channels, in which `*` stands for any characters; None: :data:`DEFAULT`.
+
+    Raises:
+        KeyError: a pattern names no channel.
+
+    """
+    from plotly.subplots import make_subplots
+
+    time, *others = channels
+    names = list(_chosen(others, patterns)) if patterns is not None else _recorded(channels, others)
+    panels = list(dict.fromkeys(units[name] for name in names))
+    figure = make_subplots(rows=max(len(panels), 1), shared_xaxes=True, vertical_spacing=0.04)
+    for name in names:
+        row = panels.index(units[name]) + 1
+        figure.add_scatter(
+            x=channels[time], y=channels[name], name=name, line=_line(name), row=row, col=1, mode="lines"
+        )
+    for row, unit in enumerate(panels, start=1):
+        figure.update_yaxes(title_text=unit, row=row, col=1)
+    figure.update_xaxes(title_text=f"{time}, {units[time]}", row=max(len(panels), 1), col=1)
+    figure.update_layout(height=_FRAME + _PANEL * max(len(panels), 1), hovermode="x unified")
+    return figure
+
+
+def _chosen(names: Sequence[str], patterns: Iterable[str]) -> Iterator[str]:
+    """Yield the channels of patterns, each once. Raises KeyError."""
+    seen: set[str] = set()
+    for pattern in patterns:
+        matching = [name for name in names if fnmatchcase(name, pattern)]
+        if not matching:
+            raise KeyError(f"no channel {pattern!r} in this recording of {', '.join(names)}")
+        yield from (name for name in matching if name not in seen)
+        seen.update(matching)
+
+
+def _recorded(channels: Channels, names: Sequence[str]) -> list[str]:
+    """Return the default channels that hold numbers; all channels of a recording that has none of them."""
+    default = [name for name in names if any(fnmatchcase(name, pattern) for pattern in DEFAULT)]
+    known = [name for name in default if np.isfinite(channels[name]).any()]
+    return known or list(names)
+
+
+def _line(name: str) -> dict[str, str]:
+    match = re.search(r"_([1-4])$", name)
+    place = int(match[1]) if match else 0
+    return {"color": _COLOURS[place], "dash": _DASHES[place]}
+
 
 TIME = "time"
 """Name of the first channel, in seconds."""

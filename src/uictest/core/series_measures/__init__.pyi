@@ -5,12 +5,14 @@ from .estimate import (
     mean_of as mean_of,
     median_of as median_of,
 )
-from .measure import SeriesMeasure as SeriesMeasure, SeriesValue as SeriesValue
-from .registry import SERIES_MEASURES as SERIES_MEASURES
-from .relation import dry_relation as dry_relation, percent_of_dry as percent_of_dry
-from .stops import (
+from .measure import (
     CountedStop as CountedStop,
     Rail as Rail,
+    SeriesMeasure as SeriesMeasure,
+    SeriesValue as SeriesValue,
     SpeedStops as SpeedStops,
+    dry_relation as dry_relation,
     of_stop as of_stop,
+    percent_of_dry as percent_of_dry,
 )
+from .registry import SERIES_MEASURES as SERIES_MEASURES

@@ -1,14 +1,68 @@
-"""What declares a measure of a series: its value for each wet stop, and the statistic over them."""
+"""What declares a measure of a series, and the stops that count."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from uictest.core.series_measures.estimate import Estimate, Statistic
-from uictest.core.series_measures.stops import Figure, SpeedStops
+from uictest.core.series_measures.estimate import Estimate, Statistic, largest_of, median_of, smallest_of
+
+
+@dataclass(frozen=True, slots=True)
+class CountedStop:
+    """A stop that counts as a test: the columns of its result.
+
+    Args:
+        measures: column of stops -> number in the unit of the column, NaN where there is none.
+        wheelsets: the same for every wheelset, from the leading end.
+        passed: whether it meets every requirement on a stop.
+
+    """
+
+    measures: Mapping[str, float]
+    wheelsets: tuple[Mapping[str, float], ...]
+    passed: bool
+
+
+Rail = Literal["", "cleaned", "uncleaned"]
+"""Whether sliding cleans the rail of a simulated wet stop; empty for a dry or a recorded one."""
+
+Figure = Callable[[CountedStop], float]
+"""Reads one number of a stop, NaN where it has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedStops:
+    """The stops of a series from one nominal initial speed (m/s), on one kind of rail, that count.
+
+    `rail` names the kind where a series has several: wet stops on different ones are not pooled.
+    """
+
+    speed: float
+    dry: tuple[CountedStop, ...]
+    wet: tuple[CountedStop, ...]
+    rail: Rail = ""
+
+    def dry_mean(self, figure: Figure) -> float:
+        """Return the mean of a figure over the dry stops, the reference; NaN without any."""
+        return math.fsum(map(figure, self.dry)) / len(self.dry) if self.dry else math.nan
+
+
+def of_stop(column: str) -> Figure:
+    """Return the figure that a column of stops holds."""
+    return lambda stop: stop.measures.get(column, math.nan)
+
+
+def largest_of_wheelsets(column: str) -> Figure:
+    """Return the figure of the wheelset that has most of what a column of wheelsets holds."""
+
+    def largest(stop: CountedStop) -> float:
+        values = [wheelset.get(column, math.nan) for wheelset in stop.wheelsets]
+        return math.nan if not values or any(map(math.isnan, values)) else max(values)
+
+    return largest
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,3 +128,51 @@ def estimated(values: Sequence[float], statistic: Statistic, confidence: float) 
     if missing:
         return SeriesValue(unavailable_reason=f"{missing} of {len(values)} wet stops have no such number")
     return SeriesValue(statistic(values, confidence))
+
+
+def percent_of_dry(figure: Figure, stops: SpeedStops) -> list[float]:
+    """Return a figure of every wet stop as a percentage of its mean over the dry stops of the same speed."""
+    reference = stops.dry_mean(figure)
+    return [100.0 * figure(stop) / reference if reference else float("nan") for stop in stops.wet]
+
+
+def dry_relation(measure: SeriesMeasure, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
+    """Return the value of a series in percent of the dry stops. Raises ValueError where it has no figure."""
+    if measure.figure is None:
+        raise ValueError(f"{measure.name!r} is no figure of single stops")
+    figure = measure.figure
+
+    def of_speed(stops: SpeedStops) -> SeriesValue:
+        if not stops.dry:
+            return SeriesValue(unavailable_reason="no dry stop counts")
+        if not abs(stops.dry_mean(figure)) > 0.0:
+            return SeriesValue(unavailable_reason="the dry stops have no such number, or zero")
+        return estimated(percent_of_dry(figure, stops), measure.statistic, confidence)
+
+    return measure.worst([of_speed(stops) for stops in speeds])
+
+
+def median_and_worst(
+    name: str,
+    kind: str,
+    unit: str,
+    meaning: str,
+    figure: Figure,
+    worse: Literal["larger", "smaller"] = "larger",
+) -> tuple[SeriesMeasure, SeriesMeasure]:
+    """Return `median_NAME` and `worst_NAME` of a figure, which `meaning` describes."""
+    which, extreme = ("largest", largest_of) if worse == "larger" else ("smallest", smallest_of)
+    median, worst = (
+        SeriesMeasure(
+            name=f"{prefix}_{name}",
+            kind=kind,
+            unit=unit,
+            meaning=f"{word} of the wet stops: {meaning}",
+            worse=worse,
+            values=lambda stops: [figure(stop) for stop in stops.wet],
+            statistic=statistic,
+            figure=figure,
+        )
+        for prefix, word, statistic in (("median", "median", median_of), ("worst", which, extreme))
+    )
+    return median, worst

@@ -1,4 +1,9 @@
-from .mean import mean_interval as mean_interval, next_interval as next_interval
+from .mean import (
+    mean_interval as mean_interval,
+    next_interval as next_interval,
+    proportion_interval as proportion_interval,
+    trials_needed as trials_needed,
+)
 from .order_statistics import (
     BoundRanks as BoundRanks,
     Side as Side,
@@ -6,4 +11,3 @@ from .order_statistics import (
     draws_needed as draws_needed,
     quantile_rank as quantile_rank,
 )
-from .proportion import proportion_interval as proportion_interval, trials_needed as trials_needed

@@ -1,2 +1,1 @@
-from .files import read as read, write as write
-from .turns import turn as turn
+from .files import read as read, turn as turn, write as write

@@ -4,6 +4,8 @@ from .block import (
 )
 from .bounds import (
     Bounds as Bounds,
+    Coverage as Coverage,
+    MissingData as MissingData,
     bounds_of as bounds_of,
 )
 from .case import (
@@ -11,17 +13,6 @@ from .case import (
     error_result as error_result,
     evaluate as evaluate,
     evaluate_simulated as evaluate_simulated,
-)
-from .columns import (
-    Expectation as Expectation,
-    Outcome as Outcome,
-)
-from .coverage import (
-    Coverage as Coverage,
-    MissingData as MissingData,
-)
-from .definitions import (
-    definition_texts as definition_texts,
 )
 from .document import (
     WrittenCaseResult as WrittenCaseResult,
@@ -31,16 +22,17 @@ from .document import (
     results_of as results_of,
     to_json as to_json,
 )
-from .domain_of_validity import (
-    Deviation as Deviation,
-    DomainOfValidity as DomainOfValidity,
-)
 from .effective_parts import (
     EffectiveParts as EffectiveParts,
+    Program as Program,
+    program_in as program_in,
+    program_of as program_of,
 )
 from .json_values import (
+    Expectation as Expectation,
     Number as Number,
     OptionalNumber as OptionalNumber,
+    Outcome as Outcome,
     absent_if_empty as absent_if_empty,
     from_json_form as from_json_form,
     json_form as json_form,
@@ -55,16 +47,13 @@ from .outcome_rule import (
     seeds_text as seeds_text,
 )
 from .parameters import (
+    Deviation as Deviation,
+    DomainOfValidity as DomainOfValidity,
     EffectivePart as EffectivePart,
     Parameter as Parameter,
     parts_document as parts_document,
     parts_of as parts_of,
     parts_table as parts_table,
-)
-from .program import (
-    Program as Program,
-    program_in as program_in,
-    program_of as program_of,
 )
 from .repeated_case import (
     SimulatedRepeat as SimulatedRepeat,
@@ -100,4 +89,5 @@ from .verdict import (
     Verdict as Verdict,
     VerdictInterval as VerdictInterval,
     WrittenVerdict as WrittenVerdict,
+    definition_texts as definition_texts,
 )

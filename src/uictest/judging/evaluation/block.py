@@ -34,6 +34,7 @@ from uictest.judging.evaluation.block_verdicts import (
     Seen,
     block_verdicts,
 )
+from uictest.judging.evaluation.bounds import ObservedStop
 from uictest.judging.evaluation.case import (
     FINITE_IN_STOPS,
     FINITE_IN_WHEELSETS,
@@ -41,8 +42,7 @@ from uictest.judging.evaluation.case import (
     error_result,
     evaluate_simulated,
 )
-from uictest.judging.evaluation.columns import Outcome
-from uictest.judging.evaluation.coverage import ObservedStop
+from uictest.judging.evaluation.json_values import Outcome
 from uictest.judging.evaluation.result import deciding_verdicts, reason_of
 from uictest.judging.evaluation.result_columns import ResultColumns, result_columns
 from uictest.judging.evaluation.verdict import Layer, Status

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from uictest.core.ensemble import Places, by_way
 from uictest.core.measures import MEASURES
-from uictest.judging.evaluation.bounds import Bounds, bounds_of
-from uictest.judging.evaluation.coverage import ObservedStop
+from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of
 from uictest.judging.evaluation.decision import Decision, read_measure, too_few_wheelsets, why_decided
 from uictest.judging.evaluation.judgement import undecided
 from uictest.judging.evaluation.rig_reasons import why_rig_fails

@@ -15,7 +15,7 @@ from uictest.core.measures import (
     stop_column_values,
     wheelset_column_values,
 )
-from uictest.judging.evaluation.coverage import Coverage
+from uictest.judging.evaluation.bounds import Coverage
 from uictest.judging.evaluation.judgement import judge
 from uictest.judging.evaluation.real_time import missed_deadlines
 from uictest.judging.evaluation.result import CaseResult, outcome_of

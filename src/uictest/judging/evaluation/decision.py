@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 
 from uictest.core.measures import MEASURES, Course, MeasureValue
 from uictest.core.units import in_unit, value_text, with_unit
-from uictest.judging.evaluation.bounds import Bounds, deciding
-from uictest.judging.evaluation.coverage import MissingData, ObservedStop
+from uictest.judging.evaluation.bounds import Bounds, MissingData, ObservedStop, deciding
 from uictest.judging.evaluation.verdict import Status
 from uictest.plans import scenario
 

@@ -7,13 +7,19 @@ from dataclasses import replace
 from typing import Final
 
 from uictest.core.measures import StopMeasures, Wheelsets, is_nan
-from uictest.judging.evaluation.bounds import Bounds, bounds_of
-from uictest.judging.evaluation.coverage import Coverage, ObservedStop, why_cut_off
+from uictest.judging.evaluation.bounds import Bounds, Coverage, ObservedStop, bounds_of, why_cut_off
 from uictest.judging.evaluation.decision import Decision, decide
-from uictest.judging.evaluation.definitions import applied_definitions, definition_texts
+from uictest.judging.evaluation.outcome_rule import sensitivity
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
-from uictest.judging.evaluation.sensitivity import sensitivity
-from uictest.judging.evaluation.verdict import READINGS, ReadVerdict, Sensitivity, Verdict, VerdictInterval
+from uictest.judging.evaluation.verdict import (
+    READINGS,
+    ReadVerdict,
+    Sensitivity,
+    Verdict,
+    VerdictInterval,
+    applied_definitions,
+    definition_texts,
+)
 from uictest.plans import scenario
 from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_conditions
 

@@ -1,4 +1,4 @@
-"""The parts that a case was run with, their parameters, and their JSON form."""
+"""The parts that a case was run with, and what of it lies outside of a validated domain."""
 
 from __future__ import annotations
 
@@ -122,3 +122,41 @@ def parts_of(document: Mapping[str, Any]) -> dict[str, EffectivePart]:
     Raises ValueError where a part lacks or adds a field, or a value is of another type.
     """
     return from_json_form(_PARTS, document.get("parts", {}), place="parts")
+
+
+Found = str | tuple[float, float] | None
+"""A setting or the name of a part; the lowest and the highest value of a number, SI; None: it is not set."""
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """One condition of a case that none of the validated stops had.
+
+    Args:
+        key: of the scenario, or of a part.
+        found: in the case.
+        validated: among the validated stops that come nearest to it.
+        unit: of numbers, SI.
+
+    """
+
+    key: str
+    found: Found
+    validated: Found
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DomainOfValidity:
+    """Whether a case lies in the domain of a validation: then nothing is `outside`.
+
+    Args:
+        validation: its name.
+        sha256: of its file.
+        outside: every condition beyond it.
+
+    """
+
+    validation: str
+    sha256: str
+    outside: tuple[Deviation, ...] = ()

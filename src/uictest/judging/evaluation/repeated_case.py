@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from uictest.core.measures import StopMeasures, Wheelsets
-from uictest.judging.evaluation.bounds import bounds_of
-from uictest.judging.evaluation.coverage import ObservedStop, why_cut_off
+from uictest.judging.evaluation.bounds import ObservedStop, bounds_of, why_cut_off
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.judgement import undecided, verdict_by, with_definitions
 from uictest.judging.evaluation.outcome_rule import (

@@ -11,8 +11,15 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
 from uictest.core import statistics as proportions
-from uictest.judging.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
-from uictest.judging.evaluation.json_values import OptionalNumber, json_form, required
+from uictest.judging.evaluation.json_values import (
+    CaseMeasures,
+    CaseWheelsetMeasures,
+    Expectation,
+    OptionalNumber,
+    Outcome,
+    json_form,
+    required,
+)
 from uictest.judging.evaluation.verdict import Verdict, WrittenVerdict
 
 Rule = Literal["all", "median", "at_least"]

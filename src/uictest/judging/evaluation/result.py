@@ -9,9 +9,8 @@ from typing import Annotated, Final, Protocol, TypeVar
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
 from uictest.controllers import ResponseTimes
-from uictest.judging.evaluation.columns import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
-from uictest.judging.evaluation.domain_of_validity import DomainOfValidity
-from uictest.judging.evaluation.parameters import EffectivePart
+from uictest.judging.evaluation.json_values import CaseMeasures, CaseWheelsetMeasures, Expectation, Outcome
+from uictest.judging.evaluation.parameters import DomainOfValidity, EffectivePart
 from uictest.judging.evaluation.repeats import WrittenRepeats, is_expected
 from uictest.judging.evaluation.verdict import (
     Layer,

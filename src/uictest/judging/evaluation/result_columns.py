@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from uictest.core.ensemble import Places
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging.evaluation.block_verdicts import WHEELSET_COUNT
-from uictest.judging.evaluation.columns import Expectation, Outcome
+from uictest.judging.evaluation.json_values import Expectation, Outcome
 from uictest.judging.evaluation.repeats import is_expected
 from uictest.judging.evaluation.result import CaseResult, narrowest_margin
 

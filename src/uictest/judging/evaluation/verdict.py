@@ -1,4 +1,4 @@
-"""The verdict of one criterion on one stop, and how sensitive it is to its definitions."""
+"""The verdict of one criterion on one stop, and whether it would flip."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
+from uictest.core.units import in_unit, value_text, with_unit
+from uictest.judging.evaluation.bounds import bounds_of
 from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty
+from uictest.plans import scenario
+from uictest.plans.scenario import yaml
 
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.
@@ -227,3 +231,60 @@ def relative_margin(verdict: Verdict) -> float | None:
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
     share = verdict.margin / bound if bound else min(verdict.margin, 0.0)
     return share if verdict.firm else min(share, 0.0)
+
+
+def definition_texts(
+    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
+) -> dict[str, str]:
+    """Return clause, measure, bound, aggregation and every definition of a verdict, as text for people.
+
+    Definitions of the criterion come with their range. Those of `observation`, which turned samples into
+    measures while the stop was observed, have none.
+    """
+    bound = with_unit(str(bounds_of(criterion)), criterion.unit)
+    if criterion.of_dry_stop:
+        bound = f"{bound} of the dry stop"
+    texts = {"clause": criterion.clause, "measure": criterion.meaning, "bound": bound}
+    if aggregation := criterion.aggregation:
+        texts["wheelsets"] = aggregation
+    if criterion.readings:
+        own = profile.sources.get(criterion.reading_source)
+        texts["reading"] = f"{criterion.reading} ({f'{own.mark}: {own.text}' if own else 'user'})"
+    for name, parameter in criterion.definition.parameters().items():
+        texts[name] = _parameter(parameter, profile.sources)
+    for name in criterion.observed_by:
+        quantity = getattr(observation, name)
+        texts[name] = f"{quantity.text} ({scenario.mark_of(quantity, observation.sources)})"
+    return texts
+
+
+def applied_definitions(
+    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
+) -> tuple[AppliedDefinition, ...]:
+    """Return every definition that a verdict depends on, as numbers; names as in :func:`definition_texts`."""
+    own = (
+        AppliedDefinition(
+            name,
+            float(parameter.value),
+            parameter.value.unit,
+            scenario.mark_of(parameter.value, profile.sources),
+            *map(float, parameter.range),
+        )
+        for name, parameter in criterion.definition.parameters().items()
+    )
+    observed = (
+        AppliedDefinition(
+            name, float(quantity), quantity.unit, scenario.mark_of(quantity, observation.sources)
+        )
+        for name in criterion.observed_by
+        for quantity in (getattr(observation, name),)
+    )
+    return (*own, *observed)
+
+
+def _parameter(parameter: scenario.RangedDefinition, sources: Mapping[str, yaml.Source]) -> str:
+    value, lower, upper = (
+        value_text(in_unit(number, parameter.unit), parameter.unit)
+        for number in (parameter.value, *parameter.range)
+    )
+    return f"{value} ({scenario.mark_of(parameter.value, sources)}; range {lower} .. {upper})"

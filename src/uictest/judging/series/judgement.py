@@ -9,8 +9,14 @@ from uictest.core.series_measures import SERIES_MEASURES, Rail, SeriesValue, Spe
 from uictest.core.units import KILOMETRE_PER_HOUR, in_unit
 from uictest.judging import evaluation
 from uictest.judging.evaluation import Outcome
-from uictest.judging.series.counting import SeriesStop, counts_of, not_counted, observed_stops
-from uictest.judging.series.relations import applies, with_relations
+from uictest.judging.series.counting import (
+    SeriesStop,
+    applies,
+    counts_of,
+    not_counted,
+    observed_stops,
+    with_relations,
+)
 from uictest.judging.series.result import (
     SeriesCase,
     SeriesResult,

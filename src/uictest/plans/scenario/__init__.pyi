@@ -40,28 +40,26 @@ from .identifiers import (
     value_label as value_label,
 )
 from .json_schema import (
+    PART_MODELS as PART_MODELS,
     SCHEMA_DRAFT as SCHEMA_DRAFT,
     SchemaGenerator as SchemaGenerator,
     as_draft_07 as as_draft_07,
     json_schema as json_schema,
+    part_schema as part_schema,
     quantity_definitions as quantity_definitions,
     schema_of as schema_of,
-)
-from .library_parts import (
-    SourcedNumber as SourcedNumber,
-    load_part as load_part,
-    load_part_file as load_part_file,
-    numbers as numbers,
 )
 from .loading import load as load, load_file as load_file
 from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
 from .part_keys import (
     PART_KEYS as PART_KEYS,
     PART_KINDS as PART_KINDS,
+    SourcedNumber as SourcedNumber,
+    load_part as load_part,
+    load_part_file as load_part_file,
+    numbers as numbers,
     with_default_parts as with_default_parts,
 )
-from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
-from .parts.applicability import Applicability as Applicability, Nominal as Nominal
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
@@ -72,16 +70,20 @@ from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.external_controller import ExternalController as ExternalController
 from .parts.fault import Fault as Fault
-from .parts.friction import FrictionProfile as FrictionProfile
-from .parts.measures import MeasureDefinitions as MeasureDefinitions
-from .parts.pad import PadLaw as PadLaw
-from .parts.rail import Cleaning as Cleaning, RailCondition as RailCondition
-from .parts.repeats import ShareOfStops as ShareOfStops
-from .parts.requirements import (
+from .parts.measures import (
+    MeasureDefinitions as MeasureDefinitions,
     RequirementId as RequirementId,
     RequirementIds as RequirementIds,
+    ShareOfStops as ShareOfStops,
     repeated_requirements as repeated_requirements,
 )
+from .parts.pad import PadLaw as PadLaw
+from .parts.rail import (
+    Cleaning as Cleaning,
+    FrictionProfile as FrictionProfile,
+    RailCondition as RailCondition,
+)
+from .parts.reading import Applicability as Applicability, Nominal as Nominal
 from .parts.vehicle import Vehicle as Vehicle
 from .rail_friction import (
     CONDITION as CONDITION,
@@ -89,20 +91,21 @@ from .rail_friction import (
     sets_friction as sets_friction,
 )
 from .references import Parts as Parts, is_path as is_path
-from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
-from .requirement_list import read_requirement_list as read_requirement_list
+from .requirement_list import (
+    in_order_of_ids as in_order_of_ids,
+    named_requirements as named_requirements,
+    read_requirement_list as read_requirement_list,
+)
 from .resolution import resolve as resolve
 from .sections import SURVEY as SURVEY
 from .validated_file import VALIDATION_RESULT as VALIDATION_RESULT
-from .values import (
+from .wheelset_values import (
     DESCRIPTIVE as DESCRIPTIVE,
+    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
     Value as Value,
     is_changed as is_changed,
     mark_of as mark_of,
     values_in as values_in,
-)
-from .wheelset_values import (
-    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
     wheelset_keys as wheelset_keys,
     wheelset_value as wheelset_value,
 )

@@ -18,10 +18,8 @@ from typing import Any, Final
 
 from uictest.controllers import Problem, installed_module, nothing_declared, parameter_problems
 from uictest.plans.scenario.files import Files
-from uictest.plans.scenario.parts.declared_parameter import DeclaredParameter
-from uictest.plans.scenario.parts.external_controller import ExternalController
-from uictest.plans.scenario.program_files import read_program
-from uictest.plans.scenario.python_statements import UNPARSABLE, texts_beginning_with
+from uictest.plans.scenario.parts.external_controller import DeclaredParameter, ExternalController
+from uictest.plans.scenario.program_files import UNPARSABLE, read_program, texts_beginning_with
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
     Diagnostic,

@@ -12,23 +12,28 @@ from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
-from uictest.plans.scenario.compensation_steps import unresolved_air, unresolved_cylinder
-from uictest.plans.scenario.faults import impossible_faults, line_leak, tank_leak
+from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
 from uictest.plans.scenario.feasibility import (
     BrakedWheelset,
     braking_force,
     largest_clamping_force,
     stopping_time_at_least,
 )
+from uictest.plans.scenario.impossible import impossible_faults, impossible_pole_wheels, line_leak, tank_leak
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.plans.scenario.parts.controller import Controller
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
-from uictest.plans.scenario.parts.measures import MeasureDefinitions
-from uictest.plans.scenario.parts.repeats import OutcomeOfRepeats, Repeat, seeds_too_large
-from uictest.plans.scenario.parts.requirements import RequirementId, RequirementIds, repeated_requirements
+from uictest.plans.scenario.parts.measures import (
+    MeasureDefinitions,
+    OutcomeOfRepeats,
+    Repeat,
+    RequirementId,
+    RequirementIds,
+    repeated_requirements,
+    seeds_too_large,
+)
 from uictest.plans.scenario.parts.vehicle import Vehicle
-from uictest.plans.scenario.pole_wheels import impossible_pole_wheels
 from uictest.plans.scenario.rig_checks import RIG_CHECKS, rig_checks
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle

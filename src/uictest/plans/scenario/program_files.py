@@ -1,16 +1,21 @@
-"""The files of controllers from outside: found and identified, never loaded here."""
+"""The files of controllers from outside: found and identified, never loaded."""
 
+import ast
 import hashlib
-from collections.abc import Iterable, Iterator
+import io
+import re
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Final, NamedTuple
+from types import MappingProxyType
+from typing import Any, Final, NamedTuple
 
-from uictest.controllers import installed_version
+from uictest.controllers import installed_version, shown_version
 from uictest.plans.scenario.files import Files, nearest_file
 from uictest.plans.scenario.parts.external_controller import PROGRAM_FILES
 from uictest.plans.scenario.parts.program_file import ProgramFile
-from uictest.plans.scenario.program_version import stated_version
 from uictest.plans.scenario.yaml import (
     Document,
     Map,
@@ -22,6 +27,97 @@ from uictest.plans.scenario.yaml import (
     unreadable_error,
     visible,
 )
+
+_LARGEST: Final = 65536
+"""Most bytes of a statement; chosen: longer ones are no declarations."""
+_NEXT_STATEMENT: Final = re.compile(rb"\n(?=[^\s#)\]}])")
+_TEXTS: Final = rb"""#[^\n]*|(['"]{3})(?:[^\\]|\\.)*?\1|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|"""
+"""Comments and texts, in which a name is none."""
+UNPARSABLE: Final = (SyntaxError, ValueError, RecursionError, MemoryError)
+"""What :meth:`PythonText.statements` raises for what is no Python."""
+
+
+class PythonText(NamedTuple):
+    """The text of a statement, and the lines above it in its file."""
+
+    text: bytes
+    lines_above: int
+
+    def statements(self) -> list[ast.stmt]:
+        """Return the statement, and what stands behind it in its line. Raises `UNPARSABLE`."""
+        module = ast.parse(self.text)
+        return ast.increment_lineno(module, self.lines_above).body
+
+
+def texts_beginning_with(name: str, content: bytes) -> Iterator[PythonText]:
+    """Yield the texts of the statements of a module that begin with a name.
+
+    Nothing else needs to be parsed: a syntax tree takes hundreds of times the memory of its text.
+    """
+    begins = rb"^" + name.encode() + rb"\b"
+    if re.search(begins, content, re.MULTILINE) is None:
+        return
+    for found in re.finditer(_TEXTS + begins, content, re.MULTILINE | re.DOTALL):
+        if found[0] == name.encode():
+            text = _NEXT_STATEMENT.split(content[found.start() : found.start() + _LARGEST], maxsplit=1)[0]
+            yield PythonText(text, content.count(b"\n", 0, found.start()))
+
+
+_FMU_DESCRIPTION: Final = "modelDescription.xml"
+_BEGINNING: Final = 65536
+"""Bytes of an FMU's description that are read: its first element states the version."""
+
+
+def stated_version(kind: str, content: bytes) -> str:
+    """Return the version that the file of a controller states, empty where it states none.
+
+    `kind` is the key that names the file: `__version__ = "..."` of a Python file is found in its text, that
+    of an FMU in its description. A library would have to be loaded.
+    """
+    return shown_version(_READERS[kind](content)) if kind in _READERS else ""
+
+
+def _of_python(content: bytes) -> str:
+    versions = map(_assigned_version, _version_statements(content))
+    return next((text for text in versions if text is not None), "")
+
+
+def _version_statements(content: bytes) -> Iterator[ast.stmt]:
+    for each in texts_beginning_with("__version__", content):
+        with suppress(*UNPARSABLE):
+            yield from each.statements()
+
+
+def _assigned_version(statement: ast.stmt) -> str | None:
+    if not isinstance(statement, ast.Assign | ast.AnnAssign) or not isinstance(statement.value, ast.Constant):
+        return None
+    targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+    names = [target.id for target in targets if isinstance(target, ast.Name)]
+    text = statement.value.value
+    return text if "__version__" in names and isinstance(text, str) else None
+
+
+def _of_fmu(content: bytes) -> str:
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive, archive.open(_FMU_DESCRIPTION) as file:
+            return _attribute_of_first_element(file.read(_BEGINNING), "version")
+    except Exception:  # a library that meets a damaged file may raise anything; who loads the FMU says so
+        return ""
+
+
+def _attribute_of_first_element(xml: bytes, name: str) -> str:
+    from xml.etree import ElementTree
+
+    parser: Any = ElementTree.XMLPullParser(["start"])
+    parser.feed(xml)
+    first = next(iter(parser.read_events()), None)
+    return "" if first is None else str(first[1].get(name, ""))
+
+
+_READERS: Final[Mapping[str, Callable[[bytes], str]]] = MappingProxyType(
+    {"python": _of_python, "fmu": _of_fmu}
+)
+
 
 KIND_OF_ENDING: Final = {
     ".py": "python",

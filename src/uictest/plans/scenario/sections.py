@@ -9,9 +9,14 @@ from pydantic_core import PydanticCustomError
 from uictest.plans.scenario.parts.brake import BrakeSystem
 from uictest.plans.scenario.parts.caliper import Caliper
 from uictest.plans.scenario.parts.compensation import Compensation
-from uictest.plans.scenario.parts.friction import FactorProfile, FrictionProfile
 from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
-from uictest.plans.scenario.parts.rail import Cleaning, Friction, RailCondition
+from uictest.plans.scenario.parts.rail import (
+    Cleaning,
+    FactorProfile,
+    Friction,
+    FrictionProfile,
+    RailCondition,
+)
 from uictest.plans.scenario.parts.sensors import Sensors
 from uictest.plans.scenario.yaml import (
     Inconsistency,

@@ -5,8 +5,6 @@ from .model import (
     SERIES_SCHEMA as SERIES_SCHEMA,
     SeriesFile as SeriesFile,
     Stops as Stops,
-)
-from .schema import (
     series_schema as series_schema,
 )
 from .series import (

@@ -1,11 +1,11 @@
-"""One entry of a file that lists stops: its scenario, what it sets, and its recordings."""
+"""One entry of a file that lists stops, and whether two stops are of the same train."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
 
-from uictest.plans.scenario import Files
+from uictest.plans.scenario import Files, Scenario
 from uictest.plans.scenario.yaml import (
     Map,
     Node,
@@ -66,3 +66,21 @@ def _channel_map(node: Node, files: Files) -> str:
         return Stops.model_fields["map"].get_default()  # type: ignore[no-any-return]
     is_path = reference.text.endswith((".yaml", ".yml"))
     return str(files.path_of(reference, "map")) if is_path else reference.text
+
+
+def differences_of_train(dry: Scenario, wet: Scenario) -> Iterator[str]:
+    """Yield the keys of what must be the same in both stops and is not."""
+    dry_discs, wet_discs = dry.brake.initial_disc_temperature, wet.brake.initial_disc_temperature
+    for key, one, other in (
+        ("vehicle", dry.vehicle, wet.vehicle),
+        ("brake.command", dry.brake.command, wet.brake.command),
+        ("brake.position", dry.brake.position, wet.brake.position),
+        ("brake.system", dry.brake.system, wet.brake.system),
+        ("brake.pad", dry.brake.pad, wet.brake.pad),
+        ("brake.disc_temperature", dry.brake.disc_temperature, wet.brake.disc_temperature),
+        ("brake.initial_disc_temperature", dry_discs, wet_discs),
+        ("faults", dry.faults, wet.faults),
+        ("rail.gradient", dry.rail.gradient, wet.rail.gradient),
+    ):
+        if one != other:
+            yield key

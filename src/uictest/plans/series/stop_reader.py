@@ -24,9 +24,8 @@ from uictest.plans.scenario.yaml import (
     single_error,
 )
 from uictest.plans.series.model import SeriesFile, Stops
-from uictest.plans.series.same_train import differences_of_train
 from uictest.plans.series.series import PlannedStop, Role
-from uictest.plans.series.stop_entry import recorded_by, scenario_of, values_set_by
+from uictest.plans.series.stop_entry import differences_of_train, recorded_by, scenario_of, values_set_by
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
 """Keys of a scenario that decide, with the seed, how the stop goes."""

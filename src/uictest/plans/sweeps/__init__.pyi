@@ -1,8 +1,9 @@
-from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
-from .controllers import (
-    CONTROLLER as CONTROLLER,
-    programs_of as programs_of,
+from .base_case import (
+    REGULAR_STEP as REGULAR_STEP,
+    SURVEY_STEP as SURVEY_STEP,
+    in_survey_steps as in_survey_steps,
 )
+from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
 from .decimal_quantity import (
     DecimalQuantity as DecimalQuantity,
     common_unit as common_unit,
@@ -13,9 +14,14 @@ from .decimal_quantity import (
 from .definition import (
     load_sweep as load_sweep,
 )
+from .model import (
+    sweep_schema as sweep_schema,
+)
 from .nominal import (
+    CONTROLLER as CONTROLLER,
     drawn_ranges as drawn_ranges,
     nominal_plan as nominal_plan,
+    programs_of as programs_of,
 )
 from .plan import (
     Group as Group,
@@ -30,13 +36,5 @@ from .scenario_values import (
     inconsistencies as inconsistencies,
     is_free as is_free,
     with_values as with_values,
-)
-from .schema import (
-    sweep_schema as sweep_schema,
-)
-from .survey import (
-    REGULAR_STEP as REGULAR_STEP,
-    SURVEY_STEP as SURVEY_STEP,
-    in_survey_steps as in_survey_steps,
 )
 from .tail_model import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest

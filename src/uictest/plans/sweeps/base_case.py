@@ -1,14 +1,15 @@
-"""The case that a sweep varies, and the YAML tree that it comes from."""
+"""The case that a sweep varies, and the survey step that it may be simulated in."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from uictest.plans.scenario import (
     EXPANSION_KEYS,
     PART_KEYS,
+    SURVEY,
     SWEEP_SUFFIXES,
     Case,
     Files,
@@ -29,8 +30,12 @@ from uictest.plans.scenario.yaml import (
     Entry,
     Map,
     Override,
+    Place,
+    Quantity,
     Scalar,
+    Sequence as List,
     apply_overrides,
+    default,
     dotted,
     inherit,
     quoted,
@@ -38,7 +43,8 @@ from uictest.plans.scenario.yaml import (
     suggestion,
     with_value,
 )
-from uictest.plans.sweeps.scenario_values import outermost_first
+from uictest.plans.sweeps.plan import Plan
+from uictest.plans.sweeps.scenario_values import outermost_first, with_values
 
 DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
@@ -136,3 +142,43 @@ def _place_of(case_id: Scalar | None, cases: Sequence[Case], reference: Scalar) 
             case_id.place, f"no case {quoted(case_id.text)} there", "case", suggestion(case_id.text, ids)
         )
     return ids.index(case_id.text)
+
+
+TIME_STEP: Final = "simulation.time_step"
+SURVEY_STEP: Final[Quantity] = default("1 ms", "time")
+REGULAR_STEP: Final[Quantity] = default("0.5 ms", "time")
+"""The step that the bias of the survey step refers to."""
+
+
+def requested_survey(tree: Map, overrides: Sequence[Override]) -> Place | None:
+    """Return where the survey step is asked for, None where it is not.
+
+    That is the only value of the time step on the command line, or else in the grid of the sweep file.
+    """
+    for override in overrides:
+        if override.key == TIME_STEP:
+            return _place_of_survey(override.values)
+    grid = tree.get("grid")
+    values = grid.get(TIME_STEP) if isinstance(grid, Map) else None
+    return _place_of_survey(values.items) if isinstance(values, List) else None
+
+
+def _place_of_survey(values: Sequence[object]) -> Place | None:
+    match values:
+        case [Scalar() as value] if value.text == SURVEY:
+            return value.place
+    return None
+
+
+def require_regular_step(base: BaseCase, place: Place) -> None:
+    """Raise ScenarioErrors where the survey step would replace another step than it was compared with."""
+    step = base.case.scenario.simulation.time_step
+    if step != REGULAR_STEP:
+        message = f"the survey step is known beside {REGULAR_STEP.text}; the scenario is run in {step.text}"
+        raise single_error(place, message, TIME_STEP, f"remove {TIME_STEP} from the scenario")
+
+
+def in_survey_steps(plan: Plan) -> Plan:
+    """Return the plan whose cases are simulated in survey steps, whatever their time step is."""
+    scenario: Scenario = with_values(plan.base.scenario, {TIME_STEP: SURVEY_STEP})
+    return replace(plan, base=replace(plan.base, scenario=scenario))

@@ -33,11 +33,18 @@ from uictest.plans.scenario.yaml import (
     single_error,
     validated,
 )
-from uictest.plans.sweeps.base_case import REPEAT_KEYS, SEEDS_IN_SWEEPS, BaseCase, read_base_case
+from uictest.plans.sweeps.base_case import (
+    REPEAT_KEYS,
+    SEEDS_IN_SWEEPS,
+    TIME_STEP,
+    BaseCase,
+    read_base_case,
+    requested_survey,
+    require_regular_step,
+)
 from uictest.plans.sweeps.group_reader import GroupReader, range_node
 from uictest.plans.sweeps.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
 from uictest.plans.sweeps.plan import Group, ListedGroup, Plan
-from uictest.plans.sweeps.survey import TIME_STEP, requested_survey, require_regular_step
 from uictest.plans.sweeps.tail_requests import reject_unsupported_tails
 
 _SCHEMA_HINT: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"

@@ -1,4 +1,4 @@
-"""The models of a sweep file: the scenario, the values of its parameters, how they are combined or drawn."""
+"""The models of a sweep file, and its JSON Schema."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario import Slug
+from uictest.plans.scenario import SCHEMA_DRAFT, SchemaGenerator, Slug, as_draft_07, quantity_definitions
 from uictest.plans.scenario.yaml import Inconsistency, Model
 from uictest.plans.sweeps.decimal_quantity import DecimalQuantity, DecimalQuantityField, common_unit
 from uictest.plans.sweeps.tail_model import KDryRequest, QuantileRequest, Quantiles
@@ -268,3 +268,18 @@ class SweepFile(Model):
     def quantile_requests(self) -> tuple[QuantileRequest, ...]:
         """The quantiles as a list, whether the file has one request or several."""
         return (self.quantiles,) if isinstance(self.quantiles, QuantileRequest) else self.quantiles or ()
+
+
+_KINDS: Final = ("acceleration", "share")
+"""Kinds of the quantities that stand in a sweep file itself."""
+
+
+def sweep_schema() -> dict[str, Any]:
+    """Return the schema of ``uictest/sweep/1``, every field described."""
+    schema = SweepFile.model_json_schema(
+        by_alias=True, ref_template="#/definitions/{model}", schema_generator=SchemaGenerator
+    )
+    definitions = {**schema.pop("$defs"), **quantity_definitions(_KINDS)}
+    schema = {"$schema": SCHEMA_DRAFT, **schema, "title": "uictest sweep", "definitions": definitions}
+    draft: dict[str, Any] = as_draft_07(schema)
+    return draft

@@ -1,15 +1,16 @@
-"""The nominal case of a sample: the scenario's own values of the drawn parameters, beside their ranges."""
+"""What a plan holds besides its values: the nominal case, the controllers from outside."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from uictest.plans.scenario import Scenario, wheelset_value
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.plan import (
+    Group,
     ListedGroup,
     ParameterDraw,
     Plan,
@@ -18,6 +19,10 @@ from uictest.plans.sweeps.plan import (
     saltelli_sample,
 )
 from uictest.plans.sweeps.scenario_values import value_at
+
+if TYPE_CHECKING:
+    from uictest.controllers import ControllerProgram
+
 
 _OF_WHEELSETS: Final = "vehicle.wheelsets."
 
@@ -95,3 +100,25 @@ def _shown(quantity: Quantity) -> str:
 def _bounds(draw: ParameterDraw) -> tuple[Quantity, Quantity]:
     low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
     return low, high
+
+
+CONTROLLER: Final = "controller"
+"""Key of a scenario whose value is a controller."""
+
+
+def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
+    """Yield the program of each controller from outside, with the parameters that are written beside it."""
+    values = [value.content for group in plan.groups for value in _values(group, CONTROLLER)]
+    for controller in values or [plan.base.scenario.controller]:
+        if controller.program is not None:
+            yield controller.program
+
+
+def _values(group: Group, key: str) -> Sequence[ParameterValue]:
+    """Return the values that a group lists for a key."""
+    if key not in group.keys:
+        return ()
+    place = group.keys.index(key)
+    return (
+        [row[place] for row in group.rows] if isinstance(group, ListedGroup) else group.draws[place].choices
+    )

@@ -70,7 +70,7 @@ class ParameterDraw:
 
     def values(self, probabilities: NDArray[np.float64]) -> Column:
         """Return the quantiles for the given probabilities (0 up to 1)."""
-        from uictest.plans.sweeps.distribution import quantile  # numpy, which checking a sweep does not need
+        from uictest.plans.sweeps.sampling import quantile  # numpy, which checking a sweep does not need
 
         numbers = quantile(self.distribution)(probabilities)
         if self.choices:

@@ -1,14 +1,16 @@
-"""Points of the unit cube, each a function of seed and number alone: points can be computed in any order."""
+"""Points of the unit cube and the quantiles of distributions there."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.plans.sweeps.model import Method
+from uictest.plans.sweeps.model import Distribution, Method, Normal
 
 Points = NDArray[np.float64]
 _BLOCK = 1024
@@ -81,3 +83,86 @@ def _saltelli(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
         swapped = role == parameter + 2
         drawn[swapped, parameter] = both[swapped, dimensions + parameter]
     return drawn
+
+
+Probabilities = NDArray[np.float64]
+Quantile = Callable[[Probabilities], NDArray[np.float64]]
+
+
+def quantile(distribution: Distribution) -> Quantile:
+    """Return the quantile function: probabilities (0 up to 1) to numbers in the distribution's unit.
+
+    The numbers of a choice are the places of its values, from 0.
+    """
+    if distribution.choice is not None:
+        return _place(len(distribution.choice))
+    if distribution.normal is not None:
+        return _cut_off_normal(distribution.normal)
+    quantities = distribution.uniform or distribution.log_uniform or distribution.triangular
+    assert quantities is not None
+    numbers = [float(quantity.number) for quantity in quantities]
+    if distribution.log_uniform is not None:
+        return _log_uniform(*numbers)
+    return _triangular(*numbers) if distribution.triangular is not None else _uniform(*numbers)
+
+
+def _place(count: int) -> Quantile:
+    return lambda probabilities: np.minimum(np.floor(probabilities * count), count - 1.0)
+
+
+def _uniform(low: float, high: float) -> Quantile:
+    return lambda probabilities: np.clip(low + probabilities * (high - low), low, high)
+
+
+def _log_uniform(low: float, high: float) -> Quantile:
+    return lambda probabilities: np.clip(low * np.exp(probabilities * math.log(high / low)), low, high)
+
+
+def _triangular(low: float, mode: float, high: float) -> Quantile:
+    span, below = high - low, mode - low
+
+    def at(probabilities: Probabilities) -> NDArray[np.float64]:
+        rising = low + np.sqrt(probabilities * span * below)
+        falling = high - np.sqrt((1.0 - probabilities) * span * (high - mode))
+        return np.clip(np.where(probabilities < below / span, rising, falling), low, high)
+
+    return at
+
+
+def _cut_off_normal(normal: Normal) -> Quantile:
+    mean, deviation, low, high = (
+        float(quantity.number) for quantity in (normal.mean, normal.deviation, normal.lower, normal.upper)
+    )
+    standard = _cut_off_standard_normal((low - mean) / deviation, (high - mean) / deviation)
+    return lambda probabilities: np.clip(mean + deviation * standard(probabilities), low, high)
+
+
+def _cut_off_standard_normal(low: float, high: float) -> Quantile:
+    from scipy.special import ndtr, ndtri
+
+    if low >= 0.0:
+        return _upper_tail(low, high)
+    if high <= 0.0:
+        mirrored = _upper_tail(-high, -low)
+        return lambda probabilities: -mirrored(1.0 - probabilities)
+    first, last = ndtr(low), ndtr(high)
+    return lambda probabilities: ndtri(first + probabilities * (last - first))
+
+
+def _upper_tail(low: float, high: float) -> Quantile:
+    """The standard normal above its mean, by the logarithm of the probability to exceed a value.
+
+    The cumulative distribution itself rounds to one from 8.3 deviations on, and its complement to zero from
+    38; the logarithm, ln Q(x) = ln(Q(low) + s (Q(high) - Q(low))) at the probability s, does neither.
+    """
+    from scipy.special import log_ndtr, ndtri_exp
+
+    beyond_low, beyond_high = log_ndtr(-low), log_ndtr(-high)
+
+    def at(probabilities: Probabilities) -> NDArray[np.float64]:
+        with np.errstate(divide="ignore"):  # the last value may be infinite: it is cut off
+            beyond = beyond_low + np.log1p(probabilities * np.expm1(beyond_high - beyond_low))
+        value: NDArray[np.float64] = -ndtri_exp(beyond)
+        return value
+
+    return at

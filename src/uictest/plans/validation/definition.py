@@ -1,25 +1,32 @@
-"""Read a validation file, or the recorded stops of a series."""
+"""Read a validation file, or the recorded stops of a series, into what is run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import Field
 
 from uictest.plans import series
-from uictest.plans.scenario import Files, Roots, load_file
+from uictest.plans.scenario import Case, Files, Roots, Slug, load_file
 from uictest.plans.scenario.yaml import (
     Diagnostic,
+    Inconsistency,
     Map,
+    Model,
     Node,
     Override,
+    Quantity,
     Scalar,
     ScenarioErrors,
     Sequence as List,
+    default,
     describe,
     display_name,
     in_reading_order,
+    of_kind,
     parse_overrides,
     plain,
     quoted,
@@ -27,8 +34,87 @@ from uictest.plans.scenario.yaml import (
     single_error,
     validated,
 )
-from uictest.plans.validation.model import VALIDATION_SCHEMA, RecordedStops, ValidationFile
-from uictest.plans.validation.plan import PlannedComparison, ValidationPlan
+from uictest.plans.series import Recorded
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedComparison:
+    """Recorded stops and the case that simulates them; `tuned`: numbers of the case come from them."""
+
+    case: Case
+    recorded: Recorded
+    tuned: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ValidationPlan:
+    """One validation.
+
+    Attributes:
+        name: of the validation.
+        title: one line for people.
+        path: its file, as shown to users.
+        comparisons: what is compared.
+        speed_tolerance: largest difference of a recorded initial speed from its scenario's, m/s.
+        confidence: of the intervals.
+        inputs: every file read for it, by shown name, and its SHA-256; recordings are not among them.
+    """
+
+    name: str
+    title: str
+    path: Path
+    comparisons: tuple[PlannedComparison, ...]
+    speed_tolerance: float
+    confidence: float
+    inputs: Mapping[str, str]
+
+
+VALIDATION_SCHEMA: Final = "uictest/validation/1"
+
+
+class RecordedStops(Model):
+    """Recorded stops that one scenario describes."""
+
+    scenario: str = Field(description="Relative path of the scenario.")
+    recordings: tuple[str, ...] = Field(min_length=1, description="Relative paths of the recorded stops.")
+    map: str = Field(
+        default="uictest", description="Channel map of the recordings: a preset or a relative path."
+    )
+    set: dict[str, Any] = Field(default={}, description="Values by dotted key of the scenario.")
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
+        default=None, description="Seeds under which each stop is simulated; the medians are compared."
+    )
+    tuned: bool = Field(
+        default=False,
+        description="Whether numbers of the scenario were found with these recordings: they then show"
+        " nothing, and are listed without being counted.",
+    )
+
+
+class ValidationFile(Model):
+    """Recorded stops and the scenarios that simulate them."""
+
+    schema_id: Literal["uictest/validation/1"] = Field(
+        alias="schema", description="What the file holds and in which version: uictest/validation/1."
+    )
+    name: Slug = Field(description="Name: lower-case letters, digits, dots, dashes and underscores.")
+    title: str = Field(
+        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+    )
+    stops: tuple[RecordedStops, ...] = Field(description="The recorded stops.")
+    speed_tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
+        default=default("3 km/h", "speed"),
+        description="Largest difference of a recorded initial speed from that of its scenario.",
+    )
+    confidence: Annotated[Quantity, of_kind("share", at_least="50 %", at_most="99.99 %")] = Field(
+        default=default("95 %", "share"), description="Confidence of the intervals."
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield an empty list of stops."""
+        if not self.stops:
+            yield Inconsistency(("stops",), "an empty list", "name at least one recorded stop")
+
 
 _SCHEMA_HINT: Final = f"a validation starts with `schema: {VALIDATION_SCHEMA}`"
 

@@ -1,16 +1,14 @@
 from .channel_map import (
     ChannelMap as ChannelMap,
     Preparation as Preparation,
+    channel_map_schema as channel_map_schema,
     load_map as load_map,
     presets as presets,
 )
-from .channel_map_schema import channel_map_schema as channel_map_schema
 from .channels import WHEELSETS as WHEELSETS, of_wheelsets as of_wheelsets
-from .conditions import REQUIRED_STATEMENTS as REQUIRED_STATEMENTS, stated_case as stated_case
-from .defect import Defect as Defect
-from .description import recorded_description as recorded_description
 from .judgement import (
     judge_recording as judge_recording,
+    recorded_description as recorded_description,
     unusable_result as unusable_result,
 )
 from .proposal import (
@@ -28,3 +26,5 @@ from .recorded_stop import (
     prepare as prepare,
     stop_in as stop_in,
 )
+from .support import REQUIRED_STATEMENTS as REQUIRED_STATEMENTS, stated_case as stated_case
+from .time_axis import Defect as Defect

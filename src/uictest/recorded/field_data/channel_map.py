@@ -1,4 +1,4 @@
-"""The channel map: the meaning and unit of every channel of a file, and how the record is prepared."""
+"""The channel map: the meaning and unit of every channel of a file, and its JSON Schema."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field
 from uictest.core.recording.formats import Dialect
 from uictest.core.units import recorded_spellings, recorded_unit_size
 from uictest.plans import library
-from uictest.plans.scenario import Files, Roots, is_path
+from uictest.plans.scenario import Files, Roots, is_path, schema_of
 from uictest.plans.scenario.yaml import (
     Inconsistency,
     Map,
@@ -205,3 +205,16 @@ def _numbered(source: ChannelSource, number: int) -> ChannelSource:
     names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
     changed: dict[str, Any] = {"source": names}
     return source.model_copy(update=changed)
+
+
+def channel_map_schema() -> dict[str, Any]:
+    """Return the schema of ``uictest/channel-map/1`` as it is written: a channel may be a name or names."""
+    schema: dict[str, Any] = schema_of(ChannelMap, "uictest channel-map")
+    name = {"type": "string"}
+    based_on = {"description": "A preset or a file that this map is based on.", **name}
+    schema["properties"] = {**schema["properties"], "extends": based_on}
+    schema["required"] = ["schema", "name"]
+    channels = schema["properties"]["channels"]
+    names = {"type": "array", "minItems": 1, "items": name}
+    channels["additionalProperties"] = {"anyOf": [name, names, channels["additionalProperties"]]}
+    return schema

@@ -1,4 +1,4 @@
-"""Channels of a file under their canonical names and in SI units, each still on its own time axis."""
+"""Channels of a file under their canonical names and in SI units; commands from two magnets."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.physics import FILL, HOLD, VENT
 from uictest.core.recording import (
     STATES,
     TIME,
@@ -24,7 +25,7 @@ from uictest.core.recording import (
 from uictest.core.units import recorded_spellings, recorded_unit_size
 from uictest.plans.scenario.yaml import quoted, suggestion
 from uictest.recorded.field_data.channel_map import ChannelMap, ChannelSource
-from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.channels import CHANNEL_UNITS, WHEELSETS
 
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:([., '])\d{3}(?:\1\d{3})+(?:[.,]\d+)?|([., '])\d{3}[.,]\d+)")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
@@ -203,3 +204,25 @@ def _number(text: str, known: Mapping[str, int]) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+_ON = 0.5
+
+
+def with_valve_commands(channels: Mapping[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels with the valve command of every wheelset whose two magnets have common times."""
+    return {**dict(_commands(channels)), **channels}
+
+
+def _commands(channels: Mapping[str, RawChannel]) -> Iterator[tuple[str, RawChannel]]:
+    for n in WHEELSETS:
+        hold, vent = (channels.get(f"{magnet}_{n}") for magnet in ("hold_magnet", "vent_magnet"))
+        if hold is not None and vent is not None and np.array_equal(hold.time, vent.time):
+            name, sources = f"valve_command_{n}", f"{hold.source}, {vent.source}"
+            yield name, RawChannel(name, sources, hold.time, _command(hold.samples, vent.samples))
+
+
+def _command(hold: Array, vent: Array) -> Array:
+    """Return the commands; a valve that vents does so whatever its other magnet shows."""
+    command = np.where(vent > _ON, VENT, np.where(hold > _ON, HOLD, FILL))
+    return np.where(np.isfinite(hold) & np.isfinite(vent), command, np.nan)

@@ -14,22 +14,28 @@ from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data.channel_map import ChannelMap, Preparation
 from uictest.recorded.field_data.channels import CHANNEL_UNITS
-from uictest.recorded.field_data.defect import Defect
-from uictest.recorded.field_data.magnets import with_valve_commands
-from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels
+from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels, with_valve_commands
 from uictest.recorded.field_data.sensor_defects import analogue_defects, speed_defects
-from uictest.recorded.field_data.signals import integrated, low_passed, resampled
-from uictest.recorded.field_data.standstill import Standstill, find_standstill, require_plausible_deceleration
 from uictest.recorded.field_data.time_axis import (
+    Defect,
     by_axis,
     coarse_defects,
     disorder,
     gap_defects,
+    integrated,
+    low_passed,
     missing_samples,
+    resampled,
     usual_interval,
     without_implausible,
 )
-from uictest.recorded.field_data.trigger import BrakeCommand, find_trigger
+from uictest.recorded.field_data.trigger import (
+    BrakeCommand,
+    Standstill,
+    find_standstill,
+    find_trigger,
+    require_plausible_deceleration,
+)
 
 _SLACK = 1e-6
 """Share of the raster by which the last sample may miss the standstill."""

@@ -10,8 +10,8 @@ import numpy as np
 
 from uictest.core.units import BAR, KILONEWTON
 from uictest.recorded.field_data.channels import of_wheelsets
-from uictest.recorded.field_data.defect import Defect
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
+from uictest.recorded.field_data.time_axis import Defect
 
 _STEEPEST = 150.0
 """m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""

@@ -1,8 +1,10 @@
-"""What a record lacks of each measure, and why."""
+"""What a record lacks of each measure, and what its user must state."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from types import MappingProxyType
 from typing import Final
 
@@ -11,6 +13,26 @@ import numpy as np
 from uictest.core.measures import MEASURES, RecordedData
 from uictest.core.recording import TIME
 from uictest.judging.evaluation import Coverage, MissingData
+from uictest.plans.scenario import (
+    EXPANSION_KEYS,
+    PART_KEYS,
+    SCENARIO_SCHEMA,
+    Case,
+    Files,
+    Parts,
+    Roots,
+    resolve,
+    with_default_parts,
+)
+from uictest.plans.scenario.yaml import (
+    Document,
+    Map,
+    apply_overrides,
+    dotted,
+    parse,
+    parse_overrides,
+    single_error,
+)
 from uictest.recorded.field_data.channels import WHEELSETS
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.time_axis import is_coarse
@@ -118,3 +140,30 @@ def _unknown(stop: RecordedStop, name: str, *, throughout: bool) -> Iterator[str
             yield "distance is not known at the brake command"
         else:
             yield "the distance is not known: the speed it is integrated from has a gap"
+
+
+REQUIRED_STATEMENTS: Final = ("rail.condition", "brake.position", "rig.wsp", "criteria")
+"""Keys of a scenario that must be stated for a recording that has none."""
+
+
+def stated_case(
+    name: str, initial_speed: float, statements: Sequence[str], trusted: Sequence[Path] = ()
+) -> Case:
+    """Return the case that `key=value` statements make of a stop from `initial_speed` (m/s).
+
+    References stay at or below the files stated, the working folder and the `trusted` folders.
+
+    Raises ScenarioErrors where a statement is no key of a scenario, or not acceptable.
+    """
+    begin = {"schema": SCENARIO_SCHEMA, "name": name, "initial_speed": f"{initial_speed:.9g} m/s"}
+    document = Document("what is stated about the stop", Path(), json.dumps(begin))
+    tree = parse(document)
+    assert isinstance(tree, Map)
+    keys = frozenset(map(dotted, PART_KEYS))
+    tree = apply_overrides(with_default_parts(tree), parse_overrides(statements, None), keys)
+    for section in EXPANSION_KEYS:
+        if (entry := tree.entries.get(section)) is not None:
+            raise single_error(entry.key, "a recording is one stop: several values make no sense", section)
+    scenario, documents = resolve(tree, Parts(Files(Roots.of((), trusted))))
+    inputs = {each.display: each.sha256 for each in documents if each.sha256}
+    return Case(name, scenario, Path(document.display), {}, inputs)

@@ -1,9 +1,11 @@
 from .cleaning_fit import CleaningFit as CleaningFit, fit_cleaning as fit_cleaning
 from .estimate import Fit as Fit, fit_stop as fit_stop
 from .outputs import (
+    Agreement as Agreement,
+    agreement as agreement,
     cleaning_document as cleaning_document,
     fit_document as fit_document,
     fitted_yaml as fitted_yaml,
+    overlay as overlay,
 )
-from .overlay import Agreement as Agreement, agreement as agreement, overlay as overlay
 from .samples import FitError as FitError, initial_speed as initial_speed

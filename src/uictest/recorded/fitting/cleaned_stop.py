@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from uictest.recorded.fitting.balances import Balances
 from uictest.recorded.fitting.least_squares import Groups
-from uictest.recorded.fitting.rail_under_stop import RailUnderStop
-from uictest.recorded.fitting.stretches import HIGHEST, LOWEST
+from uictest.recorded.fitting.stretches import HIGHEST, LOWEST, RailUnderStop
 
 Array = NDArray[np.float64]
 

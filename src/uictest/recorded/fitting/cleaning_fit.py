@@ -11,9 +11,8 @@ from uictest.recorded.fitting.balances import Balances, windows_of
 from uictest.recorded.fitting.cleaned_stop import CleanedStop
 from uictest.recorded.fitting.cleaning import CleaningEstimate, JointSolution, find_cleaning
 from uictest.recorded.fitting.estimate import Fit, fit_balances
-from uictest.recorded.fitting.rail_under_stop import RailUnderStop
 from uictest.recorded.fitting.samples import FitError, samples_of
-from uictest.recorded.fitting.stretches import Stretches
+from uictest.recorded.fitting.stretches import RailUnderStop, Stretches
 
 _EXAMPLE = "rails/wet-cleaning"
 """The rail of the library whose numbers are suggested."""

@@ -12,9 +12,8 @@ from uictest.plans.scenario import Scenario
 from uictest.recorded.field_data import RecordedStop
 from uictest.recorded.fitting.balances import Balances, windows_of
 from uictest.recorded.fitting.least_squares import Bounds, Groups, solve
-from uictest.recorded.fitting.rail_under_stop import RailUnderStop
 from uictest.recorded.fitting.samples import FitError, samples_of
-from uictest.recorded.fitting.stretches import HIGHEST, LOWEST, Estimate, Stretches
+from uictest.recorded.fitting.stretches import HIGHEST, LOWEST, Estimate, RailUnderStop, Stretches
 
 Array = NDArray[np.float64]
 

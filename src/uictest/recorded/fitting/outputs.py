@@ -1,22 +1,75 @@
-"""The files of a fit: the scenario with the fitted friction, and the numbers as JSON."""
+"""The files of a fit: the scenario with the fitted friction, the numbers, the overlay."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 import yaml
 
+from uictest.core.recording import TIME, Recording
+from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import library
 from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, Scenario
 from uictest.plans.scenario.yaml import dotted
+from uictest.recorded.field_data import RecordedStop, of_wheelsets
 from uictest.recorded.fitting.cleaning_fit import CleaningFit
 from uictest.recorded.fitting.estimate import Fit
-from uictest.recorded.fitting.overlay import Agreement
+from uictest.rig import SimulatedStop
+
+_COMPARED = ("speed", *of_wheelsets("wheel_speed"))
+
+
+@dataclass(frozen=True, slots=True)
+class Agreement:
+    """How far the simulated stop follows the recorded one: time in s, distance in m, speed in m/s."""
+
+    recorded_time: float
+    simulated_time: float
+    recorded_distance: float
+    simulated_distance: float
+    speed_difference: float
+
+    def __str__(self) -> str:
+        """Return the comparison for a reader."""
+        speed = self.speed_difference / KILOMETRE_PER_HOUR
+        return (
+            f"recorded stop {self.recorded_time:.2f} s, {self.recorded_distance:.1f} m;"
+            f" simulated {self.simulated_time:.2f} s, {self.simulated_distance:.1f} m;"
+            f" train speeds differ by {speed:.2f} km/h (root mean square)"
+        )
+
+
+def overlay(recorded: RecordedStop, simulated: SimulatedStop) -> Recording:
+    """Return train and wheel speeds of both stops on the raster of the record, m/s."""
+    assert simulated.recording is not None
+    time = np.asarray(recorded.recording[TIME])
+    channels = {TIME: time}
+    for name in _COMPARED:
+        other = simulated.recording
+        channels[f"{name}_recorded"] = np.asarray(recorded.recording[name])
+        channels[f"{name}_simulated"] = np.interp(time, other[TIME], other[name], right=0.0)
+    units = {name: "s" if name == TIME else "m/s" for name in channels}
+    return Recording(channels, units)
+
+
+def agreement(recorded: RecordedStop, simulated: SimulatedStop, both: Recording) -> Agreement:
+    """Return how far the two stops agree."""
+    difference = both["speed_recorded"] - both["speed_simulated"]
+    time, distance = recorded.standstill or (float("nan"), float("nan"))
+    return Agreement(
+        time,
+        float(simulated.measures.braking_time),
+        distance,
+        float(simulated.measures.braking_distance),
+        float(np.sqrt(np.mean(difference**2))),
+    )
+
 
 SCHEMA: Final = "uictest/fit/1"
 _DIGITS: Final = 5

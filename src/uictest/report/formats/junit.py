@@ -11,10 +11,14 @@ from xml.etree import ElementTree
 from uictest.judging import evaluation
 from uictest.plans.scenario import in_order_of_ids
 from uictest.report import series as series_views
-from uictest.report.baseline import BaselineComparison, case_explanation, case_word, difference_sentences
 from uictest.report.content import RunContent
-from uictest.report.difference import Difference
-from uictest.report.domain_wording import domain_sentences
+from uictest.report.difference import (
+    BaselineComparison,
+    Difference,
+    case_explanation,
+    case_word,
+    difference_sentences,
+)
 from uictest.report.escaping import xml_text
 from uictest.report.format_registry import ReportFormat
 from uictest.report.junit_properties import (
@@ -22,7 +26,7 @@ from uictest.report.junit_properties import (
     add_suite_properties,
     add_test_properties,
 )
-from uictest.report.part_wording import changes_line, controller_of, controllers_text
+from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
 from uictest.report.wording import DIFFERS, real_time_sentences

@@ -6,14 +6,19 @@ from functools import partial
 
 from uictest.judging import evaluation
 from uictest.report import series as series_views
-from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
-from uictest.report.difference import Difference, side_text, worst_of_wheelsets
-from uictest.report.domain_wording import domain_notices
+from uictest.report.csv_text import MarkdownTable, code, number_cell, prose, row
+from uictest.report.difference import (
+    BaselineComparison,
+    Difference,
+    baseline_summary,
+    not_compared_sentences,
+    side_text,
+    worst_of_wheelsets,
+)
 from uictest.report.format_registry import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
-from uictest.report.part_wording import changes_of, slide_speed
+from uictest.report.part_wording import changes_of, domain_notices, slide_speed
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import VerifiedRequirement, verified_requirements
 from uictest.report.wording import listed, reading_sentences

@@ -9,18 +9,20 @@ from collections.abc import Iterable, Iterator, Mapping
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
-from uictest.report.baseline import baseline_summary, not_compared_sentences
 from uictest.report.content import RunContent
 from uictest.report.cover_sheet import COVER, insert_charts, write_cover
-from uictest.report.difference import Difference
-from uictest.report.domain_wording import domain_sentences
+from uictest.report.difference import Difference, baseline_summary, not_compared_sentences
 from uictest.report.format_registry import ReportFormat
 from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, criterion_cells
 from uictest.report.manifest import manifest_form
-from uictest.report.part_wording import changes_of
+from uictest.report.part_wording import changes_of, domain_sentences
 from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
-from uictest.report.requirement_matrix import REQUIREMENTS_SHEET, requirement_matrix, verdict_columns
-from uictest.report.requirements import verified_requirements
+from uictest.report.requirements import (
+    REQUIREMENTS_SHEET,
+    requirement_matrix,
+    verdict_columns,
+    verified_requirements,
+)
 from uictest.report.sheet import (
     VERDICT_COLUMNS,
     Row,

@@ -10,23 +10,20 @@ from typing import Any
 import numpy as np
 
 from uictest.judging import evaluation
-from uictest.report.baseline import case_explanation, case_word
 from uictest.report.content import CaseDescription
-from uictest.report.difference import Difference
+from uictest.report.difference import Difference, case_explanation, case_word
 from uictest.report.escaping import printable
-from uictest.report.page.anchors import case_anchor, fragment
+from uictest.report.page.links import case_anchor, fragment
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.page.stop.bars import vents
 from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
 from uictest.report.page.stop.margins import Margins, margins_of
-from uictest.report.page.stop.mark import Mark
+from uictest.report.page.stop.mark import Mark, vents
 from uictest.report.page.stop.marks import marks_of
-from uictest.report.page.stop.overlay_view import panel_form
-from uictest.report.page.stop.packing import STEPS, packed, script_json
+from uictest.report.page.stop.overlay_view import STEPS, packed, panel_form, script_json
 from uictest.report.page.stop.sketch import Sketch, sketch_of
 from uictest.report.part_wording import slide_speed
-from uictest.report.traces.compared import COMPARED
 from uictest.report.traces.quantities import (
+    COMPARED,
     LOOPS,
     PANELS,
     PLOT_QUANTITIES,

@@ -8,17 +8,13 @@ from itertools import islice
 from typing import Any
 
 from uictest.judging import evaluation
-from uictest.report.baseline import BaselineComparison, baseline_summary, not_compared_sentences
-from uictest.report.content import RunContent
-from uictest.report.difference import side_text
-from uictest.report.drawn_cases import DRAWN, MOST_DRAWN, drawn_cases, worst_first
-from uictest.report.page.anchors import case_anchor
+from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
+from uictest.report.difference import BaselineComparison, baseline_summary, not_compared_sentences, side_text
 from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
-from uictest.report.page.matrix import maps_of
-from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
+from uictest.report.page.links import case_anchor, rerun_commands
+from uictest.report.page.overview import PARAMETER_WORDS, maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.page.rerun_command import rerun_commands
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.wording import (

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate
 
 from uictest.judging.series import SeriesResult
-from uictest.report.markdown_table import MarkdownTable, code, prose, row
-from uictest.report.series.comparison import comparison_columns, comparison_rows
+from uictest.report.csv_text import MarkdownTable, code, prose, row
+from uictest.report.series.table import comparison_columns, comparison_rows
 from uictest.report.series.wording import (
     confidence_words,
     count_sentences,

@@ -1,4 +1,4 @@
-"""Tables of series as rows: measures with their confidence, criteria, stops."""
+"""Tables of series as rows: for CSV files and for sheets of a workbook."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict, observed_stops
-from uictest.report.csv_text import Cell
+from uictest.report.csv_text import Cell, Table
 from uictest.report.series.wording import series_word
 from uictest.report.wording import definition_sentence
 
@@ -111,3 +111,24 @@ def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
                 **stop.figures.measures,
                 **wheelsets,
             }
+
+
+def series_tables(results: Sequence[SeriesResult]) -> dict[str, Table]:
+    """Return the tables of series by the names of their files: measures, criteria, stops."""
+    return {
+        "series": Table.of(list(measure_rows(results))),
+        "series-criteria": Table.of(list(criterion_rows(results))),
+        "series-stops": Table.of(list(stop_rows(results))),
+    }
+
+
+def series_sheets(results: Sequence[SeriesResult]) -> dict[str, list[Row]]:
+    """Return the rows of the sheets of series by name; none without any series."""
+    if not results:
+        return {}
+    return {
+        "Series": list(series_rows(results)),
+        "Series criteria": list(criterion_rows(results)),
+        "Series measures": list(measure_rows(results)),
+        "Series stops": list(stop_rows(results)),
+    }

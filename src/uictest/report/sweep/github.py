@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from typing import Final
 
 from uictest.report.github import annotation
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.notable import notable_cases
-from uictest.report.sweep.wording import sweep_tally
+from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.wording import notable_cases, sweep_tally
 
 MOST_ANNOTATED: Final = 10
 """GitHub shows ten annotations of one kind per step."""

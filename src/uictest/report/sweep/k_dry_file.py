@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.tail_wording import probability_text, refusal_text, share_text, sliding_words
+from uictest.report.sweep.tail_tables import probability_text, refusal_text, share_text, sliding_words
 from uictest.report.sweep.tails import KDry, KDryLevel
 
 K_DRY_FILE: Final = "k_dry.yaml"
@@ -32,11 +32,11 @@ def _table(table: KDry) -> dict[str, Any]:
         "draws_without_value": table.sample.without_value,
         "draws_sliding": table.sliding,
         **({"note": sliding_words(table)} if table.sliding else {}),
-        "levels": [_level(table, each) for each in table.levels],
+        "levels": [_level_entry(table, each) for each in table.levels],
     }
 
 
-def _level(table: KDry, level: KDryLevel) -> dict[str, Any]:
+def _level_entry(table: KDry, level: KDryLevel) -> dict[str, Any]:
     form = {
         "ebcl": level.ebcl,
         "probability": probability_text(level),

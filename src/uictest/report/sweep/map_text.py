@@ -1,13 +1,92 @@
-"""A map of a sweep as lines of text, folded to the width of the terminal."""
+"""A map of a sweep folded to few rows and columns: as lines of text, and on a sheet."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Final
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
 
-from uictest.report.sweep.folding import MOST_SHOWN, FoldedMap, folded
+from uictest.report.sheet import Styles, width, write_cell
 from uictest.report.sweep.result import MapAxis, SweepMap
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from xlsxwriter.worksheet import Worksheet
+
+
+MOST_SHOWN: Final = 24
+"""Most rows or columns of a map that is read as a whole."""
+
+Fold = list[range]
+"""Places of the values that share a row or a column."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoldedMap:
+    """A map whose rows and columns stand for one or more neighbouring values; cells as in the map."""
+
+    rows: list[Sequence[SweptValue]]
+    columns: list[Sequence[SweptValue]]
+    means: list[list[float | None]]
+    met: list[list[int]]
+    cases: list[list[int]]
+
+
+def fold(values: int, most: int) -> Fold:
+    """Return the places of so many values in at most `most` groups, all but the last of the same size."""
+    size = -(-values // most)
+    return [range(first, min(first + size, values)) for first in range(0, values, size)]
+
+
+def is_large(sweep_map: SweepMap, most: int = MOST_SHOWN) -> bool:
+    """Return whether a map has more rows or columns than `most`."""
+    return any(len(axis.values) > most for axis in (sweep_map.rows, sweep_map.columns))
+
+
+def folded(sweep_map: SweepMap, most_rows: int = MOST_SHOWN, most_columns: int | None = None) -> FoldedMap:
+    """Return a map with at most so many rows and columns (`most_rows` of both unless stated otherwise).
+
+    A cell that stands for several has their cases; its mean is that of the cases in all of them.
+    """
+    rows = fold(len(sweep_map.rows.values), most_rows)
+    columns = fold(len(sweep_map.columns.values), most_columns or most_rows)
+    row_values, column_values = (
+        [axis.values[places.start : places.stop] for places in groups]
+        for axis, groups in ((sweep_map.rows, rows), (sweep_map.columns, columns))
+    )
+    means, met, cases = sweep_map.means, sweep_map.met, sweep_map.cases
+    if len(rows) < len(sweep_map.rows.values) or len(columns) < len(sweep_map.columns.values):
+        means = _folded_means(sweep_map, rows, columns)
+        met, cases = (_summed(counts, rows, columns).tolist() for counts in (met, cases))
+    return FoldedMap(list(row_values), list(column_values), means, met, cases)
+
+
+def _folded_means(sweep_map: SweepMap, rows: Fold, columns: Fold) -> list[list[float | None]]:
+    import numpy as np
+
+    means = np.array(sweep_map.means, float)
+    known = np.where(np.isfinite(means), sweep_map.known or sweep_map.cases, 0)
+    sums = _summed(np.nan_to_num(means) * known, rows, columns)
+    counts = _summed(known, rows, columns)
+    return [
+        [total / count if count else None for total, count in zip(*row, strict=True)]
+        for row in zip(sums.tolist(), counts.tolist(), strict=True)
+    ]
+
+
+def _summed(cells: Any, rows: Fold, columns: Fold) -> NDArray[Any]:
+    import numpy as np
+
+    by_row = np.add.reduceat(np.asarray(cells), [places.start for places in rows], axis=0)
+    return np.add.reduceat(by_row, [places.start for places in columns], axis=1)
+
+
+def short_label(values: Sequence[SweptValue]) -> str:
+    """Return the label of the values of a row or a column, e.g. `0.10 … 0.14`."""
+    first, last = values[0].label, values[-1].label
+    return first if len(values) == 1 else f"{first} … {last}"
+
 
 _SIGNS: Final = "#123456789."
 _GAP: Final = "  "
@@ -79,3 +158,51 @@ def _share_sign(share: float | None) -> str:
         return ""
     # Only what is whole is shown as whole: one case of a thousand that misses must be seen.
     return _SIGNS[0 if share == 0.0 else 10 if share == 1.0 else min(max(round(10.0 * share), 1), 9)]
+
+
+MOST_CELLS: Final = 200
+"""Rows or columns of one map; beyond that neighbours are shown together, and map-*.csv has each."""
+
+_SHARE: Final = {
+    "type": "3_color_scale",
+    "min_type": "num",
+    "mid_type": "num",
+    "max_type": "num",
+    "min_value": 0.0,
+    "mid_value": 0.5,
+    "max_value": 1.0,
+    # Readers with red-green deficiency can distinguish orange from blue.
+    "min_color": "#f0a868",
+    "mid_color": "#f7f7f7",
+    "max_color": "#8fbfe0",
+}
+_MEAN: Final = {"type": "2_color_scale", "min_color": "#ffffff", "max_color": "#9c8fc8"}
+
+
+def write_maps(sheet: Worksheet, maps: Sequence[SweepMap], styles: Styles) -> None:
+    """Write the maps: cases met as a share of one, measures as their mean."""
+    first = 0
+    for sweep_map in maps:
+        shown = folded(sweep_map, MOST_CELLS)
+        write_cell(sheet, first, 0, _title(sweep_map), styles["header"])
+        _write_cells(sheet, first + 1, shown, styles)
+        scale = _SHARE if sweep_map.shows_met else _MEAN
+        sheet.conditional_format(first + 2, 1, first + 1 + len(shown.rows), len(shown.columns), scale)
+        first += len(shown.rows) + 3
+    labels = [value.label for sweep_map in maps for value in sweep_map.rows.values]
+    sheet.set_column(0, 0, width(_title(maps[0]), labels))
+
+
+def _title(sweep_map: SweepMap) -> str:
+    what = "share of cases met" if sweep_map.shows_met else f"mean {sweep_map.measure}"
+    together = "; neighbouring values together" if is_large(sweep_map, MOST_CELLS) else ""
+    return f"{what}: {sweep_map.rows.parameter} down, {sweep_map.columns.parameter} across{together}"
+
+
+def _write_cells(sheet: Worksheet, first: int, shown: FoldedMap, styles: Styles) -> None:
+    """Write the labels in the row `first`, and the cells below it."""
+    for column, values in enumerate(shown.columns, start=1):
+        write_cell(sheet, first, column, short_label(values), styles["header"])
+    for row, (values, means) in enumerate(zip(shown.rows, shown.means, strict=True), start=first + 1):
+        for column, value in enumerate((short_label(values), *means)):
+            write_cell(sheet, row, column, value, None if column else styles["header"])

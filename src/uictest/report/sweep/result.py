@@ -11,8 +11,7 @@ from pydantic import ConfigDict, Field, TypeAdapter
 from uictest.judging import evaluation
 from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
-from uictest.report.sweep.domain import SweepDomain
-from uictest.report.sweep.survey import SurveyStep
+from uictest.report.sweep.limits import SurveyStep, SweepDomain
 from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 

@@ -1,12 +1,14 @@
-"""The result of a sweep as tables: rows for workbooks, and CSV files."""
+"""The result of a sweep as tables: rows for workbooks and their charts, and CSV files."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
-from typing import Final
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Final
 
+from uictest.report.cover_sheet import Cells, Plotted, histogram_chart, line_chart
 from uictest.report.csv_text import Cell, csv_text
+from uictest.report.sheet import columns_of, heading_rows
 from uictest.report.sweep.result import (
     Flip,
     Frontier,
@@ -16,7 +18,13 @@ from uictest.report.sweep.result import (
     SweepResult,
     Trend,
 )
-from uictest.report.sweep.tail_rows import tail_csv_tables
+from uictest.report.sweep.tail_tables import tail_csv_tables
+
+if TYPE_CHECKING:
+    from xlsxwriter import Workbook
+    from xlsxwriter.chart import Chart
+    from xlsxwriter.worksheet import Worksheet
+
 
 TREND_COLUMNS: Final = ("parameter", "value", "measure", "unit", "cases", "minimum", "mean", "maximum")
 _FRONTIER_COLUMNS: Final = ("from", "to", "met_at_from", "flips", "note")
@@ -114,3 +122,50 @@ def _flip_cells(flip: Flip | None) -> dict[str, Cell]:
     if flip is None:
         return {"from": None, "to": None, "met_at_from": None}
     return {"from": flip.low.text, "to": flip.high.text, "met_at_from": flip.met_at_low}
+
+
+SUMMARY_SHEET: Final = "Summary"
+DISTRIBUTIONS_SHEET: Final = "Distributions"
+TRENDS_SHEET: Final = "Trends"
+_ROWS_OF_A_CHART: Final = 17
+
+
+def insert_charts(workbook: Workbook, summary: Worksheet, result: SweepResult) -> None:
+    """Draw the first distribution and the first trend beside the summary; each only where there is one."""
+    charts = [
+        *(_distribution(workbook, result, each) for each in result.distributions[:1]),
+        *(_trend(workbook, each) for each in result.trends[:1]),
+    ]
+    for number, chart in enumerate(charts):
+        summary.insert_chart(1 + number * _ROWS_OF_A_CHART, 9, chart)
+
+
+def _distribution(workbook: Workbook, result: SweepResult, histogram: MeasureHistogram) -> Chart:
+    """Return the cases in each bin, by outcome. The bins are the first rows of their sheet."""
+    columns = columns_of(row for each in result.distributions for row in distribution_rows(each))
+    cells = _first_rows(DISTRIBUTIONS_SHEET, columns, len(histogram.edges) - 1)
+    plotted = [
+        Plotted(outcome, cells[outcome], "good" if outcome == "pass" else "bad")
+        for outcome in histogram.counts
+    ]
+    title = f"Cases by {_words(histogram.measure)}, {histogram.unit} (lower end of each bin)"
+    return histogram_chart(workbook, title, cells["from"], plotted)
+
+
+def _trend(workbook: Workbook, trend: Trend) -> Chart:
+    """Return mean, minimum and maximum at each value. Its rows are the first of their sheet."""
+    cells = _first_rows(TRENDS_SHEET, columns_of(trend_rows(trend)), len(trend.values))
+    plotted = [Plotted("mean", cells["mean"])]
+    plotted += [Plotted(name, cells[name], "odd") for name in ("minimum", "maximum")]
+    title = f"{_words(trend.measure)}, {trend.unit}, over {trend.parameter}"
+    return line_chart(workbook, title, cells["value"], plotted)
+
+
+def _first_rows(sheet: str, columns: Sequence[str], rows: int) -> dict[str, Cells]:
+    """Return the first cells of every column of a table on a sheet, by name."""
+    top = heading_rows(columns)
+    return {name: Cells(sheet, place, top, top + rows - 1) for place, name in enumerate(columns)}
+
+
+def _words(measure: str) -> str:
+    return measure.replace("_", " ")

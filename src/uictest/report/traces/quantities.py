@@ -1,11 +1,14 @@
-"""What is drawn of a stop: the quantities, the panels over time and the loops."""
+"""What is drawn of a stop: the quantities, the panels over time, any channel of a recording."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
 
-from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, PERCENT
+from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, KINDS, PERCENT
 
 WHEELSETS = (1, 2, 3, 4)
 ORDINARY_CREEP = 10.0
@@ -238,3 +241,48 @@ def loop_lines(loop: PlotLoop) -> list[tuple[str, PlotLine]]:
 def panel_lines(panel: Panel) -> tuple[PlotLine, ...]:
     """Return the lines of a panel, the last one in front."""
     return tuple(line for key in panel.quantities for line in lines_of(key))
+
+
+COMPARED = (
+    Panel("speed", "Speed of train (bold) and wheelset", "km/h", ("wheel_speed", "speed"), 1.5),
+    Panel("slide", "Slide", "%", ("slide",), include=(0.0, ORDINARY_CREEP)),
+    Panel("pressure", "Tank pressure", "bar", ("tank_pressure",)),
+    Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
+    Panel("deceleration", "Deceleration", "g", ("deceleration",)),
+    Panel("adhesion", "Adhesion", "dimensionless", ("adhesion",)),
+)
+"""Panels over time from top to bottom; the valves stand below the first."""
+
+
+_KEYS: Final = MappingProxyType({name: key for key in PLOT_QUANTITIES for name in channel_names(key)})
+"""Channel -> its quantity on every page."""
+
+_WHEELSET: Final = re.compile(rf"(.+)_([{WHEELSETS[0]}-{WHEELSETS[-1]}])")
+
+_BY_SI_UNIT: Final = MappingProxyType(
+    {
+        kind.canonical: quantity.unit
+        for quantity in PLOT_QUANTITIES.values()
+        if quantity.scale != 1.0 or quantity.zero != 0.0
+        for kind in KINDS.values()
+        if quantity.unit in kind.units and kind.canonical != "1"
+    }
+)
+"""SI unit -> the unit that every page shows it in; what a pure number is shown in depends on its channel."""
+
+
+def shown_unit(channel: str, unit: str) -> str:
+    """Return the unit in which a page shows a channel that is recorded in `unit`."""
+    if unit == "1" and channel in _KEYS:
+        return PLOT_QUANTITIES[_KEYS[channel]].unit
+    return _BY_SI_UNIT.get(unit, unit)
+
+
+def channel_title(channel: str) -> str:
+    """Return what a channel is called, e.g. `Tank pressure of wheelset 1`; a name that is no phrase stays."""
+    match = _WHEELSET.fullmatch(channel)
+    name, wheelset = match.groups() if match else (channel, "")
+    if not re.fullmatch(r"[a-z][a-z_]*", name):
+        return channel
+    title = name.replace("_", " ").capitalize()
+    return f"{title} of wheelset {wheelset}" if wheelset else title

@@ -1,4 +1,4 @@
-"""What the plots of one stop are drawn from: a recording in the engineer's units, thinned out."""
+"""What the plots of one stop are drawn from: a recording in the engineer's units."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from uictest.core import recording
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.judging import evaluation
-from uictest.report.traces.extremes import thinned
-from uictest.report.traces.fault_spans import FaultSpan, fault_spans
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import (
     LOOPS,
@@ -22,6 +20,60 @@ from uictest.report.traces.quantities import (
     channel_names,
     loop_lines,
 )
+
+Samples = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+
+def extremes(columns: Samples, y: Samples) -> Rows:
+    """Return the rows that hold the smallest and the largest y of every column, in their order.
+
+    Args:
+        columns: the column of each sample, never falling; shape (n,), n > 0.
+        y: samples, shape (n,). Of a column with missing samples (NaN) one of these is kept, too: a line
+            through the rows has its gap there.
+
+    """
+    starts = np.flatnonzero(np.diff(columns, prepend=columns[0] - 1))
+    lasts = np.append(starts[1:], len(columns)) - 1
+    column = np.repeat(np.arange(len(starts)), lasts - starts + 1)
+    rising = np.lexsort((y, column))  # missing samples last
+    falling = np.lexsort((-y, column))
+    gaps = np.where(np.isnan(y[rising[lasts]]), rising[lasts], rising[starts])
+    return np.unique(np.concatenate([rising[starts], falling[starts], gaps]))
+
+
+def thinned(y: Samples, bins: int) -> Rows:
+    """Return the rows of a series to be drawn: both ends, and the extremes of at most `bins` equal parts."""
+    parts = np.arange(len(y), dtype=np.float64) // -(-len(y) // bins)
+    return np.union1d(extremes(parts, y), [0, len(y) - 1])
+
+
+@dataclass(frozen=True, slots=True)
+class FaultSpan:
+    """A stretch of a stop in which one fault was active: its label, first and last time in s."""
+
+    label: str
+    start: float
+    end: float
+
+
+def fault_spans(record: recording.Recording) -> tuple[FaultSpan, ...]:
+    """Return when each fault was active, as far as the samples tell; none where no faults were recorded."""
+    labels = record.metadata.get("faults", "")
+    if not labels or "active_faults" not in record.channels:
+        return ()
+    return tuple(
+        span for place, label in enumerate(labels.split(", ")) for span in _spans(record, label, 1 << place)
+    )
+
+
+def _spans(record: recording.Recording, label: str, bit: int) -> Iterator[FaultSpan]:
+    time, active = record["time"], record["active_faults"].astype(np.int64) & bit != 0
+    ends = np.flatnonzero(np.diff(active, prepend=False, append=False))
+    for first, after in ends.reshape(-1, 2).tolist():
+        yield FaultSpan(label, float(time[first]), float(time[min(after, len(time) - 1)]))
+
 
 BINS = 800
 """Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""

@@ -11,7 +11,7 @@ from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 RunStop = Callable[..., int]
 """:func:`uictest.rig.model.stop.run_stop` made for one controller, plain or compiled."""

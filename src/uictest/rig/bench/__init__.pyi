@@ -1,21 +1,20 @@
 from .applied import bench_input as bench_input
 from .identified_air import identify_air as identify_air
-from .identified_case import identified as identified
-from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS
-from .inputs import (
-    BenchInput as BenchInput,
-    Clock as Clock,
-    bypassed_input as bypassed_input,
-    joined_inputs as joined_inputs,
-    recorded_input as recorded_input,
-)
-from .loading import (
+from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS, identified as identified
+from .recipe import (
+    BenchRecipe as BenchRecipe,
     BenchTest as BenchTest,
     load_bench as load_bench,
     recipe_names as recipe_names,
     recipe_path as recipe_path,
     trace_recipe as trace_recipe,
 )
-from .recipe import BenchRecipe as BenchRecipe
-from .rig import clock_of as clock_of
+from .rig import (
+    BenchInput as BenchInput,
+    Clock as Clock,
+    bypassed_input as bypassed_input,
+    clock_of as clock_of,
+    joined_inputs as joined_inputs,
+    recorded_input as recorded_input,
+)
 from .run import run_bench as run_bench, run_test as run_test

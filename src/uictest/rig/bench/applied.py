@@ -6,18 +6,8 @@ from pathlib import Path
 from uictest.core.units import BAR
 from uictest.plans.scenario import Case
 from uictest.rig import identification
-from uictest.rig.bench.inputs import (
-    BenchInput,
-    Clock,
-    joined_inputs,
-    random_input,
-    recorded_input,
-    stepwise_input,
-    triangular_input,
-    wsp_cycling_input,
-)
-from uictest.rig.bench.loading import BenchTest
 from uictest.rig.bench.recipe import (
+    BenchTest,
     FileReplay,
     Input,
     Random,
@@ -27,7 +17,17 @@ from uictest.rig.bench.recipe import (
     Triangular,
     WspCycling,
 )
-from uictest.rig.bench.rig import clock_of
+from uictest.rig.bench.rig import (
+    BenchInput,
+    Clock,
+    clock_of,
+    joined_inputs,
+    random_input,
+    recorded_input,
+    stepwise_input,
+    triangular_input,
+    wsp_cycling_input,
+)
 from uictest.rig.simulation import simulate
 
 

@@ -27,7 +27,7 @@ from uictest.rig.model.wheelset_parameters import (
     WheelsetParameters,
     copy_wheelset_parameters,
 )
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 Samples = NDArray[np.float64]
 _NAME = "uictest_modelled_pressure"

@@ -22,7 +22,7 @@ from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.opened import opened
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 
 class BlockRun(NamedTuple):

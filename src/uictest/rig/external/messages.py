@@ -1,9 +1,24 @@
-"""Messages between this process and a child: a JSON object and some blocks of bytes, with their lengths."""
+"""What a child process is told and answers, as messages: stops, drives, controllers."""
 
 import json
 import struct
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any, BinaryIO, Final, NamedTuple
+
+import numpy as np
+
+from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerProgram
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.finished_stop import FinishedStop
+from uictest.rig.external.block import BlockInputs, BlockRun
+from uictest.rig.external.drive import Driven, DriveRequest, Drives
+from uictest.rig.model.friction_law import ROWS
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.state import CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.noise_key import StopInputs
 
 _COUNT: Final = struct.Struct("<I")
 _LENGTH: Final = struct.Struct("<Q")
@@ -58,3 +73,136 @@ def _exactly(stream: BinaryIO, size: int) -> bytes:
     if len(content) != size:
         raise StreamEndedError
     return content
+
+
+def written_controllers(
+    programs: Sequence[ControllerProgram | None], configs: Sequence[Config | None]
+) -> list[dict[str, Any]]:
+    """Return programs and what each is given before a stop, in the form of JSON."""
+    return [
+        {"program": asdict(program), "config": asdict(config)}
+        for program, config in zip(programs, configs, strict=True)
+        if program is not None and config is not None
+    ]
+
+
+def read_controller(form: dict[str, Any]) -> tuple[ControllerProgram, Config]:
+    """Return one of them."""
+    config = form["config"] | {"wheel_radius": tuple(form["config"]["wheel_radius"])}
+    return ControllerProgram(**form["program"]), Config(**config)
+
+
+def bytes_of(records: Sequence[Any]) -> tuple[bytes, ...]:
+    """Return the bytes of records or arrays."""
+    return tuple(np.ascontiguousarray(each).tobytes() for each in records)
+
+
+def drive_message(request: DriveRequest) -> Message:
+    """Return what a controller is driven through as a message."""
+    head = {
+        "request": "drive",
+        "controllers": written_controllers([request.program], [request.config]),
+        "beginnings": list(request.beginnings),
+    }
+    return Message(head, bytes_of([request.inputs]))
+
+
+def drive_request_of(message: Message) -> DriveRequest:
+    """Return what a controller is driven through from its message."""
+    program, config = read_controller(message.head["controllers"][0])
+    return DriveRequest(
+        program,
+        config,
+        np.frombuffer(message.blocks[0], INPUTS),
+        message.head["beginnings"],
+    )
+
+
+def drives_message(drives: Drives) -> Message:
+    """Return what a controller has answered as a message."""
+    records = [each for driven in drives.drives for each in driven]
+    return Message({"version": drives.version}, bytes_of(records))
+
+
+def drives_of(message: Message) -> Drives:
+    """Return what a controller has answered from its message."""
+    pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
+    drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
+    return Drives(message.head["version"], tuple(drives))
+
+
+_STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
+
+
+def stop_message(inputs: StopInputs, steps_per_sample: int) -> Message:
+    """Return a stop with a controller from outside as a message."""
+    records = inputs.parameters, inputs.wheelset_parameters, inputs.rail
+    head = {
+        "request": "stop",
+        "steps_per_sample": steps_per_sample,
+        "controllers": written_controllers([inputs.program], [inputs.config]),
+    }
+    return Message(head, bytes_of(records))
+
+
+def stop_of(message: Message) -> tuple[StopInputs, int]:
+    """Return the stop in a message, and the base steps from one sample of its trace to the next."""
+    inputs = block_of(message)
+    first = inputs.parameters[0], inputs.wheelset_parameters[0], inputs.rail[0]
+    return StopInputs(*first, inputs.programs[0], inputs.configs[0]), message.head["steps_per_sample"]
+
+
+def finished_message(finished: FinishedStop) -> Message:
+    """Return what a stop leaves as a message."""
+    own = finished.measures, finished.wheelset_measures, finished.car, finished.wheelsets
+    head = {"controller_version": finished.controller_version}
+    return Message(head, bytes_of((*own, *finished.trace)))
+
+
+def finished_of(message: Message) -> FinishedStop:
+    """Return what a stop has left."""
+    arrays: list[Any] = [np.frombuffer(*each) for each in zip(message.blocks, _STOP, strict=True)]
+    measures, wheelset_measures, car, wheelsets, train, samples = arrays
+    return FinishedStop(
+        measures[0],
+        wheelset_measures.view(np.recarray),
+        car[0],
+        wheelsets.view(np.recarray),
+        Trace(train, samples.reshape(-1, 4)),
+        message.head["controller_version"],
+    )
+
+
+def block_message(inputs: BlockInputs) -> Message:
+    """Return stops that all have controllers from outside as a message."""
+    head = {"request": "block", "controllers": written_controllers(inputs.programs, inputs.configs)}
+    return Message(head, bytes_of((inputs.parameters, inputs.wheelset_parameters, inputs.rail)))
+
+
+def block_of(message: Message) -> BlockInputs:
+    """Return the stops in a message."""
+    parameters, wheelset_parameters, rail = message.blocks
+    programs, configs = zip(*map(read_controller, message.head["controllers"]), strict=True)
+    count = len(programs)
+    return BlockInputs(
+        programs,
+        configs,
+        np.frombuffer(bytearray(parameters), PARAMETERS),
+        np.frombuffer(bytearray(wheelset_parameters), WHEELSET_PARAMETERS).reshape(count, 4),
+        np.frombuffer(rail).reshape(count, ROWS, -1),
+    )
+
+
+def run_message(run: BlockRun) -> Message:
+    """Return what stops leave as a message."""
+    return Message({"failures": run.failures}, bytes_of((run.measures, run.wheelset_measures)))
+
+
+def run_of(message: Message) -> BlockRun:
+    """Return what stops have left."""
+    measures, wheelset_measures = message.blocks
+    return BlockRun(
+        np.frombuffer(measures, STOP_MEASURES),
+        np.frombuffer(wheelset_measures, WHEELSET_MEASURES).reshape(-1, 4),
+        message.head["failures"],
+    )

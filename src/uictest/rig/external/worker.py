@@ -28,16 +28,20 @@ from uictest.controllers import (
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.drive import DriveRequest, Drives
-from uictest.rig.external.drive_messages import drive_message, drives_of
 from uictest.rig.external.messages import (
     BrokenMessageError,
     Message,
     StreamEndedError,
+    block_message,
+    drive_message,
+    drives_of,
+    finished_of,
     read_message,
+    run_of,
+    stop_message,
     write_message,
 )
-from uictest.rig.external.stop_messages import block_message, finished_of, run_of, stop_message
-from uictest.rig.stop_inputs import StopInputs
+from uictest.rig.noise_key import StopInputs
 
 LARGEST_BLOCK: Final = 256
 """Most stops that a child runs at once."""
@@ -51,7 +55,7 @@ IDLE_LIMIT: Final = 300.0
 between two cycles the rig takes microseconds."""
 _LONGEST_WAIT: Final = 0.1
 """Time between two looks at a child that has not answered, s; chosen."""
-_CHILD: Final = "uictest.rig.external.guard"
+_CHILD: Final = "uictest.rig.external.child"
 _NAMES: Final = {
     STEPPING: "step",
     OPENING: "loading, create or reset",

@@ -1,4 +1,3 @@
-from .air import AirResult as AirResult
 from .channels import (
     AS_BUILT as AS_BUILT,
     RecordedChannels as RecordedChannels,
@@ -24,16 +23,17 @@ from .hysteresis import (
     identify_hysteresis as identify_hysteresis,
     require_force_fit as require_force_fit,
 )
-from .listed_rig import is_of_one_rig as is_of_one_rig
-from .phases import (
+from .lines import (
     on_lines as on_lines,
     wsp_acting_from_commands as wsp_acting_from_commands,
     wsp_acting_in_intervals as wsp_acting_in_intervals,
 )
 from .result_text import (
+    AirResult as AirResult,
     air_text as air_text,
     cylinder_text as cylinder_text,
     hysteresis_text as hysteresis_text,
+    is_of_one_rig as is_of_one_rig,
 )
 from .suitability import (
     UnsuitableRecordError as UnsuitableRecordError,

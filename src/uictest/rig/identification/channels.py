@@ -14,7 +14,7 @@ from uictest.core import recording
 from uictest.core.physics import FILL, HOLD, VENT
 from uictest.core.recording import ORIGIN, TIME, formats
 from uictest.core.units import KINDS
-from uictest.rig.identification.arrays import Samples
+from uictest.rig.identification.lines import Samples
 from uictest.rig.identification.suitability import UnsuitableRecordError, require_finite
 
 _SI = {"pressure": "Pa", "force": "N"}

@@ -13,13 +13,13 @@ import yaml
 from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 from uictest.plans.scenario import RIG_SOURCE, Compensation, Files, Parts, Roots
 from uictest.plans.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
-from uictest.rig.identification.air import AirResult
 from uictest.rig.identification.cylinder import CylinderResult
 from uictest.rig.identification.hysteresis import HysteresisResult, all_four
 from uictest.rig.identification.lines import FittedLine
-from uictest.rig.identification.listed_rig import (
+from uictest.rig.identification.result_text import (
     RIG_DESCRIBED,
     TOLERANCES_OF,
+    AirResult,
     Numbers,
     is_of_one_rig,
     listed_rig,

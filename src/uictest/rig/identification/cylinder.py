@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.rig.identification.applications import applications
-from uictest.rig.identification.arrays import Mask, Samples
+from uictest.rig.identification.lines import Mask, Samples
 from uictest.rig.identification.output_error import FitSegment, free_weights, refined
 from uictest.rig.identification.suitability import (
     UnsuitableRecordError,
+    applications,
     held_out,
     required_sampling_time,
 )

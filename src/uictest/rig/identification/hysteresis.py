@@ -11,10 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.rig.identification.arrays import Mask, Samples
-from uictest.rig.identification.lines import FittedLine, robust_line
-from uictest.rig.identification.phases import on_lines
-from uictest.rig.identification.play import computed_force
+from uictest.rig.identification.lines import FittedLine, Mask, Samples, computed_force, on_lines, robust_line
 from uictest.rig.identification.suitability import (
     UnsuitableRecordError,
     held_out,
@@ -89,7 +86,7 @@ def identify_hysteresis(
         time: s, evenly sampled.
         pressure: gauge pressure of the brake cylinder, Pa.
         force: recorded clamping force, N.
-        wsp_acting: when the WSP acts; see :mod:`uictest.rig.identification.phases`.
+        wsp_acting: when the WSP acts; see :mod:`uictest.rig.identification.lines`.
         transition_time: time of the transition from one pair of lines to the other, s.
         held_out_share: share of the record that is excluded from the fit and gives the errors.
 

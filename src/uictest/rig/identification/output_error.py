@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.rig.identification.arrays import Mask, Samples
+from uictest.rig.identification.lines import Mask, Samples
 from uictest.rig.identification.transfer_function import Poles, basis
 
 Weigh = Callable[[Samples, Samples, Callable[[], Samples]], tuple[float, Samples]]

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.rig.identification.arrays import Samples
+from uictest.rig.identification.lines import Samples
 
 Poles = NDArray[np.float64]
 """Logarithms of T in s, alpha in s and beta in s^2."""

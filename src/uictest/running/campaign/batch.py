@@ -1,4 +1,4 @@
-"""Run many cases on threads. The compiled rig releases the interpreter's lock."""
+"""Run many cases on threads; the compiled rig releases the interpreter's lock."""
 
 from __future__ import annotations
 
@@ -8,10 +8,55 @@ from dataclasses import dataclass, field, replace
 from uictest import controllers, rig
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.running.campaign.case import CaseRun, RecordingRequest, run_case
-from uictest.running.campaign.parts import PartsOfCases, with_domain, with_parts
-from uictest.running.campaign.repeats import CaseAssembly, Stop, StopRun, run_repeat, stops_of
+from uictest.rig import bench
+from uictest.running.campaign.case import (
+    CaseAssembly,
+    CaseRun,
+    RecordingRequest,
+    Stop,
+    StopRun,
+    run_case,
+    run_repeat,
+    stops_of,
+)
 from uictest.running.campaign.threaded_map import ThreadedMap
+
+PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
+"""Case id -> role -> part."""
+
+
+def parts_of_cases(cases: Sequence[scenario.Case]) -> PartsOfCases:
+    """Return the parts of simulated stops; a part that many cases share is computed once.
+
+    A compensation that is to be identified is: those parts are what the stop is run with.
+    """
+    effective = evaluation.EffectiveParts()
+    return {case.id: effective.of(_as_run(case).scenario) for case in cases}
+
+
+def _as_run(case: scenario.Case) -> scenario.Case:
+    try:
+        return bench.identified(case)
+    except ValueError:  # nothing can be identified: the stop says why
+        return case
+
+
+def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:
+    """Return the parts that recorded stops are judged with: conditions, measures and criteria, no rig."""
+    effective = evaluation.EffectiveParts()
+    return {case.id: effective.of_recorded(case.scenario) for case in cases}
+
+
+def with_parts(case_run: CaseRun, parts: PartsOfCases) -> CaseRun:
+    """Return the run of a case with its parts in the result."""
+    result = case_run.result
+    return replace(case_run, result=replace(result, parts=parts.get(result.id, {})))
+
+
+def with_domain(case_run: CaseRun, domains: Mapping[str, evaluation.DomainOfValidity]) -> CaseRun:
+    """Return the run of a case with what is known of it and of the domain of a validation in the result."""
+    result = case_run.result
+    return replace(case_run, result=replace(result, domain_of_validity=domains.get(result.id)))
 
 
 @dataclass(slots=True)

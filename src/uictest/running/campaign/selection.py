@@ -2,10 +2,101 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 
 from uictest.plans import scenario
-from uictest.running.campaign.expression import parse
+
+Matches = Callable[[str], bool]
+"""Whether a case matches one word."""
+
+Expression = Callable[[Matches], bool]
+
+_TOKEN = re.compile(r"\s*([()]|[^\s()]+)")
+_DEEPEST = 50
+
+
+class ExpressionError(ValueError):
+    """A selection expression that cannot be read; the message says where and what was expected."""
+
+
+def parse(text: str) -> Expression:
+    """Return the predicate that an expression stands for; an empty expression matches everything.
+
+    `not` binds closer than `and`, `and` closer than `or`. Raises ExpressionError.
+    """
+    tokens = [(match.group(1), match.start(1) + 1) for match in _TOKEN.finditer(text)]
+    if not tokens:
+        return lambda matches: True
+    return _Reader(tokens, end=len(text) + 1).expression()
+
+
+class _Reader:
+    """Reads tokens from left to right, one method per rule of the grammar."""
+
+    def __init__(self, tokens: list[tuple[str, int]], end: int) -> None:
+        self._tokens = tokens
+        self._end = end
+        self._next = 0
+        self._depth = 0
+
+    def expression(self) -> Expression:
+        result = self._either()
+        if self._peek() is not None:
+            raise self._unexpected("'and', 'or' or the end")
+        return result
+
+    def _either(self) -> Expression:
+        parts = [self._both()]
+        while self._accept("or"):
+            parts.append(self._both())
+        return parts[0] if len(parts) == 1 else lambda matches: any(part(matches) for part in parts)
+
+    def _both(self) -> Expression:
+        parts = [self._negated()]
+        while self._accept("and"):
+            parts.append(self._negated())
+        return parts[0] if len(parts) == 1 else lambda matches: all(part(matches) for part in parts)
+
+    def _negated(self) -> Expression:
+        negations = 0
+        while self._accept("not"):
+            negations += 1
+        operand = self._operand()
+        return (lambda matches: not operand(matches)) if negations % 2 else operand
+
+    def _operand(self) -> Expression:
+        if self._accept("("):
+            return self._enclosed()
+        word = self._peek()
+        if word is None or word in (")", "and", "or"):
+            raise self._unexpected("a word, 'not' or '('")
+        self._next += 1
+        return lambda matches: matches(word)
+
+    def _enclosed(self) -> Expression:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise ExpressionError(f"more than {_DEEPEST} parentheses inside each other")
+        inner = self._either()
+        if not self._accept(")"):
+            raise self._unexpected("')'")
+        self._depth -= 1
+        return inner
+
+    def _peek(self) -> str | None:
+        return self._tokens[self._next][0] if self._next < len(self._tokens) else None
+
+    def _accept(self, token: str) -> bool:
+        accepted = self._peek() == token
+        self._next += accepted
+        return accepted
+
+    def _unexpected(self, expected: str) -> ExpressionError:
+        if self._next == len(self._tokens):
+            return ExpressionError(f"at column {self._end}: expected {expected}, found the end")
+        word, column = self._tokens[self._next]
+        return ExpressionError(f"at column {column}: expected {expected}, found {word!r}")
 
 
 def by_expression(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:

@@ -1,13 +1,19 @@
-"""Apply a function to many arguments on several threads, with results in the order of the arguments."""
+"""Apply a function to many arguments on several threads, with results in order."""
 
 from __future__ import annotations
 
+import math
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import islice
 from types import TracebackType
 from typing import Generic, TypeVar
+
+from uictest import rig
+from uictest.core import recording
+from uictest.plans import scenario
+from uictest.rig import bench
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -83,3 +89,20 @@ def map_on_threads(
     """Yield the result of `work` for each argument, computed on `jobs` threads, in the order given."""
     with ThreadedMap(work, arguments, jobs=jobs) as results:
         yield from results
+
+
+def shortest_cycle(cases: Iterable[scenario.Case]) -> float:
+    """Return the shortest controller cycle of cases, s: a recording at this interval has every command."""
+    return min((float(case.scenario.controller.cycle_time) for case in cases), default=math.inf)
+
+
+def replay(
+    cases: Sequence[scenario.Case], *, every: float, jobs: int
+) -> Iterator[tuple[scenario.Case, recording.Recording]]:
+    """Yield each case with its recording, a sample `every` so many seconds, in the order of the cases."""
+    stops = map_on_threads(
+        lambda case: rig.simulate(bench.identified(case), record_every=every), cases, jobs=jobs
+    )
+    for case, stop in zip(cases, stops, strict=True):
+        if stop.recording is not None:
+            yield case, stop.recording

@@ -1,5 +1,7 @@
 from .case_selection import (
     CaseSelection as CaseSelection,
+    Shard as Shard,
+    parse_shard as parse_shard,
     select_cases as select_cases,
 )
 from .chunk import (
@@ -19,23 +21,17 @@ from .manifest import (
     sweep_manifest as sweep_manifest,
 )
 from .scenario_function import ScenarioVariants as ScenarioVariants
-from .shard import (
-    Shard as Shard,
-    parse_shard as parse_shard,
-)
 from .store import (
     ChangedInputsError as ChangedInputsError,
     ChunkStore as ChunkStore,
     MissingChunksError as MissingChunksError,
 )
-from .survey import (
-    SURVEY_TABLE as SURVEY_TABLE,
-    survey_step as survey_step,
-)
 from .table import (
+    SURVEY_TABLE as SURVEY_TABLE,
     measure_columns as measure_columns,
     number_column as number_column,
     repeated_cases as repeated_cases,
+    survey_step as survey_step,
     text_column as text_column,
     wheelset_columns as wheelset_columns,
 )

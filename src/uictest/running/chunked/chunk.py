@@ -18,8 +18,7 @@ from uictest.plans.sweeps import Plan, in_survey_steps
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock
 from uictest.running.chunked.case_selection import CaseSelection
-from uictest.running.chunked.survey import biases_by_measure
-from uictest.running.chunked.table import REPEATED_TEXTS, rows
+from uictest.running.chunked.table import REPEATED_TEXTS, biases_by_measure, rows
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -16,7 +16,7 @@ from uictest.plans import library
 from uictest.plans.scenario import SURVEY
 from uictest.report import SWEEP_MANIFEST_SCHEMA, named_parts
 from uictest.running.chunked.case_selection import CaseSelection
-from uictest.running.chunked.survey import SURVEY_TABLE
+from uictest.running.chunked.table import SURVEY_TABLE
 
 SCHEMA: Final = SWEEP_MANIFEST_SCHEMA
 SOURCES: Final = (*("core", "controllers", "plans", "judging", "rig", "running"),)

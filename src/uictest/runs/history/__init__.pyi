@@ -1,6 +1,6 @@
 from .entry import ENTRY as ENTRY, write_entry as write_entry
-from .index_file import INDEX as INDEX, is_own_index as is_own_index, refresh_index as refresh_index
 from .listing import Listing as Listing, list_runs as list_runs
+from .page import INDEX as INDEX, is_own_index as is_own_index, refresh_index as refresh_index
 from .pruning import Pruned as Pruned, prune as prune
 from .run_in_folder import (
     Kind as Kind,

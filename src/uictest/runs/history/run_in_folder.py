@@ -12,16 +12,20 @@ from typing import Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationError
 
 from uictest import report
-from uictest.runs.history.checked_file import (
+from uictest.runs.history.entry import (
+    ENTRY,
+    CaseEntry,
+    RunEntry,
     UnreadableError,
     bytes_of,
+    entry_of,
     exists,
     first_problem,
     json_object,
+    read_entry,
     require_file,
     shown,
 )
-from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
 
 Kind = Literal["run", "evaluate", "sweep", "fit", "validation", "studies"]
 """What wrote a folder: a command, or a fit, a validation, the studies."""

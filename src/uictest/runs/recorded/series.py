@@ -7,9 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from uictest.plans import series
-from uictest.runs.invalid_input import InvalidInputError
 from uictest.runs.recorded.files import RecordedFile, named_map, read_files
-from uictest.runs.scenario_files import load_series
+from uictest.runs.scenario_files import InvalidInputError, load_series
 
 
 def read_recorded_series(

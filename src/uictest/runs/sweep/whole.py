@@ -1,18 +1,22 @@
-"""A sweep from its lock to its published results."""
+"""A sweep from its lock to its published results, and what it is asked for besides its cases."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from uictest import controllers, rig
+from uictest.analysis import summaries
 from uictest.core import files
+from uictest.plans import sweeps
+from uictest.plans.scenario import yaml
 from uictest.plans.sweeps import programs_of
+from uictest.running import chunked
 from uictest.running.chunked import ChunkStore
-from uictest.runs.invalid_input import InvalidInputError
-from uictest.runs.sweep.observer import SweepObserver
+from uictest.runs.scenario_files import InvalidInputError
 from uictest.runs.sweep.publishing import FinishedSweep, publish
-from uictest.runs.sweep.run import SweepRun, run_missing_chunks
+from uictest.runs.sweep.run import SweepObserver, SweepRun, run_missing_chunks
 
 
 def run_sweep(run: SweepRun, observer: SweepObserver) -> FinishedSweep | None:
@@ -54,3 +58,40 @@ def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
             f"{folder} is in use by {error}: wait until it ends, or name another output folder",
             arguments=("output",),
         ) from error
+
+
+class ToleranceError(ValueError):
+    """A tolerance of a frontier that is no number with a unit."""
+
+
+def first_pair(plan: sweeps.Plan) -> tuple[str, str] | None:
+    """Return the first two parameters with several listed values, None without two of them."""
+    listed = [key for key, values in plan.listed().items() if len(values) > 1]
+    return (listed[0], listed[1]) if len(listed) > 1 else None
+
+
+def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
+    """Return columns of measures, else the braking distance. Raises ValueError for another name."""
+    columns = chunked.measure_columns()
+    for name in names or ():
+        if name not in columns:
+            raise ValueError(f"no measure {name!r}; {yaml.suggestion(name, columns)}")
+    return tuple(dict.fromkeys(names or ("braking_distance_m",)))
+
+
+def frontier_search(
+    plan: sweeps.Plan, key: str | None, tolerance: str | None
+) -> summaries.FrontierSearch | None:
+    """Return the search of a frontier along a parameter.
+
+    Raises FrontierError for the parameter, ToleranceError for the tolerance.
+    """
+    if key is None:
+        return None
+    try:
+        width = None if tolerance is None else sweeps.parse_decimal_quantity(tolerance)
+        return summaries.FrontierSearch(plan, key, width)
+    except summaries.FrontierError:
+        raise
+    except ValueError as error:
+        raise ToleranceError(str(error)) from error

@@ -8,8 +8,7 @@ from typing import Any, Final
 from xml.etree import ElementTree
 
 from uictest.report import TableColumn, aligned, columns_not_shown, fitted, printable, xml_text
-from uictest.selftest.conformance.examination import Examination
-from uictest.selftest.conformance.finding import Finding
+from uictest.selftest.conformance.examination import Examination, Finding
 
 SCHEMA: Final = "uictest/conformance/1"
 

@@ -6,8 +6,8 @@ from functools import partial
 
 from uictest.core.units import KILONEWTON, PERCENT
 from uictest.studies.figures.levels import draw
+from uictest.studies.phases import loops, slope_spread, slopes_table
 from uictest.studies.quantity import OwnBand, StudyQuantity, StudyValue
-from uictest.studies.slopes import loops, slope_spread, slopes_table
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings
 

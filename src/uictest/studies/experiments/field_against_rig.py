@@ -7,11 +7,17 @@ from functools import partial
 
 from uictest.studies.field.families import FAMILIES
 from uictest.studies.field.field_rig import FieldRig
-from uictest.studies.field.notes import notes, simplest
 from uictest.studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop
 from uictest.studies.field.search import Trial, closest, search
 from uictest.studies.field.single import one_at_a_time
-from uictest.studies.field.tables import families_table, singles_table, stop_table, trials_table
+from uictest.studies.field.tables import (
+    families_table,
+    notes,
+    simplest,
+    singles_table,
+    stop_table,
+    trials_table,
+)
 from uictest.studies.figures.field_against_rig import draw
 from uictest.studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, StudyValue
 from uictest.studies.stop_runner import StopRunner

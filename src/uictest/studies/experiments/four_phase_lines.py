@@ -13,9 +13,8 @@ from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 from uictest.rig import identification
 from uictest.studies.figures.four_phase_lines import draw
 from uictest.studies.judged_conditions import judged_conditions
-from uictest.studies.line_errors import LineErrors, held_out_errors
 from uictest.studies.model_errors import UNITS_OF_ERRORS
-from uictest.studies.phases import TITLES, identified_lines, on_phases
+from uictest.studies.phases import TITLES, LineErrors, held_out_errors, identified_lines, on_phases
 from uictest.studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, StudyValue, spread
 from uictest.studies.replay import CYCLE, replayed_in_turn
 from uictest.studies.stop_runner import StopRunner

@@ -11,9 +11,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.units import PERCENT
-from uictest.studies.actuations import APART, Counts, counts, in_bands, in_order, mean_counts
 from uictest.studies.figures.robustness import draw_points, draw_sweep
-from uictest.studies.neighbourhood import FOUR_CALIPER, SEEDS, Point, friction_sweep, neighbourhood
+from uictest.studies.neighbourhood import (
+    APART,
+    FOUR_CALIPER,
+    SEEDS,
+    Counts,
+    Point,
+    counts,
+    friction_sweep,
+    in_bands,
+    in_order,
+    mean_counts,
+    neighbourhood,
+)
 from uictest.studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from uictest.studies.stop_runner import StopRunner
 from uictest.studies.study import Study, StudyFindings, Table
@@ -80,7 +91,7 @@ class SweptFriction:
 
     Attributes:
         friction: as written.
-        counts: by the names of :data:`~uictest.studies.actuations.COUNTED`.
+        counts: by the names of :data:`~uictest.studies.neighbourhood.COUNTED`.
         in_order: whether the order holds with `full`, and with `thermal`, by setting.
         in_bands: whether the paper's three counts lie in their bands.
     """

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from uictest.studies.actuations import BANDS, COUNTED, PAPER, counts
 from uictest.studies.figures.valve_actuations import ActuationPanel, draw
-from uictest.studies.neighbourhood import FOUR_CALIPER
+from uictest.studies.neighbourhood import BANDS, COUNTED, FOUR_CALIPER, PAPER, counts
 from uictest.studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, repeats_note, spread
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner

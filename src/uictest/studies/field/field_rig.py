@@ -11,7 +11,7 @@ import numpy as np
 from uictest import rig
 from uictest.core.recording import Recording
 from uictest.plans.scenario import Case, FrictionProfile
-from uictest.studies.field.assumptions import DRY, Assumptions, Brake
+from uictest.studies.field.families import DRY, Assumptions, Brake
 from uictest.studies.field.real_train import INITIAL_SPEED, REAL_TRAIN, FieldStop
 from uictest.studies.replay import CYCLE
 from uictest.studies.stop_runner import StopRunner, seeded

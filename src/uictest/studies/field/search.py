@@ -10,8 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.studies.field.assumptions import SHAPES, Assumptions
-from uictest.studies.field.families import CARRY_OVERS, FAMILIES, Family
+from uictest.studies.field.families import CARRY_OVERS, FAMILIES, SHAPES, Assumptions, Family
 from uictest.studies.field.field_rig import FieldRig
 from uictest.studies.field.real_train import FieldStop
 

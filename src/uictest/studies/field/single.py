@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Final
 
-from uictest.studies.field.assumptions import Assumptions
+from uictest.studies.field.families import Assumptions
 from uictest.studies.field.field_rig import FieldRig
 from uictest.studies.field.real_train import FieldStop
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from uictest.core.units import BAR, KILONEWTON
 from uictest.studies.figures.style import MUTED, PHASES, WIDTH, from_zero
-from uictest.studies.phases import TITLES
-from uictest.studies.slopes import Loop
+from uictest.studies.phases import TITLES, Loop
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.studies.actuations import BANDS, PAPER, Counts
 from uictest.studies.figures.style import BAND, INK, MUTED, SETTINGS, WIDTH, from_zero, title_and_legend
+from uictest.studies.neighbourhood import BANDS, PAPER, Counts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

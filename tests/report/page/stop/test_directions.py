@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, strategies as st
 from hypothesis.extra.numpy import arrays
 
-from uictest.report.page.stop.directions import REVERSAL, pieces
+from uictest.report.page.stop.polyline import REVERSAL, pieces
 
 
 def test_a_cycle_rises_and_falls() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.page.stop.packing import packed, script_json
+from uictest.report.page.stop.overlay_view import packed, script_json
 from uictest.report.traces.trace import Curve
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.page.sweep.number_axis import NumberAxis, spanned
+from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
 
 
 def test_equal_ratios_are_equally_long() -> None:

@@ -9,7 +9,7 @@ from markdown_it import MarkdownIt
 
 from uictest.judging.evaluation import CaseResult
 from uictest.report.github import LIMIT
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown
 
 MakeResult = Callable[..., CaseResult]

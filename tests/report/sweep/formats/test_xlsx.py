@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.judging.evaluation import CaseResult
-from uictest.report.sweep.content import SweepContent
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 
 openpyxl = pytest.importorskip("openpyxl")

@@ -32,7 +32,7 @@ def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedCompari
             raise ValueError(f"no case or series has a value of {key!r}; {hint}they differ in: {listed}")
     variants = list(dict.fromkeys(variant for each in parameters if (variant := _variant(each, keys))))
     if len(variants) < 2:
-        raise ValueError(f"there is one variant only, {_name(variants[0])}")
+        raise ValueError(f"there is one variant only, {_variant_name(variants[0])}")
     first, *others = (_side(run, variant, keys) for variant in variants)
     return [compare_sides(first, other, keys) for other in others]
 
@@ -43,11 +43,11 @@ def _variant(parameters: Mapping[str, str], keys: Sequence[str]) -> Variant:
 
 def _side(run: RunContent, variant: Variant, keys: Sequence[str]) -> Side:
     return Side(
-        _name(variant),
+        _variant_name(variant),
         [case for case in run.results if _variant(case.parameters, keys) == variant],
         [series for series in run.series if _variant(series.parameters, keys) == variant],
     )
 
 
-def _name(variant: Variant) -> str:
+def _variant_name(variant: Variant) -> str:
     return ", ".join(f"{key}={value}" for key, value in variant)

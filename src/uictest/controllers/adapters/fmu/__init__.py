@@ -10,8 +10,8 @@ from contextlib import redirect_stdout
 from importlib.util import find_spec
 
 from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
+from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config
-from uictest.controllers.program import ControllerProgram
 
 
 def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:

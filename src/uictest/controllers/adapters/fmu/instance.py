@@ -12,8 +12,8 @@ from uictest.controllers.adapters.fmu.loading import load_slave
 from uictest.controllers.adapters.fmu.slave import Slave
 from uictest.controllers.adapters.fmu.variables import ControllerVariables
 from uictest.controllers.adapters.instance import CalledInstance, ControllerError
+from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config, Inputs, Outputs
-from uictest.controllers.program import ControllerProgram
 
 
 class _Idle(local):

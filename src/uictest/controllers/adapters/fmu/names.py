@@ -1,13 +1,72 @@
-"""Find the variables of an FMU by name."""
+"""Find the variables of an FMU by name, and set or read them by one call."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from ctypes import c_uint
 from dataclasses import dataclass
 from math import prod
 from typing import Any, Final
 
-from uictest.controllers.adapters.fmu.access import BoundVariable
+from uictest.controllers.adapters.fmu.slave import Slave
 from uictest.controllers.adapters.instance import ControllerError
+from uictest.controllers.declared import unknown_parameter
 from uictest.controllers.exchange import WHEELSETS
+
+Slot = tuple[str, int]
+"""Where a value stands: our name of the quantity, number of the wheelset from 0."""
+Values = Mapping[str, Sequence[Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class BoundVariable:
+    """A variable of an FMU, as FMPy describes it, and the slots of its elements."""
+
+    variable: Any
+    slots: tuple[Slot, ...]
+
+    def label(self, element: int) -> str:
+        """Return what the FMU calls an element, counted from 0."""
+        return f"{self.variable.name}[{element + 1}]" if len(self.slots) > 1 else str(self.variable.name)
+
+
+@dataclass(frozen=True, slots=True)
+class VariableGroup:
+    """Variables of one type with the memory that the FMU reads or writes."""
+
+    slots: tuple[Slot, ...]
+    memory: Any
+    call: Callable[[], object]
+
+    def set(self, values: Values) -> None:
+        """Set the variables."""
+        memory = self.memory
+        for index, (name, place) in enumerate(self.slots):
+            memory[index] = values[name][place]
+        self.call()
+
+    def get(self, values: Mapping[str, list[Any]]) -> None:
+        """Read the variables."""
+        self.call()
+        memory = self.memory
+        for index, (name, place) in enumerate(self.slots):
+            values[name][place] = memory[index]
+
+
+def grouped(slave: Slave, verb: str, variables: Iterable[BoundVariable]) -> list[VariableGroup]:
+    """Return variables by their types; ``verb`` is Set or Get."""
+    by_type: defaultdict[tuple[str, Any], list[BoundVariable]] = defaultdict(list)
+    for each in variables:
+        by_type[slave.types[each.variable.type]].append(each)
+    return [_group(slave, verb, kind, members) for kind, members in by_type.items()]
+
+
+def _group(slave: Slave, verb: str, kind: tuple[str, Any], members: Sequence[BoundVariable]) -> VariableGroup:
+    name, c_type = kind
+    references = (c_uint * len(members))(*(each.variable.valueReference for each in members))
+    slots = tuple(slot for each in members for slot in each.slots)
+    memory = (c_type * len(slots))()
+    return VariableGroup(slots, memory, slave.access(verb, name, references, memory))
+
 
 FLOATS: Final = ("Real", "Float64", "Float32")
 _WHOLE: Final = ("Integer", "Enumeration", "Boolean")
@@ -116,3 +175,52 @@ def _unfit(quantity: Declared, variable: Any) -> str:
     types = "a number or truth value" if quantity.is_whole else "Real or Float64"
     found = f"{variable.causality} of type {variable.type}"
     return f"has {variable.name} as {found}, expected {quantity.causality} of type {types}"
+
+
+def bound_parameters(
+    slave: Slave, parameters: Mapping[str, Any]
+) -> tuple[list[BoundVariable], dict[str, Sequence[Any]]]:
+    """Return the FMU's parameters that a scenario sets, and their values by name.
+
+    Raises:
+        ControllerError: for a parameter that the FMU does not have, or a value that it cannot hold.
+    """
+    own = {each.name: each for each in slave.description.modelVariables if each.causality == "parameter"}
+    bound: list[BoundVariable] = []
+    values: dict[str, Sequence[Any]] = {}
+    for name, value in parameters.items():
+        if name not in own:
+            raise ControllerError(f"has {unknown_parameter(name, tuple(own))}")
+        values[name] = _values(slave, own[name], value)
+        bound.append(BoundVariable(own[name], tuple((name, place) for place in range(len(values[name])))))
+    return bound, values
+
+
+def _values(slave: Slave, variable: Any, value: Any) -> list[Any]:
+    elements = list(value) if isinstance(value, list | tuple) else [value]
+    size = prod(variable.shape or ())
+    if len(elements) != size:
+        held = "one value" if size == 1 else f"{size} values"
+        raise ControllerError(f"has {held} in parameter {variable.name}, found {len(elements)}")
+    return [_value(slave, variable, element) for element in elements]
+
+
+def _value(slave: Slave, variable: Any, value: Any) -> Any:
+    if variable.type not in slave.types:
+        raise ControllerError(f"has parameter {variable.name} of type {variable.type}, which cannot be set")
+    if variable.type == "String" and isinstance(value, str):
+        return value.encode()
+    if variable.type == "Boolean" and value in (False, True):
+        return int(value)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if variable.type in FLOATS:
+            return float(value)
+        _, c_type = slave.types[variable.type]
+        if variable.type not in ("String", "Boolean") and _is_held(value, c_type):
+            return int(value)
+    raise ControllerError(f"has parameter {variable.name} of type {variable.type}, found {value!r}")
+
+
+def _is_held(value: float, c_type: Any) -> bool:
+    """Return whether a C type of whole numbers has a value."""
+    return float(value).is_integer() and bool(c_type(int(value)).value == value)

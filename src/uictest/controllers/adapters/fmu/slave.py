@@ -1,20 +1,70 @@
-"""An FMU in memory: the calls of FMI 2.0 and FMI 3.0 behind one face."""
+"""An FMU in memory: the calls of FMI 2.0 and FMI 3.0 behind one face, and what it logs."""
 
 import math
 import weakref
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from ctypes import c_bool, c_char_p, c_double, c_int
+from ctypes import byref, c_bool, c_char_p, c_double, c_int
 from functools import partial
+from importlib import import_module
 from pathlib import Path
+from threading import local
 from typing import Any, ClassVar, Final
 
-from fmpy import fmi1, fmi3
+import fmpy
+from fmpy import fmi1, fmi2, fmi3
 
-from uictest.controllers.adapters.fmu.log import clear_log, with_log
 from uictest.controllers.adapters.instance import ControllerError
 from uictest.core import files
+
+
+class _Log(local):
+    """The last message of the FMUs of a thread that is not only information."""
+
+    message = ""
+
+
+_log = _Log()
+
+
+def clear_log() -> None:
+    """Forget what was logged before a call."""
+    _log.message = ""
+
+
+def with_log(text: str) -> str:
+    """Return a text, followed by what the FMU has logged last."""
+    return f"{text}: {_log.message}" if _log.message else text
+
+
+def _note(status: int, message: bytes | None) -> None:
+    if status > 0:
+        _log.message = (message or b"").decode("utf-8", "replace").strip()
+
+
+def _note_fmi2(environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    _note(status, message)
+
+
+def note_fmi3(environment: Any, status: int, category: bytes, message: bytes) -> None:
+    """Keep a message; FMI 3.0 calls this."""
+    _note(status, message)
+
+
+def _callbacks() -> Any:
+    callbacks = fmi2.fmi2CallbackFunctions()
+    callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_note_fmi2)
+    callbacks.allocateMemory = fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+    callbacks.freeMemory = fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.free)
+    with suppress(OSError):  # FMPy has it for some platforms; without it messages keep their placeholders
+        import_module("fmpy.logging").addLoggerProxy(byref(callbacks))
+    return callbacks
+
+
+FMI2_CALLBACKS: Final = _callbacks()
+"""What FMUs of FMI 2.0 call. FMPy formats messages for one logger only, so there is one for all FMUs."""
+
 
 CType = Any
 _STATUS: Final = ("ok", "warning", "discard", "error", "fatal", "pending")

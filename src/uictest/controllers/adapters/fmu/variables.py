@@ -4,9 +4,15 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from uictest.controllers.adapters.fmu.access import BoundVariable, Values, VariableGroup, grouped
-from uictest.controllers.adapters.fmu.names import Declared, bind
-from uictest.controllers.adapters.fmu.parameters import bound_parameters
+from uictest.controllers.adapters.fmu.names import (
+    BoundVariable,
+    Declared,
+    Values,
+    VariableGroup,
+    bind,
+    bound_parameters,
+    grouped,
+)
 from uictest.controllers.adapters.fmu.slave import Slave
 from uictest.controllers.adapters.instance import ControllerError
 from uictest.controllers.exchange import WHEELSETS

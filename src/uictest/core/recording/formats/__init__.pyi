@@ -1,11 +1,11 @@
-from .choice import (
+from .isolation import (
     FORMATS as FORMATS,
     encoded as encoded,
     format_of as format_of,
+    read_contents as read_contents,
     writer_of as writer_of,
 )
-from .dialect import Dialect as Dialect
-from .isolation import read_contents as read_contents
+from .layout import Dialect as Dialect
 from .problems import (
     MissingExtraError as MissingExtraError,
     ReadingInterruptedError as ReadingInterruptedError,

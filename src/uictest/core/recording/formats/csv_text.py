@@ -15,11 +15,18 @@ from typing import Any
 import numpy as np
 
 from uictest.core.recording.contents import Contents, Group, Samples
-from uictest.core.recording.formats.dialect import COMMENT, Dialect
-from uictest.core.recording.formats.encoding import MARK, encoding_of, undecodable
-from uictest.core.recording.formats.layout import TableLayout, cells_of, name_and_unit, table_layout
-from uictest.core.recording.formats.limits import MOST_CHANNELS
-from uictest.core.recording.formats.problems import UnreadableError
+from uictest.core.recording.formats.layout import (
+    COMMENT,
+    MARK,
+    Dialect,
+    TableLayout,
+    cells_of,
+    encoding_of,
+    name_and_unit,
+    table_layout,
+    undecodable,
+)
+from uictest.core.recording.formats.problems import MOST_CHANNELS, UnreadableError
 from uictest.core.recording.formats.sample_lines import (
     LONGEST_LINE,
     SampleLines,

@@ -1,16 +1,53 @@
-"""Where a text table has its names, units and samples, and what separates its cells."""
+"""Where a text table has its dialect, encoding, names, units and samples."""
 
 from __future__ import annotations
 
+import codecs
 import csv
+import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Final
 
-from uictest.core.recording.formats.dialect import COMMENT, Dialect
-from uictest.core.recording.formats.limits import MOST_CHANNELS
-from uictest.core.recording.formats.problems import UnreadableError
+from uictest.core.recording.formats.problems import MOST_CHANNELS, UnreadableError
+
+COMMENT = "#"
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """The dialect of a CSV file. The default is that of the files this program writes.
+
+    Lines are counted from one, as an editor counts them.
+
+    Args:
+        delimiter: the character between two cells.
+        decimal: the character before decimals, `.` or `,`.
+        thousands: the character between groups of three digits; empty: none.
+        header_line: the line of the channels' names; 0: the first that is no comment.
+        unit_line: the line of their units; 0: the line after the names where it holds units; units may also
+            stand in the names, as in `speed [m/s]`.
+        first_line: the first line of samples; 0: the one after names and units.
+        encoding: of the text, where it does not begin with a byte-order mark.
+
+    """
+
+    delimiter: str = ","
+    decimal: str = "."
+    thousands: str = ""
+    header_line: int = 0
+    unit_line: int = 0
+    first_line: int = 0
+    encoding: str = "utf-8"
+
+    def changes_to(self, other: Dialect) -> str:
+        """Return the `csv` section with the settings of another dialect that differ from this one."""
+        declared = asdict(self)
+        changes = {name: value for name, value in asdict(other).items() if value != declared[name]}
+        return f"csv: {{{', '.join(f'{name}: {json.dumps(value)}' for name, value in changes.items())}}}"
+
 
 _NAME_AND_UNIT = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
 _SEPARATORS: Final = (";", "\t", "|", ",")
@@ -160,3 +197,44 @@ def name_and_unit(text: str) -> tuple[str, str]:
     if match is None or not match["name"]:
         return text.strip(), ""
     return match["name"], (match["square"] or match["round"] or "").strip()
+
+
+_BYTE_ORDER_MARKS: Final = (
+    (codecs.BOM_UTF8, "utf-8-sig"),
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+)
+MARK: Final = "\ufeff"
+"""The byte-order mark as a character: UTF-16 of a named byte order keeps it at the start of the text."""
+
+
+def encoding_of(path: Path, stated: str) -> str:
+    """Return the encoding of a byte-order mark, else the stated one. Raises OSError."""
+    with path.open("rb") as file:
+        beginning = file.read(4)
+    return next((name for mark, name in _BYTE_ORDER_MARKS if beginning.startswith(mark)), stated)
+
+
+def undecodable(path: Path, encoding: str) -> str:
+    """Return where a file does not match its encoding, and what to write instead. Raises OSError."""
+    content = path.read_bytes()
+    try:
+        content.decode(encoding)
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode(encoding, "replace")
+        start = max(before.rfind("\n"), before.rfind("\r")) + 1
+        line = 1 + before.count("\n") + before.count("\r") - before.count("\r\n")
+        byte = 1 + len(before[start:].lstrip(MARK).encode(encoding.removesuffix("-sig"), "replace"))
+        wrong = f"line {line}, byte {byte}: {content[error.start]:#04x} is not {_shown(encoding)}"
+        return f"{wrong}; {_encoding_advice(encoding)} in a channel map (--map)"
+    return f"not a text in {_shown(encoding)}"
+
+
+def _shown(encoding: str) -> str:
+    return encoding.removesuffix("-sig").upper()
+
+
+def _encoding_advice(encoding: str) -> str:
+    if encoding.startswith("utf"):
+        return "for a file of a Windows program, write csv: {encoding: cp1252}"
+    return "write the file's encoding in csv: {encoding: ...}"

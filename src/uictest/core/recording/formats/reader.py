@@ -18,11 +18,14 @@ from typing import Any
 import numpy as np
 
 from uictest.core.recording.contents import Contents, Group
-from uictest.core.recording.formats.choice import module_of
-from uictest.core.recording.formats.dialect import Dialect
-from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
-from uictest.core.recording.formats.limits import READING_MEMORY, READING_SECONDS
-from uictest.core.recording.formats.problems import MissingExtraError, UnreadableError
+from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE, module_of
+from uictest.core.recording.formats.layout import Dialect
+from uictest.core.recording.formats.problems import (
+    READING_MEMORY,
+    READING_SECONDS,
+    MissingExtraError,
+    UnreadableError,
+)
 
 _LONGEST_REASON = 500
 _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}

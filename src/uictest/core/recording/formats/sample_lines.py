@@ -8,10 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from uictest.core.recording.formats.dialect import COMMENT, Dialect
-from uictest.core.recording.formats.layout import TableLayout, cells_of
-from uictest.core.recording.formats.limits import MOST_VALUES
-from uictest.core.recording.formats.problems import UnreadableError
+from uictest.core.recording.formats.layout import COMMENT, Dialect, TableLayout, cells_of
+from uictest.core.recording.formats.problems import MOST_VALUES, UnreadableError
 
 LONGEST_LINE = 2**20
 """characters"""

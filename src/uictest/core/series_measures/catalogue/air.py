@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.series_measures.figures import median_and_worst
-from uictest.core.series_measures.stops import of_stop
+from uictest.core.series_measures.measure import median_and_worst, of_stop
 
 MEASURES = (
     *median_and_worst(

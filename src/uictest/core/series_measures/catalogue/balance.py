@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from uictest.core.series_measures.figures import median_and_worst
-from uictest.core.series_measures.stops import CountedStop
+from uictest.core.series_measures.measure import CountedStop, median_and_worst
 
 
 def bogie_imbalance(stop: CountedStop) -> float:

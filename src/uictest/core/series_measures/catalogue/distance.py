@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from uictest.core.series_measures.estimate import largest_of, median_of
-from uictest.core.series_measures.figures import median_and_worst
-from uictest.core.series_measures.measure import SeriesMeasure
-from uictest.core.series_measures.relation import percent_of_dry
-from uictest.core.series_measures.stops import SpeedStops, of_stop
+from uictest.core.series_measures.measure import (
+    SeriesMeasure,
+    SpeedStops,
+    median_and_worst,
+    of_stop,
+    percent_of_dry,
+)
 
 BRAKING_DISTANCE = of_stop("braking_distance_m")
 

@@ -13,9 +13,7 @@ from dataclasses import replace
 from typing import Final
 
 from uictest.core.series_measures.estimate import Estimate, mean_of
-from uictest.core.series_measures.measure import SeriesMeasure
-from uictest.core.series_measures.relation import percent_of_dry
-from uictest.core.series_measures.stops import SpeedStops, of_stop
+from uictest.core.series_measures.measure import SeriesMeasure, SpeedStops, of_stop, percent_of_dry
 
 _DECELERATION_DISTANCE = of_stop("deceleration_distance_m")
 

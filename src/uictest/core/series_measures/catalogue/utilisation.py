@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.series_measures.figures import median_and_worst
-from uictest.core.series_measures.stops import CountedStop
+from uictest.core.series_measures.measure import CountedStop, median_and_worst
 
 
 def adhesion_utilisation(stop: CountedStop) -> float:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.series_measures.figures import median_and_worst
-from uictest.core.series_measures.stops import largest_of_wheelsets
+from uictest.core.series_measures.measure import largest_of_wheelsets, median_and_worst
 
 MEASURES = (
     *median_and_worst(

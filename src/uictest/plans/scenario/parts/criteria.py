@@ -7,25 +7,25 @@ from pydantic import Field
 
 from uictest.core.measures import MEASURES, Course, Measure
 from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
-from uictest.plans.scenario.parts.applicability import Applicability
 from uictest.plans.scenario.parts.bounded_measure import (
     MEASURES_OF,
     WITH_DRY_VALUE,
     Bound,
+    DryBound,
     MeasureName,
     Scope,
 )
 from uictest.plans.scenario.parts.definition import Definition
-from uictest.plans.scenario.parts.dry_bound import DryBound
+from uictest.plans.scenario.parts.measures import RequirementIds, repeated_requirements
 from uictest.plans.scenario.parts.reading import (
     ID,
+    Applicability,
     AtLeast,
     Reading,
     WheelsetsThatKeep,
     definition_problems,
     wheelsets_problems,
 )
-from uictest.plans.scenario.parts.requirements import RequirementIds, repeated_requirements
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
 
 

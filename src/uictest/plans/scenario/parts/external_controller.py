@@ -1,20 +1,94 @@
-"""Controllers from outside: the program under test and what it is given."""
+"""Controllers from outside: the program under test, its parameters."""
 
 import json
+import math
 import re
+from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
-from typing import Annotated, Any, ClassVar, Final
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import Field, GetJsonSchemaHandler, WithJsonSchema
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, WithJsonSchema
 from pydantic.functional_validators import PlainValidator
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind
-from uictest.plans.scenario.parts.controller_part import ControllerPart
-from uictest.plans.scenario.parts.declared_parameter import DeclaredParameter
-from uictest.plans.scenario.parts.parameter_value import ParameterValue
+from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind, parameter_problems
 from uictest.plans.scenario.parts.program_file import ProgramFile
-from uictest.plans.scenario.yaml import Quantity, default, of_kind, quoted
+from uictest.plans.scenario.yaml import Inconsistency, Part, Quantity, Section, default, of_kind, quoted
+
+
+class ControllerPart(Part):
+    """What every controller has."""
+
+    folder: ClassVar[str] = "controllers"
+
+    schema_id: Literal["uictest/controller/1"] = Field(
+        default="uictest/controller/1",
+        alias="schema",
+        description="What the file holds: uictest/controller/1.",
+    )
+    if TYPE_CHECKING:  # declared by the models, the first by those of controllers that are built in
+        algorithm: str
+        cycle_time: Quantity
+
+    @property
+    def program(self) -> ControllerProgram | None:
+        """What is loaded where the controller comes from outside, None where it is built in."""
+        return None
+
+
+def _parameter(value: object) -> Any:
+    """Return a value of JSON; a number that remembers how it was written stays one."""
+    if isinstance(value, float) and not math.isfinite(value):
+        context = {"message": f"JSON has no number {value}", "hint": "write a finite number, or a text"}
+        raise PydanticCustomError("parameter", "{message}", context)
+    if isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, list | tuple):
+        return tuple(_parameter(each) for each in value)
+    if isinstance(value, Mapping):
+        return {str(name): _parameter(each) for name, each in value.items()}
+    hint = "leave the parameter out" if value is None else ""
+    context = {"message": "expected a number, a text, true, false, a list or a mapping", "hint": hint}
+    raise PydanticCustomError("parameter", "{message}", context)
+
+
+_JSON: Final[dict[str, Any]] = {"type": ["number", "string", "boolean", "array", "object"]}
+ParameterValue = Annotated[Any, PlainValidator(_parameter), WithJsonSchema(_JSON)]
+
+
+Bound = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+
+
+def _unit(value: object) -> object:
+    return "1" if value == 1 and not isinstance(value, bool) else value
+
+
+class DeclaredParameter(Section):
+    """What a parameter is measured in, what it is where nobody gives it, and what it may be."""
+
+    default: ParameterValue = Field(description="Handed to the controller where nobody gives the parameter.")
+    unit: Annotated[str, BeforeValidator(_unit)] = Field(
+        default="", max_length=20, description="Unit of a number, for people; 1 for a pure number."
+    )
+    range: tuple[Bound, Bound] | None = Field(
+        default=None, description="Smallest and largest value that is accepted; any if left out."
+    )
+    description: str = Field(default="", max_length=500, description="One line for people.")
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a number without a unit, a range upside down, and a default outside of it."""
+        numbers = self.default if isinstance(self.default, tuple) else (self.default,)
+        if not self.unit and all(
+            type(each) is not bool and isinstance(each, int | float) for each in numbers
+        ):
+            yield Inconsistency(
+                (), "a number needs a unit", 'write `unit: s`, or `unit: "1"` for a pure number'
+            )
+        if self.range is not None and self.range[0] > self.range[1]:
+            yield Inconsistency(("range",), "the first number of a range is its smallest", "exchange them")
+        for problem in parameter_problems({"default": self}, {"default": self.default}):
+            yield Inconsistency(("default",), problem.message, problem.hint)
+
 
 ADDRESS_PATTERN: Final = r"^tcp://[A-Za-z0-9.\-]+:([0-9]{1,5})$"
 _LARGEST_PORT: Final = 65535

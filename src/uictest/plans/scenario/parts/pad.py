@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Discriminator, Field, Tag
 
 from uictest.core.physics import MOST_PAD_POINTS, quotient_scale
-from uictest.plans.scenario.parts.friction import out_of_order
+from uictest.plans.scenario.parts.rail import out_of_order
 from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
 
 Factor = Annotated[Quantity, of_kind("number", at_least="0.1", at_most="5")]

@@ -7,7 +7,6 @@ from .diagnostics import (
     in_reading_order as in_reading_order,
     single_error as single_error,
 )
-from .inheritance import inherit as inherit
 from .model import (
     NAME_PATTERN as NAME_PATTERN,
     Inconsistency as Inconsistency,
@@ -17,9 +16,10 @@ from .model import (
     PartReference as PartReference,
     Section as Section,
     Source as Source,
+    accepted_keys as accepted_keys,
+    models_in as models_in,
     quantities_in as quantities_in,
 )
-from .model_keys import accepted_keys as accepted_keys, models_in as models_in
 from .overrides import (
     Override as Override,
     apply_overrides as apply_overrides,
@@ -44,6 +44,7 @@ from .quantity_field import (
 from .reading import (
     LIBRARY as LIBRARY,
     display_name as display_name,
+    inherit as inherit,
     is_file as is_file,
     read_document as read_document,
     read_file as read_file,
@@ -63,13 +64,11 @@ from .tree import (
     as_written as as_written,
     describe as describe,
     entry_at as entry_at,
-    plain as plain,
-)
-from .validation import dotted as dotted, validated as validated
-from .wording import (
     nearest as nearest,
+    plain as plain,
     quoted as quoted,
     short_example as short_example,
     suggestion as suggestion,
     visible as visible,
 )
+from .validation import dotted as dotted, validated as validated

@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Final
 
-from uictest.plans.scenario.yaml.tree import Node, Place
-from uictest.plans.scenario.yaml.wording import visible
+from uictest.plans.scenario.yaml.tree import Node, Place, visible
 
 EXCERPT_WIDTH: Final = 100
 _LEAD: Final = 60

@@ -8,13 +8,16 @@ from typing import Annotated, Any, Final, get_origin
 from pydantic import ValidationError, create_model
 
 from uictest.plans import library
-from uictest.plans.scenario.yaml.model import Key, PartReference
-from uictest.plans.scenario.yaml.model_keys import accepted_keys, models_at, models_in
+from uictest.plans.scenario.yaml.model import Key, PartReference, accepted_keys, models_at, models_in
 from uictest.plans.scenario.yaml.quantities import NUMBER_PATTERN
-from uictest.plans.scenario.yaml.tree import Node, Scalar, Sequence as List, as_written, plain
-from uictest.plans.scenario.yaml.wording import (
+from uictest.plans.scenario.yaml.tree import (
     EXAMPLE_LENGTH,
+    Node,
+    Scalar,
+    Sequence as List,
+    as_written,
     longer_name,
+    plain,
     short_example,
     suggestion,
     visible,

@@ -19,8 +19,8 @@ from uictest.plans.scenario.yaml.tree import (
     Place,
     Scalar,
     Sequence as List,
+    quoted,
 )
-from uictest.plans.scenario.yaml.wording import quoted
 
 MOST_VALUES: Final = 10_000
 

@@ -11,8 +11,17 @@ from typing import Any, Final
 import yaml
 
 from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose, single_error
-from uictest.plans.scenario.yaml.tree import Document, Entry, Map, Node, Place, Scalar, Sequence
-from uictest.plans.scenario.yaml.wording import quoted, visible
+from uictest.plans.scenario.yaml.tree import (
+    Document,
+    Entry,
+    Map,
+    Node,
+    Place,
+    Scalar,
+    Sequence,
+    quoted,
+    visible,
+)
 
 DEEPEST: Final = 20
 MOST_NODES: Final = 20_000

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Final, Self
 
 from uictest.core.units import KINDS, Kind
-from uictest.plans.scenario.yaml.wording import nearest, quoted
+from uictest.plans.scenario.yaml.tree import nearest, quoted
 
 SCENARIO_SOURCE: Final = "scenario"
 """Source of a number that a user wrote in a scenario."""

@@ -20,7 +20,7 @@ from uictest.plans.scenario.yaml.quantities import (
     example,
     parse_quantity,
 )
-from uictest.plans.scenario.yaml.wording import quoted
+from uictest.plans.scenario.yaml.tree import quoted
 
 QUANTITY_KEYWORD: Final = "x-quantity"
 """Keyword that stands for the definition of a kind while a JSON Schema is put together."""

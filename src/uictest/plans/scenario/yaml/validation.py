@@ -14,10 +14,17 @@ from uictest.plans.scenario.yaml.hints import (
     hint_for_mapping,
     meant_choice,
 )
-from uictest.plans.scenario.yaml.model import Key
-from uictest.plans.scenario.yaml.model_keys import accepted_keys, fields_named
-from uictest.plans.scenario.yaml.tree import Node, Scalar, Sequence, describe, entry_at
-from uictest.plans.scenario.yaml.wording import quoted, suggestion, visible
+from uictest.plans.scenario.yaml.model import Key, accepted_keys, fields_named
+from uictest.plans.scenario.yaml.tree import (
+    Node,
+    Scalar,
+    Sequence,
+    describe,
+    entry_at,
+    quoted,
+    suggestion,
+    visible,
+)
 
 
 @cache

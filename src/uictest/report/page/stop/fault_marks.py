@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from uictest.report.page.stop.mark import Mark
-from uictest.report.traces.fault_spans import FaultSpan
-from uictest.report.traces.trace import PlotTrace
+from uictest.report.traces.trace import FaultSpan, PlotTrace
 
 
 def fault_marks(trace: PlotTrace) -> Iterator[Mark]:

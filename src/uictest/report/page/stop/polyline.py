@@ -1,10 +1,11 @@
-"""A line through samples as SVG path data, with no more points than a reader can distinguish."""
+"""Lines through samples as SVG path data, and which way a loop is run through."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from uictest.report.traces.extremes import Samples, extremes
+from uictest.report.traces.trace import Samples, extremes
 
 _COLUMN = (
     3.0  # pixels: a drawing is shown larger or smaller than it is written, and lines are wider than this
@@ -46,3 +47,27 @@ def _step(across: int, up: int) -> str:
     if up == 0:
         return f"h{across}"
     return f"v{up}" if across == 0 else f"l{across} {up}"
+
+
+REVERSAL = 0.02
+"""Of the range: a quantity that comes back by less has not turned; chosen above the noise of a pressure."""
+
+Pieces = list[tuple[int, int, int]]
+"""First and last row of each piece, and 1 where the quantity rises in it, -1 where it falls."""
+
+
+def pieces(x: NDArray[np.float64]) -> Pieces:
+    """Return the pieces of a series between its turning points; each begins where the one before ends."""
+    known = x[np.isfinite(x)]
+    least = REVERSAL * float(np.ptp(known)) if len(known) else 0.0
+    found: Pieces = []
+    direction, start, turned = 1, 0, 0
+    values = x.tolist()
+    for k, value in enumerate(values):
+        if direction * (value - values[turned]) >= 0.0:
+            turned = k
+        elif direction * (values[turned] - value) > least:
+            if turned > start:
+                found.append((start, turned, direction))
+            direction, start, turned = -direction, turned, k
+    return [*found, (start, len(values) - 1, direction)] if len(values) > start + 1 else found

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Final
 
 from uictest.judging import evaluation
-from uictest.report.page.stop.bars import vents
+from uictest.report.page.stop.mark import vents
 from uictest.report.traces.moments import TRAIN, Interval, Moments
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.traces.trace import PlotTrace

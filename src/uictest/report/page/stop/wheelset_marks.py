@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
-from uictest.report.page.stop.bars import vents
-from uictest.report.page.stop.mark import Mark, limit_marks, misses, point
+from uictest.report.page.stop.mark import Mark, limit_marks, misses, point, vents
 from uictest.report.traces.moments import Interval, Moments
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.traces.trace import PlotTrace

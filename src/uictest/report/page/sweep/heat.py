@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report.escaping import printable
-from uictest.report.page.anchors import fragment
-from uictest.report.page.axis import axis_title
+from uictest.report.page.links import fragment
+from uictest.report.page.series_view import axis_title
 from uictest.report.page.sweep.colour_scale import CIVIDIS, VIRIDIS, ColourScale
 from uictest.report.page.sweep.heat_plot import SIGNS, HeatPlot, heat_plot, marked
-from uictest.report.sweep.folding import short_label
 from uictest.report.sweep.map_cells import CellAxis, MapCells
+from uictest.report.sweep.map_text import short_label
 from uictest.report.sweep.result import MET
 from uictest.report.sweep.wording import share_words
 from uictest.report.wording import counted

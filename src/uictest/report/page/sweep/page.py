@@ -1,32 +1,39 @@
-"""The page of a sweep, put together."""
+"""The page of a sweep, put together, and which heat maps it has."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
 from uictest.report.csv_text import csv_text
 from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
-from uictest.report.page.parameter_tables import PARAMETER_WORDS, shown_parts
+from uictest.report.page.overview import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
-from uictest.report.page.stop.packing import script_json
+from uictest.report.page.stop.overlay_view import script_json
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
+from uictest.report.page.sweep.heat import HeatMaps, heat_maps
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.scatter_view import ScatterView, scatter_view
-from uictest.report.page.sweep.shown_maps import maps_left_out, shown_maps
 from uictest.report.page.sweep.sobol_bars import sobol_plots
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.map_cells import (
+    MOST_PARAMETERS,
+    MapCells,
+    cells_of_maps,
+    map_cells,
+    mapped_pairs,
+)
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.scatter import is_sampled, scatter
-from uictest.report.sweep.summary_rows import SummaryRows
+from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.tables import TREND_COLUMNS, distribution_rows, frontier_csv, trend_rows
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
     circumstances_words,
     command_alone,
     measure_words,
+    notable_cases,
     share_words,
     sweep_tally,
     swept_words,
@@ -39,6 +46,63 @@ from uictest.report.wording import (
     tone,
     without_rig_that_holds,
 )
+
+
+def shown_maps(content: SweepContent, fragments: Mapping[str, str]) -> Iterator[HeatMaps]:
+    """Yield the maps of each pair of parameters, the pair of the result first.
+
+    Args:
+        content: the sweep.
+        fragments: what links to each drawn stop, by id.
+
+    Raises:
+        OSError: the summary of the sweep cannot be read.
+        ValueError: it does not belong to the result.
+
+    """
+    result = content.result
+    units = {measure.name: measure.unit for measure in reported_columns(result)}
+    for cells in _cells(content):
+        yield heat_maps(cells, units, _stops_in(cells, result, fragments), result.logarithmic, result.varied)
+
+
+def _cells(content: SweepContent) -> list[MapCells]:
+    result, rows = content.result, SummaryRows(content.folder)
+    measures = reported_columns(result)
+    if rows.exists and (pairs := mapped_pairs(result)):
+        return map_cells(result, rows, pairs, _requested_first(result, measures))
+    return [cells_of_maps(result.maps, measures)] if result.maps else []
+
+
+def _stops_in(
+    cells: MapCells, result: SweepResult, fragments: Mapping[str, str]
+) -> dict[tuple[int, int], str]:
+    """Return the fragment of the drawn stop of each cell that has one."""
+    stops = {}
+    # The worst come first, and a cell links to the worst of its cases.
+    for case in reversed(result.worst):
+        row, column = (
+            axis.place_of(case.parameters.get(axis.parameter, "")) for axis in (cells.rows, cells.columns)
+        )
+        if case.id in fragments and row is not None and column is not None:
+            stops[row, column] = fragments[case.id]
+    return stops
+
+
+def _requested_first(result: SweepResult, measures: Sequence[ReportedColumns]) -> list[ReportedColumns]:
+    """Return the measures, those first that were requested for the maps of the result."""
+    requested = {each.measure for each in result.maps}
+    return sorted(measures, key=lambda measure: not requested.intersection(measure.columns))
+
+
+def maps_left_out(content: SweepContent) -> str:
+    """Return why there are no maps of some parameters; empty where nothing is left out."""
+    keys = [key for key in content.result.varied if len(content.result.rates.get(key, ())) > 1]
+    if not SummaryRows(content.folder).exists:
+        return "Without summary.parquet beside sweep.json there are no maps of other parameters and measures"
+    left_out = ", ".join(keys[MOST_PARAMETERS:])
+    return f"Not in every pair: {left_out}; --map chooses another first pair" if left_out else ""
+
 
 _MOST_VALUES = 40
 """Values of a parameter that get a bar each."""

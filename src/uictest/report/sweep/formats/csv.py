@@ -6,8 +6,7 @@ import shutil
 from pathlib import Path
 
 from uictest.core import files
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.format_registry import SweepFormat
+from uictest.report.sweep.folder import SweepContent, SweepFormat
 
 
 def _write(folder: Path, content: SweepContent) -> list[Path]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from uictest.report import page
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.format_registry import one_file
+from uictest.report.sweep.folder import SweepContent, one_file
 
 
 def _page(content: SweepContent) -> bytes:

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
+from uictest.report.csv_text import MarkdownTable, code, number_cell, prose, row
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.markdown_table import MarkdownTable, code, number_cell, prose, row
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.folding import folded, is_large, short_label
-from uictest.report.sweep.format_registry import one_file
-from uictest.report.sweep.notable import NotableCase, notable_cases
+from uictest.report.sweep.folder import SweepContent, one_file
+from uictest.report.sweep.map_text import folded, is_large, short_label
 from uictest.report.sweep.result import (
     Frontier,
     MeasureHistogram,
@@ -22,9 +20,11 @@ from uictest.report.sweep.result import (
 )
 from uictest.report.sweep.tail_tables import TailTable, tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
+    NotableCase,
     bar,
     circumstances_words,
     flip_words,
+    notable_cases,
     share_words,
     sweep_tally,
     swept_words,

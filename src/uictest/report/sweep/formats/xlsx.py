@@ -7,27 +7,23 @@ from collections.abc import Iterator
 
 from uictest.report.formats.xlsx import manifest_rows, parameter_rows, result_row
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
-from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
-from uictest.report.sweep.content import SweepContent
-from uictest.report.sweep.format_registry import one_file
-from uictest.report.sweep.map_sheet import write_maps
-from uictest.report.sweep.notable import notable_cases
+from uictest.report.sweep.folder import SweepContent, one_file
+from uictest.report.sweep.map_text import write_maps
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.summary_charts import (
+from uictest.report.sweep.summary_rows import MOST_CASES, left_out, write_cases
+from uictest.report.sweep.tables import (
     DISTRIBUTIONS_SHEET,
     SUMMARY_SHEET,
     TRENDS_SHEET,
-    insert_charts,
-)
-from uictest.report.sweep.tables import (
     distribution_rows,
     frontier_rows,
+    insert_charts,
     rate_rows,
     sensitivity_rows,
     trend_rows,
 )
-from uictest.report.sweep.tail_rows import k_dry_rows, quantile_rows
-from uictest.report.sweep.wording import swept_words
+from uictest.report.sweep.tail_tables import k_dry_rows, quantile_rows
+from uictest.report.sweep.wording import notable_cases, swept_words
 
 
 def sweep_workbook_bytes(content: SweepContent, most_cases: int = MOST_CASES) -> bytes:

@@ -1,0 +1,140 @@
+"""A finished sweep in its folder: written, read back, and the formats that it can be reported in."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Final
+
+from uictest.core import files
+from uictest.judging import evaluation
+from uictest.report.junit_properties import WITH_TEST_PROPERTIES
+from uictest.report.run_folder import read_traces, require_names
+from uictest.report.sweep import formats
+from uictest.report.sweep.junit import sweep_junit_xml
+from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml
+from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
+from uictest.report.sweep.tables import csv_tables
+from uictest.report.traces.trace import PlotTrace
+
+
+@dataclass(frozen=True, slots=True)
+class SweepContent:
+    """What a report of a sweep shows.
+
+    Args:
+        folder: of the sweep; it holds the tables.
+        result: what `sweep.json` holds.
+        manifest: where the results come from.
+        traces: what there is to draw of the worst cases, by id.
+
+    """
+
+    folder: Path
+    result: SweepResult
+    manifest: Mapping[str, Any]
+    traces: Mapping[str, PlotTrace] = field(default_factory=dict)
+
+
+SWEEP_RESULTS: Final = "sweep.json"
+SWEEP_MANIFEST_SCHEMA: Final = "uictest/sweep-manifest/1"
+_MANIFEST: Final = "manifest.json"
+
+
+def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
+    """Return the sweep in a folder; with `traces`, what there is to draw of its worst cases, too.
+
+    Raises:
+        OSError: sweep.json, manifest.json or a recording cannot be read.
+        ValueError: one of them is not what it should be.
+
+    """
+    path = folder / SWEEP_RESULTS
+    try:
+        result = read_sweep_document(_read_mapping(path))
+        require_names(case.id for case in result.worst)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the result of a sweep: {error}") from error
+    drawn = read_traces(folder, result.worst) if traces else {}
+    return SweepContent(folder, result, _read_manifest(folder / _MANIFEST), drawn)
+
+
+def _read_manifest(path: Path) -> dict[str, Any]:
+    try:
+        return _read_mapping(path)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the manifest of a sweep: {error}") from error
+
+
+def _read_mapping(path: Path) -> dict[str, Any]:
+    try:
+        content = json.loads(path.read_bytes())
+    except RecursionError as error:  # nested deeper than JSON is read
+        raise ValueError(str(error)) from error
+    if not isinstance(content, dict):
+        raise ValueError("expected an object")
+    return content
+
+
+OF_ONE_RESULT: Final = (
+    *("map-*.csv", "sensitivity.csv", "frontier.csv", "quantiles.csv", "k_dry.csv", K_DRY_FILE),
+    *(WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md"),
+)
+"""Files that not every result has, or that not every run writes."""
+
+
+def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
+    """Write everything but the summary of cases, and return the text of `sweep.json`.
+
+    What an earlier, other result of the sweep left in the folder is removed: beside the new one it would lie.
+    `file` is the sweep file as shown to users. Raises OSError.
+    """
+    document = evaluation.to_json(sweep_document(result))
+    texts = csv_tables(result) | {"junit.xml": sweep_junit_xml(result, file), SWEEP_RESULTS: document}
+    if result.requirements or result.test_case:
+        texts[WITH_TEST_PROPERTIES] = sweep_junit_xml(result, file, test_properties=True)
+    if result.k_dry:
+        texts[K_DRY_FILE] = k_dry_yaml(result)
+    if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:
+        files.remove_listed(folder, *OF_ONE_RESULT)
+    for name, text in texts.items():
+        files.write(folder, name, text)
+    return document
+
+
+@dataclass(frozen=True, slots=True)
+class SweepFormat:
+    """A format; a module of `formats/` registers its own under the name `FORMAT`.
+
+    Args:
+        write: writes a sweep into a folder and returns the files.
+
+    """
+
+    write: Callable[[Path, SweepContent], list[Path]]
+
+
+def one_file(name: str, to_bytes: Callable[[SweepContent], bytes]) -> SweepFormat:
+    """Return the format in which a sweep becomes one file of this name."""
+
+    def write(folder: Path, content: SweepContent) -> list[Path]:
+        files.write(folder, name, to_bytes(content))
+        return [folder / name]
+
+    return SweepFormat(write)
+
+
+def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str]) -> list[Path]:
+    """Write a sweep in some formats into a folder, and return the files.
+
+    Raises OSError, and ValueError where summary.parquet cannot be read.
+    """
+    return [path for name in names for path in _format_named(name).write(folder, content)]
+
+
+def _format_named(name: str) -> SweepFormat:
+    registered: SweepFormat = import_module(f"{formats.__name__}.{name}").FORMAT
+    return registered
