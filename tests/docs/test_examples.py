@@ -189,7 +189,7 @@ def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> N
 def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
     """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them.
 
-    What the studies print is compared by tests/studies/test_bands.py, which has run them.
+    Blocks of studies that take long are compared among the slow tests.
     """
     check_consoles(page, tmp_path, lambda block: not takes_long(block))
 

@@ -8,15 +8,16 @@ from typing import Any, cast
 import pytest
 
 from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import series as judging_series
 from uictest.plans import series
 from uictest.running import campaign
-from uictest.runs.drawing import SeriesBatch, run_series, speed_kmh
+from uictest.runs.series_runs import SeriesBatch, run_series, speed_kmh
 
 
 @pytest.fixture
 def judged(monkeypatch: pytest.MonkeyPatch) -> None:
     """Series without stops, which are met or not as they say."""
-    monkeypatch.setattr(series, "judge_series", lambda planned, cases: planned)
+    monkeypatch.setattr(judging_series, "judge_series", lambda planned, cases: planned)
 
 
 def ran(

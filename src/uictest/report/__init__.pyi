@@ -59,25 +59,23 @@ from .part_wording import (
     domain_notices as domain_notices,
     interval_text as interval_text,
 )
+from .recording_path import RECORDINGS as RECORDINGS, recording_path as recording_path
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
-from .run_folder import (
-    RECORDINGS as RECORDINGS,
-    RESULTS as RESULTS,
+from .run_contents import (
     read_run as read_run,
-    recording_path as recording_path,
     run_content as run_content,
-    run_name as run_name,
     with_recorded_traces as with_recorded_traces,
+)
+from .run_report import (
+    RESULTS as RESULTS,
+    run_name as run_name,
     write_recording as write_recording,
     write_reports as write_reports,
 )
-from .series.table import (
-    series_annotations as series_annotations,
-    series_line as series_line,
-    series_lines as series_lines,
-    series_table as series_table,
-)
+from .series.github import series_annotations as series_annotations
+from .series.lines import series_line as series_line, series_lines as series_lines
+from .series.table import series_table as series_table
 from .series.wording import (
     count_sentences as count_sentences,
     not_counted_sentences as not_counted_sentences,

@@ -6,32 +6,32 @@ from .batch import (
     run_batch as run_batch,
     with_domains as with_domains,
 )
-from .drawing import (
-    available_processors as available_processors,
-    cases_of as cases_of,
-    with_traces as with_traces,
-)
+from .drawing import with_traces as with_traces
 from .observer import Observer as Observer
+from .processors import available_processors as available_processors
 from .publishing import Published as Published, publish_batch as publish_batch, publish_run as publish_run
 from .recorded.batch import (
     JudgedRecordings as JudgedRecordings,
     RecordedBatch as RecordedBatch,
     judge_recordings as judge_recordings,
 )
-from .recorded.files import (
+from .recorded.conditions import (
     CaseOfStop as CaseOfStop,
     MissingStatementsError as MissingStatementsError,
+    case_of_stop as case_of_stop,
+    statements_of as statements_of,
+)
+from .recorded.files import (
     PreparationError as PreparationError,
     RecordedFile as RecordedFile,
-    case_of_stop as case_of_stop,
     each_file as each_file,
     named_map as named_map,
     prepared_map as prepared_map,
     read_files as read_files,
-    statements_of as statements_of,
     stop_names as stop_names,
 )
 from .recorded.series import read_recorded_series as read_recorded_series
+from .run_folders import holds_sweep as holds_sweep, run_folder as run_folder, why_no_run as why_no_run
 from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,
     InvalidInputError as InvalidInputError,
@@ -43,15 +43,13 @@ from .scenario_files import (
     series_files as series_files,
 )
 from .selection import (
-    holds_sweep as holds_sweep,
     nothing_selected as nothing_selected,
     only_case as only_case,
     result_ids as result_ids,
-    run_folder as run_folder,
     select_cases as select_cases,
     select_series as select_series,
-    why_no_run as why_no_run,
 )
+from .series_runs import cases_of as cases_of
 from .sweep.publishing import FinishedSweep as FinishedSweep
 from .sweep.run import (
     MaxfailReached as MaxfailReached,
@@ -66,13 +64,13 @@ from .sweep.whole import (
     measure_names as measure_names,
     run_sweep as run_sweep,
 )
+from .validation.plans import (
+    load_validations as load_validations,
+    read_reference as read_reference,
+    reference_of as reference_of,
+)
 from .validation.run import (
     ValidationRun as ValidationRun,
     publish_validation as publish_validation,
     run_validation as run_validation,
-)
-from .validation.stops import (
-    load_validations as load_validations,
-    read_reference as read_reference,
-    reference_of as reference_of,
 )

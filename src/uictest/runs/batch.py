@@ -12,9 +12,10 @@ from uictest.core import recording
 from uictest.judging import evaluation
 from uictest.plans import scenario, series
 from uictest.running import campaign
-from uictest.runs.drawing import SeriesBatch, TraceCollection, run_series
+from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
-from uictest.runs.validation.stops import read_reference
+from uictest.runs.series_runs import SeriesBatch, run_series
+from uictest.runs.validation.plans import read_reference
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""

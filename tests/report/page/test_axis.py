@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.page.series_view import Axis, round_step, span
+from uictest.report.page.axis import Axis, round_step, span
 
 
 @given(st.floats(1e-9, 1e9))

@@ -18,7 +18,7 @@ from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent, read_run, series_table, write_formats, write_reports
 from uictest.report.formats.junit import junit_xml
 from uictest.report.formats.md import markdown_summary
-from uictest.report.series.table import series_line, series_lines
+from uictest.report.series.lines import series_line, series_lines
 from uictest.report.series.wording import series_explanation, series_tally
 
 MakeSeries = Callable[..., series.SeriesResult]

@@ -1,4 +1,5 @@
-from .contents import Contents as Contents, Group as Group, Samples as Samples, recording_of as recording_of
+from .contents import Contents as Contents, Group as Group, Samples as Samples
+from .conversion import recording_of as recording_of
 from .parquet import (
     parquet_bytes as parquet_bytes,
     read_parquet as read_parquet,

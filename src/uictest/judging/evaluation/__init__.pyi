@@ -42,10 +42,7 @@ from .json_values import (
 from .judgement import (
     judge as judge,
 )
-from .outcome_rule import (
-    OutcomeRule as OutcomeRule,
-    seeds_text as seeds_text,
-)
+from .outcome_rule import OutcomeRule as OutcomeRule, seeds_text as seeds_text
 from .parameters import (
     Deviation as Deviation,
     DomainOfValidity as DomainOfValidity,

@@ -40,12 +40,10 @@ from .identifiers import (
     value_label as value_label,
 )
 from .json_schema import (
-    PART_MODELS as PART_MODELS,
     SCHEMA_DRAFT as SCHEMA_DRAFT,
     SchemaGenerator as SchemaGenerator,
     as_draft_07 as as_draft_07,
     json_schema as json_schema,
-    part_schema as part_schema,
     quantity_definitions as quantity_definitions,
     schema_of as schema_of,
 )
@@ -60,6 +58,7 @@ from .part_keys import (
     numbers as numbers,
     with_default_parts as with_default_parts,
 )
+from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
@@ -91,11 +90,8 @@ from .rail_friction import (
     sets_friction as sets_friction,
 )
 from .references import Parts as Parts, is_path as is_path
-from .requirement_list import (
-    in_order_of_ids as in_order_of_ids,
-    named_requirements as named_requirements,
-    read_requirement_list as read_requirement_list,
-)
+from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
+from .requirement_list import read_requirement_list as read_requirement_list
 from .resolution import resolve as resolve
 from .sections import SURVEY as SURVEY
 from .validated_file import VALIDATION_RESULT as VALIDATION_RESULT

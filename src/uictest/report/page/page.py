@@ -79,7 +79,7 @@ def _of_series(content: RunContent) -> dict[str, Any]:
     """Return what the page shows of series; what is not as expected stands first."""
     if not content.series:
         return {"series": [], "series_first": False, "series_keys": {}}
-    from uictest.report.page.series_view import SERIES_WORDS, series_view  # few runs have any
+    from uictest.report.page.series_view import SERIES_WORDS, series_view
 
     series = [series_view(each) for each in sorted(content.series, key=lambda each: each.met)]
     fine = all(map(content.passes, content.results))

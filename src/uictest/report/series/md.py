@@ -7,7 +7,7 @@ from itertools import accumulate
 
 from uictest.judging.series import SeriesResult
 from uictest.report.csv_text import MarkdownTable, code, prose, row
-from uictest.report.series.table import comparison_columns, comparison_rows
+from uictest.report.series.comparison import comparison_columns, comparison_rows
 from uictest.report.series.wording import (
     confidence_words,
     count_sentences,

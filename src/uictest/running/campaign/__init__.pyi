@@ -6,18 +6,12 @@ from .batch import (
     run_cases as run_cases,
     with_parts as with_parts,
 )
-from .case import (
-    CaseRun as CaseRun,
-    RecordingRequest as RecordingRequest,
-    Stop as Stop,
-    case_of_stop as case_of_stop,
-    run_case as run_case,
-    stops_of as stops_of,
-)
+from .case import CaseRun as CaseRun, RecordingRequest as RecordingRequest, run_case as run_case
+from .descriptions import descriptions_of as descriptions_of
+from .repeats import Stop as Stop, case_of_stop as case_of_stop, stops_of as stops_of
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
     Verifier as Verifier,
-    descriptions_of as descriptions_of,
     requirement_coverage as requirement_coverage,
 )
 from .selection import (

@@ -9,16 +9,8 @@ from uictest import controllers, rig
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import bench
-from uictest.running.campaign.case import (
-    CaseAssembly,
-    CaseRun,
-    RecordingRequest,
-    Stop,
-    StopRun,
-    run_case,
-    run_repeat,
-    stops_of,
-)
+from uictest.running.campaign.case import CaseRun, RecordingRequest, run_case
+from uictest.running.campaign.repeats import CaseAssembly, Stop, StopRun, run_repeat, stops_of
 from uictest.running.campaign.threaded_map import ThreadedMap
 
 PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]

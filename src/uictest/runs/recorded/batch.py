@@ -12,8 +12,8 @@ from uictest.judging import evaluation, series
 from uictest.plans import scenario, series as series_plans
 from uictest.recorded import field_data
 from uictest.running import campaign
-from uictest.runs.drawing import cases_of
 from uictest.runs.recorded.files import RecordedFile
+from uictest.runs.series_runs import cases_of
 
 
 @dataclass(frozen=True, slots=True)

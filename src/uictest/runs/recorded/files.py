@@ -1,56 +1,20 @@
-"""The files of recorded stops, and the conditions that they are judged under."""
+"""The files of recorded stops, read through a channel map."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.plans import scenario, scenario as scenarios
+from uictest.plans import scenario
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
+from uictest.runs.recorded.conditions import CaseOfStop
 from uictest.runs.scenario_files import InvalidInputError
-
-CaseOfStop = Callable[[str, float], "scenarios.Case"]
-"""Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
-
-
-class MissingStatementsError(Exception):
-    """A recording does not say what was tested, and nobody else does; `keys` are those to state."""
-
-    def __init__(self, keys: Sequence[str]) -> None:
-        self.keys = tuple(keys)
-        super().__init__(*keys)
-
-
-def statements_of(
-    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
-) -> Iterator[str]:
-    """Yield what is stated of recordings in the form of `--set`."""
-    listed = f"[{', '.join(criteria)}]" if criteria else None
-    stated = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": listed}
-    yield from (f"{key}={text}" for key, text in stated.items() if text is not None)
-
-
-def case_of_stop(
-    case: scenarios.Case | None, statements: Sequence[str], trusted: Sequence[Path] | None
-) -> CaseOfStop:
-    """Return the function that makes the case of a recording: as `case` states, or the statements alone.
-
-    Raises MissingStatementsError if there is neither a case nor every statement that is needed.
-    """
-    if case is not None:
-        return lambda name, speed: case
-    keys = {statement.partition("=")[0].strip() for statement in statements}
-    missing = [key for key in field_data.REQUIRED_STATEMENTS if key not in keys]
-    if missing:
-        raise MissingStatementsError(missing)
-    return lambda name, speed: field_data.stated_case(name, speed, statements, trusted or ())
-
 
 Result = TypeVar("Result")
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR

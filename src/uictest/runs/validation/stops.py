@@ -1,4 +1,4 @@
-"""What is validated: the plans, and the recorded stops with their cases and figures."""
+"""The recorded stops of a validation: which count, their cases, their figures and conditions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.recorded.files import RecordedFile, named_map, read_files
-from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
+from uictest.runs.scenario_files import InvalidInputError
 
 _DISTANCE: Final = "braking_distance_m"
 
@@ -142,35 +142,3 @@ def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult
         if math.isnan(figures[_DISTANCE]):
             return f"the {of_what} has no braking distance: it ends before standstill, or has a gap"
     return ""
-
-
-def load_validations(
-    paths: Sequence[Path], overrides: Sequence[str] | None = None, trusted: Sequence[Path] | None = None
-) -> list[validation_plans.ValidationPlan]:
-    """Return the validations of validation and series files. Raises ScenarioErrors, InvalidInputError."""
-    plans: list[validation_plans.ValidationPlan] = []
-    for path in paths:
-        if is_series(path):
-            plans += map(validation_plans.plan_of_series, load_series([path], overrides, None, trusted))
-        else:
-            plans.append(validation_plans.load_validation(path, tuple(overrides or ()), trusted or ()))
-    for plan in plans:
-        if not plan.comparisons:
-            raise InvalidInputError(f"{plan.path}: no stop names a recording: list them under `recordings`")
-    return plans
-
-
-def reference_of(option: Path | None, named: str | None) -> validation.ValidationReference | None:
-    """Return the validation of an option, else that which a scenario names. Raises InvalidInputError."""
-    path = option or (None if named is None else Path(named))
-    return None if path is None else read_reference(path)
-
-
-def read_reference(path: Path) -> validation.ValidationReference:
-    """Return the validation that cases are held against. Raises InvalidInputError."""
-    try:
-        return validation.read_validation(path)
-    except OSError as error:
-        raise InvalidInputError(f"{path}: {error.strerror or error}") from error
-    except ValueError as error:
-        raise InvalidInputError(f"{path}: {error}") from error

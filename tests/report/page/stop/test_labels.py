@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from hypothesis import given, strategies as st
 
-from uictest.report.page.series_view import Axis
+from uictest.report.page.axis import Axis
 from uictest.report.page.stop.mark import Label, Mark, labels_of
 
 AXIS = Axis(0.0, 30.0, 52.0, 948.0)

@@ -11,7 +11,7 @@ import numpy as np
 
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
-from uictest.report.page.series_view import Axis
+from uictest.report.page.axis import Axis
 from uictest.report.traces.quantities import VENT, WHEELSETS, Lane, Strip
 from uictest.report.traces.trace import PlotTrace, States
 from uictest.report.wording import quantity

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from uictest.report.page.series_view import Axis, Tick, span
+from uictest.report.page.axis import Axis, Tick, span
 from uictest.report.page.stop.mark import ROW, Labels, Mark, bars_path, labels_of, magnet_bars, mark_bars
 from uictest.report.page.stop.polyline import dots, path, path_over_time, pieces
 from uictest.report.traces.quantities import (

@@ -10,7 +10,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from uictest.report.page.series_view import Axis, Tick, axis_title, span
+from uictest.report.page.axis import Axis, Tick, axis_title, span
 from uictest.report.sweep.map_cells import CellAxis
 from uictest.report.sweep.map_text import short_label
 from uictest.report.sweep.values import DrawnInterval, SweptValue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from uictest.report.page.series_view import Tick, axis_title
+from uictest.report.page.axis import Tick, axis_title
 from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
 from uictest.report.sweep.result import Circumstances, Flip, Frontier, FrontierScan
 from uictest.report.sweep.values import WrittenValue

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report.escaping import printable
+from uictest.report.page.axis import axis_title
 from uictest.report.page.links import fragment
-from uictest.report.page.series_view import axis_title
 from uictest.report.page.sweep.colour_scale import CIVIDIS, VIRIDIS, ColourScale
 from uictest.report.page.sweep.heat_plot import SIGNS, HeatPlot, heat_plot, marked
 from uictest.report.sweep.map_cells import CellAxis, MapCells

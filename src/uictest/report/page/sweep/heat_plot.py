@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.report.page.series_view import Tick
+from uictest.report.page.axis import Tick
 from uictest.report.page.sweep.cell_axis import NumberAxis, PlacedCells, label_pixels, placed_cells
 from uictest.report.page.sweep.colour_scale import ColourScale
 from uictest.report.sweep.map_cells import MapCells

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from uictest.report.page.series_view import Axis, Tick
+from uictest.report.page.axis import Axis, Tick
 from uictest.report.sweep.result import MeasureHistogram
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 402, 26, 150

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Final
 
-from uictest.report.page.series_view import Axis, Tick
+from uictest.report.page.axis import Axis, Tick
 from uictest.report.sweep.result import MET, SobolIndex, SobolSensitivity
 from uictest.report.sweep.wording import circumstances_words, measure_words
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.report.page.series_view import Axis, Tick, axis_title, span
+from uictest.report.page.axis import Axis, Tick, axis_title, span
 from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
 from uictest.report.sweep.result import OutcomeCount, Trend
 from uictest.report.wording import counted
