@@ -85,6 +85,7 @@ from .series.wording import (
     series_word as series_word,
 )
 from .sheet_columns import sheet_column as sheet_column
+from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.folder import (
     SWEEP_MANIFEST_SCHEMA as SWEEP_MANIFEST_SCHEMA,
     SWEEP_RESULTS as SWEEP_RESULTS,
@@ -122,7 +123,6 @@ from .sweep.result import (
     SweepResult as SweepResult,
     Trend as Trend,
 )
-from .sweep.summary_rows import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.tail_tables import tail_lines as tail_lines
 from .sweep.tails import (
     DrawCount as DrawCount,

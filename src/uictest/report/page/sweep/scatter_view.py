@@ -8,8 +8,8 @@ from typing import Any
 
 from uictest.report.escaping import printable
 from uictest.report.page.stop.overlay_view import script_json
+from uictest.report.sweep.cases import every_case
 from uictest.report.sweep.scatter import PointNumbers, Scatter
-from uictest.report.sweep.summary_rows import every_case
 from uictest.report.wording import counted, tone
 
 FIRST_PARAMETERS, FIRST_MEASURES = 4, 2

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from uictest.report.formats.xlsx import manifest_rows, parameter_rows, result_row
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
+from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.folder import SweepContent, one_file
 from uictest.report.sweep.map_text import write_maps
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.summary_rows import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.tables import (
     DISTRIBUTIONS_SHEET,
     SUMMARY_SHEET,
