@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from uictest.core.recording.formats import UnreadableError, read_contents
-from uictest.core.recording.formats.isolation import format_of
+from uictest.core.recording.formats.choice import format_of
 
 Written = Callable[[str], Path]
 BINARY = ("mdf", "tdms", "mat", "parquet")

@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from uictest.core.recording.contents import Contents, Group
-from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE, module_of
+from uictest.core.recording.formats.choice import module_of
+from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
 from uictest.core.recording.formats.layout import Dialect
 from uictest.core.recording.formats.problems import (
     READING_MEMORY,

@@ -1,0 +1,82 @@
+"""The format of a file, and the module that writes it."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final
+
+from uictest.core import files
+from uictest.core.recording.formats.problems import UnreadableError
+
+if TYPE_CHECKING:
+    from uictest.core.recording.recording import Recording
+
+
+@dataclass(frozen=True, slots=True)
+class FileFormat:
+    """A format of measurement files.
+
+    Args:
+        module: the module of this package that reads and writes it.
+        suffix: of the files that are written.
+        beginnings: with which bytes its files begin; none for text.
+
+    """
+
+    module: str
+    suffix: str
+    beginnings: tuple[bytes, ...] = ()
+
+
+FORMATS: Final = MappingProxyType(
+    {
+        "csv": FileFormat("csv_text", ".csv"),
+        "mdf": FileFormat("mdf", ".mf4", (b"MDF     ", b"UnFinMF ")),
+        "tdms": FileFormat("tdms", ".tdms", (b"TDSm",)),
+        "mat": FileFormat("mat", ".mat", (b"MATLAB ", b"\x89HDF\r\n\x1a\n")),
+        "parquet": FileFormat("parquet", ".parquet", (b"PAR1",)),
+    }
+)
+"""Every format by name."""
+
+_TEXT_SUFFIXES: Final = (".csv", ".txt", ".tsv", ".asc", ".dat")
+_ENOUGH: Final = 128
+
+
+def format_of(path: Path) -> str:
+    """Return the format of a file: by how it begins, and for text by its suffix.
+
+    Raises UnreadableError for a file of no known format, OSError for one that cannot be opened.
+    """
+    with path.open("rb") as file:
+        beginning = file.read(_ENOUGH)
+    if not beginning:
+        raise UnreadableError("the file is empty")
+    for name, file_format in FORMATS.items():
+        if beginning.startswith(file_format.beginnings):
+            return name
+    if path.suffix.lower() in _TEXT_SUFFIXES:
+        return "csv"
+    raise UnreadableError(
+        f"not a recording: known are Parquet, MDF, TDMS and MAT files and texts ({', '.join(_TEXT_SUFFIXES)})"
+    )
+
+
+def module_of(name: str) -> Any:
+    """Return the module that reads and writes a format; none is loaded before it is needed."""
+    return importlib.import_module(f"uictest.core.recording.formats.{FORMATS[name].module}")
+
+
+def encoded(recording: Recording, name: str) -> bytes:
+    """Return a recording as a file of a format of FORMATS. Raises MissingExtraError without its library."""
+    content: bytes = module_of(name).encoded(recording)
+    return content
+
+
+def writer_of(name: str) -> Callable[[Recording, Path], None]:
+    """Return the function that writes a recording in a format of FORMATS. It raises as `encoded`, OSError."""
+    return lambda recording, path: files.write_to(path, encoded(recording, name))
