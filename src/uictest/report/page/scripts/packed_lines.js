@@ -10,7 +10,7 @@ const bytesOf = (text) => {
 const inflated = (text) =>
   new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate")));
 
-/* Lines as `packing.py` writes them: differences of numbers, all low bytes before all high ones. */
+/* Lines as `overlay_view.py` writes them: differences of numbers, all low bytes before all high ones. */
 const unpacked = async ({ lines, data }) => {
   const bytes = new Uint8Array(await inflated(data).arrayBuffer());
   const half = bytes.length / 2;
