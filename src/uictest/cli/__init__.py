@@ -11,8 +11,8 @@ __all__ = ["main"]
 
 def main() -> None:
     """Run the command line and leave the process with its exit code."""
-    from uictest.cli.entry import leave_when_asked, raise_when_asked
-    from uictest.cli.output import open_closed_streams
+    from uictest.cli.closed_streams import open_closed_streams
+    from uictest.cli.signals import leave_when_asked, raise_when_asked
 
     leave_when_asked()
     open_closed_streams()

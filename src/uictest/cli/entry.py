@@ -1,14 +1,12 @@
-"""From arguments to exit code: the one place where errors become messages."""
+"""From arguments to exit code: the one place where errors become messages and exit codes."""
 
 from __future__ import annotations
 
 import errno
 import os
-import signal
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from types import FrameType
 from typing import Final
 
 import typer
@@ -119,30 +117,3 @@ def _failed(reason: str, invocation: CommandLine) -> ExitCode:
 def _reason(error: OSError) -> str:
     reason = error.strerror or str(error) or type(error).__name__
     return f"{error.filename}: {reason}" if error.filename is not None else reason
-
-
-_INTERRUPTED = 2
-_ASKING = ("SIGINT", "SIGTERM", "SIGHUP")
-
-
-def leave_when_asked() -> None:
-    """Exit at once on a signal: nothing has begun, and an import could swallow an exception."""
-    _handle(_leave)
-
-
-def raise_when_asked() -> None:
-    """Raise KeyboardInterrupt on a signal, so that finished cases are reported and files are cleaned up."""
-    _handle(signal.default_int_handler)
-
-
-def _handle(handler: Callable[[int, FrameType | None], object]) -> None:
-    for name in _ASKING:
-        number = getattr(signal, name, None)  # Windows has no SIGHUP
-        # Signals that the caller ignores stay ignored: nohup ignores SIGHUP.
-        if number is not None and signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, handler)
-
-
-def _leave(number: int, frame: FrameType | None) -> None:
-    os.write(2, b"uictest: interrupted\n")
-    os._exit(_INTERRUPTED)
