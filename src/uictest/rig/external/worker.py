@@ -55,7 +55,7 @@ IDLE_LIMIT: Final = 300.0
 between two cycles the rig takes microseconds."""
 _LONGEST_WAIT: Final = 0.1
 """Time between two looks at a child that has not answered, s; chosen."""
-_CHILD: Final = "uictest.rig.external.child"
+_CHILD: Final = "uictest.rig.external.guard"
 _NAMES: Final = {
     STEPPING: "step",
     OPENING: "loading, create or reset",
