@@ -3,7 +3,7 @@ from __future__ import annotations
 from hypothesis import given, strategies as st
 from markdown_it import MarkdownIt
 
-from uictest.report.csv_text import MarkdownTable, code, number_cell, prose, row
+from uictest.report.text_tables import MarkdownTable, code, number_cell, prose, row
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 

@@ -5,7 +5,6 @@ from .content import (
     RunContent as RunContent,
     drawn_cases as drawn_cases,
 )
-from .csv_text import Cell as Cell, Table as Table, csv_text as csv_text, prose as prose
 from .difference import (
     BaselineComparison as BaselineComparison,
     Difference as Difference,
@@ -160,6 +159,7 @@ from .terminal.verdict_table import (
     part_lines as part_lines,
     verdict_table as verdict_table,
 )
+from .text_tables import Cell as Cell, Table as Table, csv_text as csv_text, prose as prose
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     Panel as Panel,

@@ -7,7 +7,7 @@ from typing import Final
 
 from uictest.core import statistics
 from uictest.judging import evaluation
-from uictest.report.csv_text import Cell
+from uictest.report.text_tables import Cell
 
 SHARE_COLUMNS: Final = ("stops", "passed", "share", "share_low", "share_high")
 """Columns of a table of cases that say how many stops came out as `pass`, and the interval of their share."""

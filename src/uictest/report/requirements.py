@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.report.csv_text import Cell
+from uictest.report.text_tables import Cell
 from uictest.report.wording import outcome_word
 
 if TYPE_CHECKING:

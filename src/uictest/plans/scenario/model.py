@@ -13,13 +13,13 @@ from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
+from uictest.plans.scenario.faults import impossible_faults, impossible_pole_wheels, line_leak, tank_leak
 from uictest.plans.scenario.feasibility import (
     BrakedWheelset,
     braking_force,
     largest_clamping_force,
     stopping_time_at_least,
 )
-from uictest.plans.scenario.impossible import impossible_faults, impossible_pole_wheels, line_leak, tank_leak
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.plans.scenario.parts.controller import Controller
 from uictest.plans.scenario.parts.criteria import Criteria

@@ -9,7 +9,6 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
-from uictest.report.csv_text import Cell, Table, csv_text
 from uictest.report.format_registry import ReportFormat
 from uictest.report.part_wording import changes_of, controller_of
 from uictest.report.repeat_wording import (
@@ -23,6 +22,7 @@ from uictest.report.repeat_wording import (
     stop_rows,
 )
 from uictest.report.requirements import requirement_rows, verified_requirements
+from uictest.report.text_tables import Cell, Table, csv_text
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import definition_sentence, reading_sentences
 

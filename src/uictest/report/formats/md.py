@@ -7,7 +7,6 @@ from functools import partial
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
-from uictest.report.csv_text import MarkdownTable, code, number_cell, prose, row
 from uictest.report.difference import (
     BaselineComparison,
     Difference,
@@ -21,6 +20,7 @@ from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.part_wording import changes_of, domain_notices, slide_speed
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import VerifiedRequirement, verified_requirements
+from uictest.report.text_tables import MarkdownTable, code, number_cell, prose, row
 from uictest.report.wording import listed, reading_sentences
 
 _MEASURES = {

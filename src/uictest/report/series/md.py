@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate
 
 from uictest.judging.series import SeriesResult
-from uictest.report.csv_text import MarkdownTable, code, prose, row
 from uictest.report.series.comparison import comparison_columns, comparison_rows
 from uictest.report.series.wording import (
     confidence_words,
@@ -14,6 +13,7 @@ from uictest.report.series.wording import (
     not_counted_sentences,
     of_dry_stop,
 )
+from uictest.report.text_tables import MarkdownTable, code, prose, row
 from uictest.report.wording import counted, limits, quantity
 
 _COLUMNS = ("verdict", "series", "criterion", "value", "limit", "margin", "confidence")

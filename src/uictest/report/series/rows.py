@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict, observed_stops
-from uictest.report.csv_text import Cell, Table
 from uictest.report.series.wording import series_word
+from uictest.report.text_tables import Cell, Table
 from uictest.report.wording import definition_sentence
 
 Row = dict[str, Cell]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from uictest.report.csv_text import csv_text
 from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
 from uictest.report.page.overview import PARAMETER_WORDS, shown_parts
 from uictest.report.page.rendering import render
@@ -38,6 +37,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
+from uictest.report.text_tables import csv_text
 from uictest.report.wording import (
     counted,
     failing_first,

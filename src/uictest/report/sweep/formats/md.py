@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
-from uictest.report.csv_text import MarkdownTable, code, number_cell, prose, row
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.sweep.folder import SweepContent, one_file
 from uictest.report.sweep.map_text import folded, is_large, short_label
@@ -29,6 +28,7 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
+from uictest.report.text_tables import MarkdownTable, code, number_cell, prose, row
 
 _MOST_ROWS = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown here."""

@@ -1,4 +1,4 @@
-"""Faults and sensors that cannot be."""
+"""Faults and speed sensors that a stop cannot have, and the leaks among the faults."""
 
 import math
 from collections.abc import Iterator
