@@ -40,6 +40,7 @@ RULES: Final = tuple(
         # The program: its version, and the digest of its code in the manifest of a sweep.
         (r"(?<=\buictest )\d+\.\d+\.\d+\b", "<version>"),
         (r'(?<="program": ")[0-9a-f]{16}(?=")', "<digest>"),
+        (r"(?<=^Provenance \| program \| )[0-9a-f]{16}\b", "<digest>"),
     )
 )
 """What cannot be the same twice, and what stands for it; each as narrow as can be."""
@@ -108,7 +109,7 @@ def _of_mf4(file: io.BytesIO) -> Iterator[str]:
     from asammdf import MDF
 
     with MDF(file) as recording:
-        yield str(recording.header)
+        yield recording.header.comment  # its times are those of writing
         for signal in recording.iter_channels():
             yield f"{signal.name} {signal.unit} {signal.conversion}: {signal.samples.tolist()}"
 
@@ -126,6 +127,8 @@ def _of_mat(file: io.BytesIO) -> Iterator[str]:
     from scipy.io import loadmat
 
     for name, values in loadmat(file).items():
+        if name == "__header__":
+            values = values.partition(b", Created on")[0]
         yield f"{name}: {values.tolist() if hasattr(values, 'tolist') else values}"
 
 
