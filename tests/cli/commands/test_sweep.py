@@ -13,6 +13,7 @@ from html import unescape
 from pathlib import Path
 from typing import Any
 
+import pyarrow.parquet as pq
 import pytest
 
 from uictest import report
@@ -370,12 +371,18 @@ def test_a_survey_says_what_it_repeated_and_what_its_step_does(call: Call, study
     survey = document["survey"]
     bias = next(each for each in survey["biases"] if each["measure"] == "braking_distance")
     assert (survey["time_step"], survey["regular_step"]) == ("1 ms", "0.5 ms")
-    begin = f"survey in steps of 1 ms: {survey['repeated']} of 96 cases, in which"
+    begin = (
+        f"survey in steps of 1 ms: {survey['repeated']} of 96 cases, which that could not settle, repeated"
+    )
     assert f"note: {begin}" in result.out
     assert "note: bias of the survey step: braking_distance at most" in result.out
     assert bias["case"] in result.out
     for name in ("summary.md", "index.html"):
         assert begin in unescape(Path("reports/study", name).read_text()), name
+    rows = pq.read_table("reports/study/summary.parquet").to_pylist()
+    distance = {row["id"]: row["braking_distance_m"] for row in rows}
+    for case in document["worst"]:
+        assert case["measures"]["braking_distance_m"] == distance[case["id"]]
     assert call("sweep", study).code == 4  # the chunks of a survey are no others
     assert "time step: survey before, none now" in call("sweep", study).err
 

@@ -87,6 +87,24 @@ def test_the_bias_is_not_known_beside_another_step(load: Load) -> None:
         load(GRID, SURVEY, scenario="fine.yaml")
 
 
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("grid: {simulation: [{time_step: 0.25 ms}, {time_step: 0.5 ms}]}\n", "simulation"),
+        (f"{GRID}zip: {{simulation.time_step: [0.25 ms, 0.5 ms], seed: [1, 2]}}\n", "simulation.time_step"),
+    ],
+)
+def test_no_step_varies_beside_the_survey(load: Load, text: str, key: str) -> None:
+    in_file = text.replace("grid: {", f"grid: {{{IN_FILE.strip()}, ") if "zip" not in text else text
+    in_file = in_file.replace("grid:\n", f"grid:\n  {IN_FILE}")
+    with pytest.raises(ScenarioErrors, match=f"'{key}' cannot vary: the survey step is that of all cases"):
+        load(in_file)
+
+
+def test_the_last_step_on_the_command_line_counts(load: Load) -> None:
+    assert load(GRID, "simulation.time_step=0.25 ms", SURVEY).survey
+
+
 def test_only_cases_within_their_bias_of_a_limit_are_repeated(
     load: Load, survey: Callable[..., ChunkRunner]
 ) -> None:
@@ -109,6 +127,22 @@ def test_a_measure_of_unknown_bias_is_always_repeated(load: Load, survey: Callab
     known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
     runner = replace(survey(plan), biases=known)
     assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
+
+
+def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(
+    load: Load, survey: Callable[..., ChunkRunner]
+) -> None:
+    """In the formula nothing saturates: 0 s at a limit of 0 s."""
+    plan = load(GRID, SURVEY, "criteria=uictest-rig")
+    steps = {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))}
+    moved = {row["time_step_ms"] for row in rows(survey(plan, loadcell_saturation=0.1).run(np.arange(6)))}
+    assert (steps, moved) == ({1.0}, {0.5})
+
+
+def test_criteria_of_a_series_decide_nothing(load: Load, survey: Callable[..., ChunkRunner]) -> None:
+    plan = load(GRID, SURVEY, "criteria=uictest-wsp")
+    found = rows(survey(plan).run(np.arange(plan.size)))
+    assert {row["time_step_ms"] for row in found} == {1.0}
 
 
 def test_what_the_survey_step_cannot_simulate_is_repeated(

@@ -53,6 +53,8 @@ class SweepSummary:
     result: SweepResult
     verdicts: Verdicts
     worst_indices: list[int]
+    surveyed: frozenset[int] = frozenset()
+    """Those of the worst cases whose rows are of survey steps."""
 
 
 def summarize(
@@ -104,7 +106,7 @@ def summarize(
             *(() if csv else (_WITHOUT_CSV,)),
         ),
     )
-    return SweepSummary(result, sums.verdicts, sums.worst.indices())
+    return SweepSummary(result, sums.verdicts, sums.worst.indices(), sums.worst.surveyed())
 
 
 class _Sums:

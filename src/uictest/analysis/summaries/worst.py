@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
@@ -11,9 +11,9 @@ import numpy as np
 
 from uictest.core import files
 from uictest.plans.scenario import Case
-from uictest.plans.sweeps import Plan
+from uictest.plans.sweeps import Plan, in_survey_steps
 from uictest.report import csv_cell
-from uictest.running.chunked import ScenarioVariants
+from uictest.running.chunked import ScenarioVariants, surveyed_cases
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -30,6 +30,7 @@ class WorstCases:
 
     def __init__(self) -> None:
         self._worst = np.zeros((0, 3))
+        self._surveyed: set[int] = set()
 
     def add(self, table: pa.Table) -> None:
         """Consider the rows of a chunk."""
@@ -38,26 +39,36 @@ class WorstCases:
         rows = np.concatenate([self._worst, rows[simulated]])
         # Cases without any margin come last; among equals the order is that of the plan.
         self._worst = rows[np.lexsort(rows.T)][:MOST]
+        self._surveyed = (self._surveyed | surveyed_cases(table)).intersection(self.indices())
 
     def indices(self) -> list[int]:
         """Return the indices of the cases, the worst first."""
         return [int(index) for index in self._worst[:, 0]]
+
+    def surveyed(self) -> frozenset[int]:
+        """Return the indices of those whose row is of a survey step."""
+        return frozenset(self._surveyed)
 
 
 def _numbers(table: pa.Table, name: str) -> Any:
     return np.array(table.column(name).to_numpy(zero_copy_only=False), float)
 
 
-def full_cases(plan: Plan, indices: Sequence[int]) -> list[Case]:
-    """Return cases of a plan with their whole scenarios, as `run` would run them."""
+def full_cases(plan: Plan, indices: Sequence[int], surveyed: Collection[int] = ()) -> list[Case]:
+    """Return cases of a plan with their whole scenarios; those that are `surveyed` in survey steps."""
     places = np.array(indices, np.int64)
     settings = plan.settings(places)
-    variants = ScenarioVariants(plan.base.scenario, settings, len(indices))
+    regular = ScenarioVariants(plan.base.scenario, settings, len(indices))
+    survey = ScenarioVariants(in_survey_steps(plan).base.scenario, settings, len(indices))
     return [
         Case(
-            name, variants.at(place), plan.base.path, {key: settings[key][place].text for key in settings}, {}
+            name,
+            (survey if index in surveyed else regular).at(place),
+            plan.base.path,
+            {key: settings[key][place].text for key in settings},
+            {},
         )
-        for place, name in enumerate(plan.ids(places))
+        for place, (index, name) in enumerate(zip(indices, plan.ids(places), strict=True))
     ]
 
 

@@ -19,7 +19,7 @@ from uictest.core.ensemble import Places, by_way
 from uictest.core.measures import MEASURES
 from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of
 from uictest.judging.evaluation.decision import Decision, read_measure, too_few_wheelsets, why_decided
-from uictest.judging.evaluation.judgement import undecided
+from uictest.judging.evaluation.judgement import OVER_A_SERIES, undecided
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
 from uictest.judging.evaluation.verdict import Layer, Status
 from uictest.plans import scenario
@@ -40,8 +40,8 @@ class BlockVerdicts:
 
     `statuses` are places in :data:`STATUSES`. `margins` are those of
     :func:`~uictest.judging.evaluation.verdict.relative_margin`; `has_margin` says where there is one, since a
-    margin itself may be NaN. `near_limit` says where the value lies within the bias from a bound, or none
-    decided. `reason` returns the reason of the verdict at a place.
+    margin itself may be NaN. `near_limit` says where the value lies within the bias from a bound, or data
+    are missing. `reason` returns the reason of the verdict at a place.
     """
 
     id: str
@@ -65,6 +65,8 @@ def block_verdicts(
     `together` and `alone` give scenario and stop at several places, and at one place. `bias` is that of the
     values, as a share of them; infinite where it is not known.
     """
+    if criterion.needs_series:
+        return _of_series(criterion, count)
     statuses = np.zeros(count, np.int8)
     reasons: dict[int, Callable[[], str]] = {}
     values = np.full((count, WHEELSET_COUNT if MEASURES[criterion.measure].of_wheelsets else 1), np.nan)
@@ -81,7 +83,7 @@ def block_verdicts(
                 values[places, wheelset] = numbers
         elif isinstance(found, Decision):
             statuses[places] = STATUSES.index(found.status)
-            near_limit[places] = True
+            near_limit[places] = found.status == "inconclusive"
             reasons |= dict.fromkeys(places.tolist(), partial(str, found.reason))
         else:
             statuses[places] = _NOT_APPLICABLE
@@ -103,6 +105,16 @@ def block_verdicts(
     near_limit |= has_value & bounded.within(bias)
     return BlockVerdicts(
         *(criterion.id, criterion.layer, statuses, margins, has_margin & has_value, near_limit, reason)
+    )
+
+
+def _of_series(criterion: scenario.Criterion, count: int) -> BlockVerdicts:
+    """Return that no stop is judged by a criterion of series."""
+    nothing = np.zeros(count, bool)
+    statuses = np.full(count, _NOT_APPLICABLE, np.int8)
+    margins = np.full(count, np.nan)
+    return BlockVerdicts(
+        *(criterion.id, criterion.layer, statuses, margins, nothing, nothing), lambda place: OVER_A_SERIES
     )
 
 
@@ -162,10 +174,15 @@ class BoundedValues:
         return np.asarray(np.isfinite(self.deciding) & kept)
 
     def within(self, share: float) -> NDArray[np.bool_]:
-        """Return whether a change of the deciding value by less than a share of it reaches a bound."""
+        """Return whether a change of the deciding value by less than a share of it reaches a bound.
+
+        So does any change of a value that lies at its bound.
+        """
         if math.isinf(share):
             return np.ones(self.deciding.size, bool)
-        return np.abs(self._margins(self.deciding)) < share * np.abs(self.deciding)
+        distances = np.abs(self._margins(self.deciding))
+        near = (distances < share * np.abs(self.deciding)) | ((distances == 0.0) & (share > 0.0))
+        return np.asarray(near)
 
     @property
     def relative_margins(self) -> tuple[Numbers, NDArray[np.bool_]]:

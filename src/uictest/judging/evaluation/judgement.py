@@ -25,6 +25,7 @@ from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_con
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
+OVER_A_SERIES: Final = "judged over the stops of a series"
 _NO_RIG: Final = (
     "not known: rig.compensation_model does not list the rig that it was identified for,"
     " or states other numbers than were identified"
@@ -174,7 +175,7 @@ def undecided(
 ) -> Decision | None:
     """Return the decision on a criterion that its measure has no part in; None where it has."""
     if criterion.needs_series:
-        return Decision("not_applicable", None, "judged over the stops of a series")
+        return Decision("not_applicable", None, OVER_A_SERIES)
     return _not_applicable(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
 
 

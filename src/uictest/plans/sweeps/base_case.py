@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -38,6 +38,7 @@ from uictest.plans.scenario.yaml import (
     default,
     dotted,
     inherit,
+    parse_quantity,
     quoted,
     single_error,
     suggestion,
@@ -145,7 +146,7 @@ def _place_of(case_id: Scalar | None, cases: Sequence[Case], reference: Scalar) 
 
 
 TIME_STEP: Final = "simulation.time_step"
-SURVEY_STEP: Final[Quantity] = default("1 ms", "time")
+SURVEY_STEP: Final[Quantity] = parse_quantity("1 ms", "time")
 REGULAR_STEP: Final[Quantity] = default("0.5 ms", "time")
 """The step that the bias of the survey step refers to."""
 
@@ -153,11 +154,12 @@ REGULAR_STEP: Final[Quantity] = default("0.5 ms", "time")
 def requested_survey(tree: Map, overrides: Sequence[Override]) -> Place | None:
     """Return where the survey step is asked for, None where it is not.
 
-    That is the only value of the time step on the command line, or else in the grid of the sweep file.
+    That is the only value of the time step on the command line, the last one there, or else in the grid of
+    the sweep file.
     """
-    for override in overrides:
-        if override.key == TIME_STEP:
-            return _place_of_survey(override.values)
+    given = [override for override in overrides if override.key == TIME_STEP]
+    if given:
+        return _place_of_survey(given[-1].values)
     grid = tree.get("grid")
     values = grid.get(TIME_STEP) if isinstance(grid, Map) else None
     return _place_of_survey(values.items) if isinstance(values, List) else None
@@ -176,6 +178,14 @@ def require_regular_step(base: BaseCase, place: Place) -> None:
     if step != REGULAR_STEP:
         message = f"the survey step is known beside {REGULAR_STEP.text}; the scenario is run in {step.text}"
         raise single_error(place, message, TIME_STEP, f"remove {TIME_STEP} from the scenario")
+
+
+def reject_other_steps(keys: Iterable[str], place: Place) -> None:
+    """Raise ScenarioErrors where a sweep in survey steps varies the step, too."""
+    for key in keys:
+        if f"{TIME_STEP}.".startswith(f"{key}."):
+            message = f"{quoted(key)} cannot vary: the survey step is that of all cases"
+            raise single_error(place, message, key, "vary the other keys of `simulation` one by one")
 
 
 def in_survey_steps(plan: Plan) -> Plan:

@@ -39,6 +39,7 @@ from uictest.plans.sweeps.base_case import (
     TIME_STEP,
     BaseCase,
     read_base_case,
+    reject_other_steps,
     requested_survey,
     require_regular_step,
 )
@@ -76,10 +77,10 @@ def load_sweep(
     _reject_ranges_in_grid(tree)
     file: SweepFile = validated(SweepFile, plain(tree), tree)
     survey = requested_survey(tree, parsed)
+    written, tree = tree, _without_keys(tree, {each.key for each in parsed})
     if survey is not None:
         parsed = tuple(each for each in parsed if each.key != TIME_STEP)
-    own_keys = {each.key for each in parsed} | ({TIME_STEP} if survey else set())
-    written, tree = tree, _without_keys(tree, own_keys)
+        tree = _without_entries(tree, "grid", {TIME_STEP})
     fixed = [each for each in parsed if len(each.values) == 1]
     roots = Roots.of([path], trusted)
     base = read_base_case(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
@@ -87,6 +88,8 @@ def load_sweep(
         require_regular_step(base, survey)
     reader = _Reader(base, tree, file)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
+    if survey is not None:
+        reject_other_steps((key for group in groups for key in group.keys), survey)
     plan = Plan(
         name=file.name,
         title=file.title,

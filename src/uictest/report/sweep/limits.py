@@ -99,8 +99,8 @@ def survey_notes(survey: SurveyStep | None, cases: int) -> Iterator[str]:
     if survey is None:
         return
     yield (
-        f"survey in steps of {survey.time_step}: {survey.repeated} of {counted(cases, 'case')}, in which the"
-        f" bias of the step could decide, were repeated in steps of {survey.regular_step}"
+        f"survey in steps of {survey.time_step}: {survey.repeated} of {counted(cases, 'case')}, which that"
+        f" could not settle, repeated in steps of {survey.regular_step}"
     )
     noted = [each for each in survey.biases if each.bias >= _LEAST_NOTED]
     for each in noted:

@@ -32,6 +32,7 @@ from .table import (
     number_column as number_column,
     repeated_cases as repeated_cases,
     survey_step as survey_step,
+    surveyed_cases as surveyed_cases,
     text_column as text_column,
     wheelset_columns as wheelset_columns,
 )

@@ -102,6 +102,14 @@ def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
 
 
+def surveyed_cases(table: pa.Table) -> set[int]:
+    """Return the indices of the cases whose rows are of survey steps."""
+    if TIME_STEP_COLUMN not in table.column_names:
+        return set()
+    steps = table.column(TIME_STEP_COLUMN).to_numpy()
+    return set(table.column("index").to_numpy()[steps != REGULAR_STEP / SIZES["ms"]].tolist())
+
+
 def repeated_cases(table: pa.Table) -> int:
     """Return how many cases of a survey were simulated in regular steps in the end; else none."""
     if TIME_STEP_COLUMN not in table.column_names:

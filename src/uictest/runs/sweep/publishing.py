@@ -71,7 +71,7 @@ def publish(run: SweepRun, store: chunked.ChunkStore, observer: SweepObserver) -
         run.selection, store, run.pair, run.measures, run.reference, csv=run.writes_csv
     )
     frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
-    worst, subjects = _run_worst(run, summary.worst_indices, store.folder)
+    worst, subjects = _run_worst(run, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
     result = with_nominal_stops(run, result)
     document = report.write_sweep_result(store.folder, result, run.selection.plan.file)
@@ -82,13 +82,13 @@ def publish(run: SweepRun, store: chunked.ChunkStore, observer: SweepObserver) -
 
 
 def _run_worst(
-    run: SweepRun, indices: Sequence[int], folder: Path
+    run: SweepRun, summary: summaries.SweepSummary, folder: Path
 ) -> tuple[tuple[evaluation.CaseResult, ...], Mapping[str, report.CaseDescription]]:
-    """Run the worst cases again with explanations, and write their recordings next to the tables.
+    """Run the worst cases again as their rows were, with explanations, and write their recordings.
 
     Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
     """
-    cases = summaries.full_cases(run.selection.plan, indices)
+    cases = summaries.full_cases(run.selection.plan, summary.worst_indices, summary.surveyed)
     files.remove_listed(folder, f"{report.RECORDINGS}/*")
 
     def write_recording(case_run: campaign.CaseRun) -> None:
