@@ -19,17 +19,10 @@ from consoles import refreshed
 from markup import with_generated
 
 REPOSITORY = Path(__file__).parents[2]
-_TABLES: dict[str, Callable[..., str]] = {
-    "scenario": fields.scenario_table,
-    "part": fields.part_table,
+_TABLES: dict[str, Callable[[], str]] = {
     "units": fields.units_table,
     "measures": fields.measures_table,
-    "series-measures": fields.series_measures_table,
     "faults": fields.faults_table,
-    "sample": fields.sample_table,
-    "quantiles": fields.quantiles_table,
-    "k_dry": fields.k_dry_table,
-    "distributions": fields.distributions_table,
 }
 
 
@@ -39,9 +32,8 @@ def pages() -> list[Path]:
 
 
 def generated(what: str) -> str:
-    """Return the table that a marker such as ``part vehicle`` asks for."""
-    word, _, rest = what.partition(" ")
-    return _TABLES[word](*([rest] if rest else []))
+    """Return the table that a marker such as ``units`` asks for."""
+    return _TABLES[what]()
 
 
 def main(names: Sequence[str]) -> None:
