@@ -17,6 +17,7 @@ from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
 from uictest.plans.sweeps import Plan
 from uictest.plans.sweeps.base_case import in_survey_steps
+from uictest.report import survey_notes
 from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.manifest import program_digest
@@ -194,7 +195,21 @@ def test_the_bias_of_every_criterion_of_the_library_is_known(load: Load) -> None
     judged = {each.measure for profile in plan.base.scenario.judged_by for each in profile.criteria}
     assert judged | {"valve_actuations"} == {each.measure for each in survey.biases}
     assert (survey.time_step, survey.regular_step, survey.repeated) == ("1 ms", "0.5 ms", 2)
+    assert survey.unknown == ()
+    settled = (
+        "survey in steps of 1 ms, which could not settle 2 of 6 cases: these were repeated in steps of 0.5 ms"
+    )
+    assert next(survey_notes(survey, 6)) == settled
     assert survey_step(load(), 0, []) is None
+
+
+def test_a_measure_without_a_bias_is_named(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+    known = {name: each for name, each in survey_biases().items() if name != "longest_lock"}
+    monkeypatch.setattr("uictest.running.chunked.table.survey_biases", lambda: known)
+    survey = survey_step(load(GRID, SURVEY, "criteria=[uictest-stop,uictest-wsp]"), 6, [])
+    assert survey is not None
+    assert survey.unknown == ("longest_lock",)
+    assert "bias of the survey step: not known of longest_lock" in list(survey_notes(survey, 6))
 
 
 def test_the_bias_is_the_largest_of_any_shipped_case() -> None:

@@ -82,9 +82,11 @@ class SurveyStep:
 
     Args:
         time_step: that the cases were simulated in, as written.
-        regular_step: that those were repeated in of which a value lay within its bias of a limit, as written.
+        regular_step: that those were repeated in of which a value lay within its bias of a limit, and those
+            that the survey step could not simulate or decide, as written.
         repeated: number of these cases.
         biases: of the measures that are judged or mapped.
+        unknown: names of those whose bias is not known: every case in which one is judged is repeated.
 
     """
 
@@ -92,16 +94,21 @@ class SurveyStep:
     regular_step: str
     repeated: int
     biases: tuple[SurveyBias, ...]
+    unknown: tuple[str, ...] = ()
 
 
 def survey_notes(survey: SurveyStep | None, cases: int) -> Iterator[str]:
     """Yield how many cases were repeated in regular steps, and the bias of each measure."""
     if survey is None:
         return
-    yield (
-        f"survey in steps of {survey.time_step}: {survey.repeated} of {counted(cases, 'case')}, which that"
-        f" could not settle, repeated in steps of {survey.regular_step}"
-    )
+    begin = f"survey in steps of {survey.time_step}, which"
+    if survey.repeated:
+        repeated = f"these were repeated in steps of {survey.regular_step}"
+        yield f"{begin} could not settle {survey.repeated} of {counted(cases, 'case')}: {repeated}"
+    else:
+        yield f"{begin} settled all of {counted(cases, 'case')}"
+    if survey.unknown:
+        yield f"bias of the survey step: not known of {', '.join(survey.unknown)}"
     noted = [each for each in survey.biases if each.bias >= _LEAST_NOTED]
     for each in noted:
         yield (

@@ -165,8 +165,10 @@ def survey_step(plan: Plan, repeated: int, columns: Collection[str]) -> SurveySt
     if not plan.survey:
         return None
     known = survey_biases()
-    biases = tuple(known[name] for name in _looked_at(plan, columns) if name in known)
-    return SurveyStep(SURVEY_STEP.text, REGULAR_STEP.text, repeated, biases)
+    names = _looked_at(plan, columns)
+    biases = tuple(known[name] for name in names if name in known)
+    unknown = tuple(name for name in names if name not in known)
+    return SurveyStep(SURVEY_STEP.text, REGULAR_STEP.text, repeated, biases, unknown)
 
 
 def _looked_at(plan: Plan, columns: Collection[str]) -> dict[str, None]:
@@ -176,6 +178,7 @@ def _looked_at(plan: Plan, columns: Collection[str]) -> dict[str, None]:
         for scenario in scenarios_with_each(plan, "criteria")
         for profile in scenario.judged_by
         for criterion in profile.criteria
+        if not criterion.needs_series
     )
     mapped = (each.name for each in MEASURES.values() if each.column and each.column.name in columns)
     return dict.fromkeys((*judged, *mapped))
