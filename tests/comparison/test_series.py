@@ -22,7 +22,7 @@ from uictest.analysis.comparison import (
 from uictest.core.series_measures import SeriesValue, mean_of
 from uictest.judging import series
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report import RunContent, junit_xml, missing_annotations, missing_lines
+from uictest.report import RunContent, junit_text, missing_annotations, missing_lines, run_suites
 from uictest.report.document import baseline_form, read_baseline_comparison
 
 MakeCase = Callable[..., CaseResult]
@@ -219,7 +219,9 @@ def test_a_series_that_differs_is_in_every_report_for_machines(
         RunContent("run", [], series=[make_series([500.0], "fail")])
     )
     sentence = "baseline: criterion k-wet was pass, is fail"
-    failure = ElementTree.fromstring(junit_xml([], found)).find(".//testcase[@name='acceptance']/failure")
+    failure = ElementTree.fromstring(junit_text(run_suites([], found))).find(
+        ".//testcase[@name='acceptance']/failure"
+    )
     assert failure is not None
     assert (failure.get("type"), failure.text) == ("baseline", sentence)
     assert list(missing_lines(found)) == [f"differs acceptance reason={sentence}"]

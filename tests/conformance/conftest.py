@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from uictest import selftest
 from uictest.plans import templates
 from uictest.plans.scenario import load_controller
 from uictest.selftest import conformance
 
-Examine = Callable[..., conformance.Examination]
+Examine = Callable[..., selftest.Examination]
 
 
 @pytest.fixture
@@ -21,7 +22,7 @@ def examine(tmp_path: Path) -> Examine:
     Its cycles take twice as long as those of the library, so that each drive has half as many.
     """
 
-    def changed(before: str = "", after: str = "", time_limit: str = "60 s") -> conformance.Examination:
+    def changed(before: str = "", after: str = "", time_limit: str = "60 s") -> selftest.Examination:
         files = templates.controller_files("python")
         assert before in files["my_wsp.py"]
         (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")

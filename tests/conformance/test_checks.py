@@ -10,22 +10,23 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from uictest import report, selftest
 from uictest.controllers import OUTPUTS
 from uictest.plans.scenario import load_part
 from uictest.selftest import conformance
 from uictest.selftest.conformance import checks
 
-Examine = Callable[..., conformance.Examination]
+Examine = Callable[..., selftest.Examination]
 STEP = '        """Answer one controller cycle."""\n'
 RESULT = "            hold=[hold for hold, _ in states],\n            vent=[vent for _, vent in states],\n"
 
 
-def missed(examination: conformance.Examination) -> set[str]:
+def missed(examination: selftest.Examination) -> set[str]:
     """The checks that failed; how fast this machine is does not count."""
     return {each.id for each in examination.findings if each.status in ("fail", "error")}
 
 
-def built_in(name: str) -> conformance.Examination:
+def built_in(name: str) -> selftest.Examination:
     return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}")))
 
 
@@ -101,7 +102,7 @@ def test_only_fields_of_answers_are_compared() -> None:
 def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine: Examine) -> None:
     examination = examine("            reference_speed=self.reference_speed,\n", "")
     [finding] = [each for each in examination.findings if each.id == "reference-speed"]
-    assert (finding.status, finding.value) == ("skipped", None)
+    assert (finding.status, finding.found) == ("skipped", None)
     assert missed(examination) == set()
 
 
@@ -135,12 +136,12 @@ def test_a_controller_that_cannot_be_created_is_an_error(examine: Examine) -> No
 
 def test_the_report_has_every_check_in_each_form(examine: Examine) -> None:
     examination = examine("slide < self.upper_slide", "slide < 2.0")
-    table = list(conformance.finding_table(examination, None))
-    assert table[-1].startswith("fail vents-sliding: ")
-    document: dict[str, Any] = json.loads(conformance.findings_json(examination))
+    table = list(report.document_lines(selftest.finding_document(examination), None))
+    assert table[-2].startswith("fail vents-sliding: ")
+    document: dict[str, Any] = json.loads(selftest.findings_json(examination))
     assert [each["id"] for each in document["checks"]] == [each.id for each in conformance.CHECKS]
-    assert document["controller"]["version"] == "0.1.0"
-    suite = ElementTree.fromstring(conformance.junit_xml(examination).encode())[0]
+    assert document["about"]["controller.version"] == "0.1.0"
+    suite = ElementTree.fromstring(report.junit_text([selftest.findings_suite(examination)]))[0]
     assert suite.get("tests") == str(len(conformance.CHECKS))
     [failure] = suite.findall("testcase/failure")
-    assert "never, at most 1 s" in (failure.text or "")
+    assert "expected at most 1, found never s" in (failure.text or "")

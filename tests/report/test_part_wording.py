@@ -11,7 +11,15 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report import RunContent, case_annotations, csv_text, junit_xml, part_lines, run_manifest
+from uictest.report import (
+    RunContent,
+    case_annotations,
+    csv_text,
+    junit_text,
+    part_lines,
+    run_manifest,
+    run_suites,
+)
 from uictest.report.formats.csv import FORMAT as CSV, summary_table
 from uictest.report.formats.junit import FORMAT as JUNIT
 from uictest.report.formats.md import FORMAT as MARKDOWN, markdown_summary
@@ -93,7 +101,7 @@ def test_the_version_that_a_controller_tells_is_shown_case_by_case(make_result: 
         "part controller (in two): wsp, version 1.3, library wsp.so",
         "part controller (in failed): wsp, library wsp.so",
     ]
-    (suite,) = ElementTree.fromstring(junit_xml(results)).iter("testsuite")
+    (suite,) = ElementTree.fromstring(junit_text(run_suites(results))).iter("testsuite")
     properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
     assert properties["controller.version"] == "1.2, 1.3"
     assert [each.text for each in suite.iter("system-out")] == [
@@ -165,7 +173,7 @@ def test_tables_and_summaries_say_what_was_changed(
 def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not(make_result: MakeResult) -> None:
     parts = {"controller": CONTROLLER}
     met, missed = ElementTree.fromstring(
-        junit_xml([make_result(parts=parts), make_result(parts=parts, expect="fail")])
+        junit_text(run_suites([make_result(parts=parts), make_result(parts=parts, expect="fail")]))
     ).iter("testcase")
     assert met.findtext("system-out") == f"changed parameters: {CHANGE}"
     assert (missed.findtext("failure") or "").endswith(f"changed parameters: {CHANGE}")

@@ -19,7 +19,8 @@ from uictest.report import (
     case_annotations,
     case_line,
     csv_text,
-    junit_xml,
+    junit_text,
+    run_suites,
     verdict_table,
 )
 from uictest.report.formats import csv as tables
@@ -174,7 +175,7 @@ def test_markdown_has_a_column_of_stops(make_repeated: Make, make_content: MakeC
 
 def test_junit_has_one_testcase_and_says_which_stops(make_repeated: Make) -> None:
     root = ElementTree.fromstring(
-        junit_xml([make_repeated("ppf"), make_repeated("pff", id="b", outcome="fail")])
+        junit_text(run_suites([make_repeated("ppf"), make_repeated("pff", id="b", outcome="fail")]))
     )
     met, failed = root.iter("testcase")
     assert (met.findtext("system-out") or "").startswith("3 stops, seeds 0..2: 2 pass (seeds 0, 1), 1 fail")
@@ -192,7 +193,7 @@ def test_github_is_told_of_a_case_that_passes_in_some_stops_only(make_repeated: 
 def test_an_error_in_one_stop_is_explained(make_repeated: Make) -> None:
     result = make_repeated("ppe", outcome="error", reason="error in 1 of 3 stops (seed 2): no wheel load")
     assert "no wheel load" in case_line(result)
-    assert "no wheel load" in junit_xml([result])
+    assert "no wheel load" in junit_text(run_suites([result]))
 
 
 def test_the_page_has_the_stops_of_each_case(

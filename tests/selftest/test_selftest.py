@@ -149,12 +149,12 @@ def asked(stops: selftest.KnownStops, answer: Callable[[selftest.KnownStops], An
     return selftest.examine(stops, [Check("made-up", "physics", "made up", answer, **options)]).findings[0]
 
 
-def test_what_a_machine_lacks_is_not_checked_and_says_why(stops: selftest.KnownStops) -> None:
+def test_what_a_machine_lacks_is_skipped_and_says_why(stops: selftest.KnownStops) -> None:
     def lacking(stops: selftest.KnownStops) -> Answer:
         raise NotCheckedError("no C compiler")
 
     finding = asked(stops, lacking)
-    assert (finding.status, finding.reason) == ("not_checked", "no C compiler")
+    assert (finding.status, finding.reason) == ("skipped", "no C compiler")
 
 
 def test_a_check_that_raises_is_an_error(stops: selftest.KnownStops) -> None:
@@ -185,11 +185,11 @@ def test_an_advisory_check_only_warns(stops: selftest.KnownStops) -> None:
     assert asked(stops, lambda stops: Answer("read back", "nothing"), advisory=True).status == "warning"
 
 
-def test_without_a_compiler_the_controller_in_c_is_not_checked(
+def test_without_a_compiler_the_controller_in_c_is_skipped(
     stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("CC", "no-such-compiler")
-    assert status_of(stops, "c-controller") == "not_checked"
+    assert status_of(stops, "c-controller") == "skipped"
 
 
 def test_a_controller_from_outside_that_answers_otherwise_is_found(

@@ -34,13 +34,14 @@ from .format_registry import (
 )
 from .formats import format_names as format_names
 from .formats.csv import run_tables as run_tables
-from .formats.junit import junit_xml as junit_xml
+from .formats.junit import run_suites as run_suites, suites_of_run as suites_of_run
 from .formats.md import append_step_summary as append_step_summary
 from .github import (
     annotation as annotation,
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
 )
+from .junit import junit_text as junit_text
 from .junit_properties import test_properties as test_properties
 from .manifest import (
     CASES_IN_PYTHON as CASES_IN_PYTHON,
@@ -96,7 +97,7 @@ from .sweep.folder import (
 from .sweep.formats import sweep_format_names as sweep_format_names
 from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
 from .sweep.github import sweep_annotations as sweep_annotations
-from .sweep.junit import sweep_junit_xml as sweep_junit_xml
+from .sweep.junit import sweep_suite as sweep_suite
 from .sweep.limits import (
     OutsideCount as OutsideCount,
     SurveyBias as SurveyBias,
@@ -141,6 +142,7 @@ from .sweep.wording import (
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
+from .terminal.document_lines import document_lines as document_lines, table_lines as table_lines
 from .terminal.fitted_columns import (
     TableColumn as TableColumn,
     aligned as aligned,

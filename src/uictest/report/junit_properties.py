@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Final
-from xml.etree import ElementTree
 
 from uictest.judging import evaluation
-from uictest.report.escaping import xml_text
 
 WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
 """Name of the file whose testcases have properties, which the schema of Jenkins' xUnit plugin forbids."""
@@ -16,15 +14,14 @@ WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
 _REQUIREMENT_SEPARATOR: Final = ","
 
 
-def add_suite_properties(
-    suite: ElementTree.Element,
+def suite_properties(
     program: evaluation.Program | None,
     told: Iterable[str] = (),
     requirements: Iterable[str] = (),
     built_in: Iterable[str] = (),
     uictest_version: str = "",
-) -> None:
-    """Add what is known of the cases of a suite: their controller and the requirements that they verify.
+) -> dict[str, str]:
+    """Return what is known of the cases of a suite: their controller and the requirements that they verify.
 
     Without a program `built_in` names the controllers of the cases, which have the version of uictest. The
     properties are `controller` and, where known, `controller.kind`, `.source`, `.version` and `.sha256`.
@@ -35,14 +32,7 @@ def add_suite_properties(
     version = f"uictest {uictest_version}" if names and uictest_version else ""
     own = {"controller": names, "controller.version": version}
     named = own if program is None else _program_facts(program, told)
-    _add_properties(suite, named | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)})
-
-
-def add_test_properties(
-    testcase: ElementTree.Element, test_case: str, requirements: Iterable[str] = ()
-) -> None:
-    """Add the properties by which test management tools know a testcase."""
-    _add_properties(testcase, test_properties(test_case, requirements))
+    return named | {"requirements": _REQUIREMENT_SEPARATOR.join(requirements)}
 
 
 def test_properties(test_case: str, requirements: Iterable[str] = ()) -> dict[str, str]:
@@ -58,12 +48,3 @@ def test_properties(test_case: str, requirements: Iterable[str] = ()) -> dict[st
 def _program_facts(program: evaluation.Program, told: Iterable[str]) -> dict[str, str]:
     facts = dataclasses.asdict(program.telling(", ".join(filter(None, told))))
     return {"controller": facts.pop("name"), **{f"controller.{name}": text for name, text in facts.items()}}
-
-
-def _add_properties(element: ElementTree.Element, named: Mapping[str, str]) -> None:
-    properties = ElementTree.Element("properties")
-    for name, text in named.items():
-        if text:
-            ElementTree.SubElement(properties, "property", name=name, value=xml_text(text))
-    if len(properties):
-        element.insert(0, properties)

@@ -1,13 +1,13 @@
 """Ask every question."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from uictest.selftest.air import AIR_CHECKS
 from uictest.selftest.bits import controller_checks, stop_checks
-from uictest.selftest.check import SEVERITY, Answer, Check, Finding, NotCheckedError, Status
+from uictest.selftest.check import Answer, Check, NotCheckedError
 from uictest.selftest.dry_stop import DRY_STOP_CHECKS
 from uictest.selftest.environment import environment, environment_checks
+from uictest.selftest.finding import Examination, Finding, Status
 from uictest.selftest.friction import CONTACT_CHECKS, FRICTION_CHECKS
 from uictest.selftest.judging import judging_checks
 from uictest.selftest.known_stops import KnownStops
@@ -30,37 +30,18 @@ def all_checks(stops: KnownStops) -> tuple[Check, ...]:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Examination:
-    """An installation and what the checks have found.
-
-    Attributes:
-        environment: versions, processor and extras, by name.
-        reference: version of uictest that computed the stored numbers.
-        findings: one for each check.
-    """
-
-    environment: Mapping[str, str]
-    reference: str
-    findings: tuple[Finding, ...]
-
-    @property
-    def status(self) -> Status:
-        """The worst of the findings."""
-        return max((finding.status for finding in self.findings), key=SEVERITY.index)
-
-
 def examine(stops: KnownStops, checks: Sequence[Check] | None = None) -> Examination:
     """Ask every question, or these; an exception in a check is a finding with the status `error`."""
     asked = all_checks(stops) if checks is None else checks
-    return Examination(environment(), reference_version(), tuple(_finding(check, stops) for check in asked))
+    about = {**environment(), "stored stops": f"computed by uictest {reference_version()}"}
+    return Examination("selftest", "", about, tuple(_finding(check, stops) for check in asked))
 
 
 def _finding(check: Check, stops: KnownStops) -> Finding:
     try:
         answer = check.answer(stops)
     except NotCheckedError as error:
-        return _without_answer(check, "not_checked", str(error))
+        return _without_answer(check, "skipped", str(error))
     except Exception as error:
         return _without_answer(check, "error", f"{type(error).__name__}: {error}")
     status = _status(check, answer)

@@ -56,7 +56,7 @@ def test_exit_codes_are_those_of_run(call: Call) -> None:
 def test_nothing_but_the_table_is_on_stdout(call: Call, tmp_path: Path) -> None:
     """What a controller prints cannot disturb it."""
     answer = call("controller", "check", program("print('noise')"), "--format", "json")
-    assert json.loads(answer.out)["controller"]["kind"] == "python"
+    assert json.loads(answer.out)["about"]["controller.kind"] == "python"
 
 
 CONTROLLER = "controller: {python: fills.py, class: Fills}\n"

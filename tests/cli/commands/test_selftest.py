@@ -11,7 +11,7 @@ from typing import Any
 import junitparser
 import pytest
 
-from uictest import selftest
+from uictest import report, selftest
 from uictest.selftest import examination
 
 Call = Callable[..., Any]
@@ -33,9 +33,9 @@ CHECKS = {
     "error": selftest.Check("creep", "physics", "the creep", no_answer),
     "nothing": selftest.Check("air", "physics", "air", lambda stops: selftest.Answer(300.0, math.nan), 0.01),
     "close": selftest.Check("play", "physics", "a play", lambda stops: selftest.Answer(1.0, 1.000000001)),
-    "not checked": selftest.Check("c", "controllers", "a controller in C", not_here),
+    "skipped": selftest.Check("c", "controllers", "a controller in C", not_here),
 }
-FOUR = ("met", "missed", "error", "not checked")
+FOUR = ("met", "missed", "error", "skipped")
 """With each verdict once."""
 
 
@@ -53,7 +53,7 @@ def asks(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     ("names", "code"),
     [
         (("met",), 0),
-        (("met", "not checked"), 0),
+        (("met", "skipped"), 0),
         (("met", "missed"), 1),
         (("missed", "error"), 3),
     ],
@@ -70,13 +70,13 @@ def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
 ) -> None:
     asks(*FOUR)
     lines = call("selftest").out.splitlines()
-    assert "tank   pass         1         1.001  1e-02   K     a tank" in lines
-    assert "stop   fail         a1        b2     exact         a stop" in lines
+    assert "tank   pass     1         1.001  1e-02   K     a tank" in lines
+    assert "stop   fail     a1        b2     exact         a stop" in lines
     assert lines[-4:] == [
         "fail stop: 1 differs",
         "error creep: ZeroDivisionError: no wheel load",
-        "not checked c: no C compiler (cc)",
-        "4 known answers: 1 not checked, 1 pass, 1 fail, 1 error",
+        "skipped c: no C compiler (cc)",
+        "4 checks: 1 skipped, 1 pass, 1 fail, 1 error",
     ]
 
 
@@ -86,7 +86,7 @@ def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
         (None, []),
         (100, []),
         (45, ["within", "unit"]),
-        (40, ["within", "unit", "known answer"]),
+        (40, ["within", "unit", "requirement"]),
     ],
 )
 def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
@@ -95,9 +95,9 @@ def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
     """What was expected and found goes last, and is in JSON all the same."""
     stops = selftest.KnownStops()
     examined = selftest.examine(stops, [CHECKS["met"]])
-    lines = list(selftest.finding_table(examined, width))
+    lines = list(report.document_lines(selftest.finding_document(examined), width))
     [titles] = [line for line in lines if line.startswith("check ")]
-    shown = {"verdict", "expected", "found", "within", "unit", "known answer"} - set(hidden)
+    shown = {"verdict", "expected", "found", "within", "unit", "requirement"} - set(hidden)
     assert {title for title in shown | set(hidden) if title in titles} == shown
     told = [line for line in lines if line.startswith("not shown")]
     assert told == (
@@ -120,13 +120,13 @@ def test_numbers_that_differ_in_the_tenth_digit_are_told_apart(call: Call, asks:
 def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[..., None]) -> None:
     asks(*FOUR)
     document = json.loads(call("selftest", "--format", "json").out)
-    assert (document["schema"], document["status"]) == ("uictest/selftest/1", "error")
-    assert {"uictest", "python", "processor", "numpy"} <= set(document["environment"])
-    assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "not_checked"]
+    assert (document["schema"], document["status"]) == ("uictest/findings/1", "error")
+    assert {"uictest", "python", "processor", "numpy"} <= set(document["about"])
+    assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "skipped"]
     assert document["checks"][1] == {
         "id": "stop",
         "group": "numerics",
-        "what": "a stop",
+        "requirement": "a stop",
         "status": "fail",
         "expected": "a1",
         "found": "b2",
@@ -143,7 +143,7 @@ def test_junit_has_a_testcase_for_every_question(call: Call, asks: Callable[...,
     assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (4, 1, 1, 1)
     kinds = [type(case.result[0]).__name__ if case.result else "" for case in suite]
     assert kinds == ["", "Failure", "Error", "Skipped"]
-    assert {"uictest", "processor", "reference"} <= {each.name for each in suite.properties()}
+    assert {"uictest", "processor", "stored stops"} <= {each.name for each in suite.properties()}
 
 
 def test_the_message_of_a_failure_is_its_reason_or_else_what_was_expected_and_found(
@@ -153,4 +153,4 @@ def test_the_message_of_a_failure_is_its_reason_or_else_what_was_expected_and_fo
     call("selftest", "--junitxml", "selftest.xml")
     [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
     messages = [case.result[0].message for case in suite]
-    assert messages == ["1 differs", "expected 300, found nan"]
+    assert messages == ["1 differs", "air: expected 300, found nan"]

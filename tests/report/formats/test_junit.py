@@ -6,14 +6,14 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report.formats.junit import junit_xml
+from uictest.report import junit_text, run_suites
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
 
 
 def _suite(results: list[CaseResult]) -> ElementTree.Element:
-    suite = ElementTree.fromstring(junit_xml(results)).find("testsuite")
+    suite = ElementTree.fromstring(junit_text(run_suites(results))).find("testsuite")
     assert suite is not None
     return suite
 

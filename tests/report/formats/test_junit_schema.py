@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter, Verdict
-from uictest.report import RunContent
-from uictest.report.formats.junit import FORMAT, junit_xml
+from uictest.report import RunContent, junit_text, run_suites
+from uictest.report.formats.junit import FORMAT
 
 MakeResult = Callable[..., CaseResult]
 
@@ -81,19 +81,19 @@ def results(make_result: MakeResult, hostile: str) -> list[CaseResult]:
 
 
 def test_every_element_is_as_jenkins_wants_it(results: list[CaseResult]) -> None:
-    _check(ElementTree.fromstring(junit_xml(results)))
+    _check(ElementTree.fromstring(junit_text(run_suites(results))))
 
 
 def test_the_file_with_test_properties_is_the_other_one_with_nothing_but_these(
     results: list[CaseResult],
 ) -> None:
-    root = ElementTree.fromstring(junit_xml(results, test_properties=True))
+    root = ElementTree.fromstring(junit_text(run_suites(results, with_properties=True)))
     _check(root, WITH_TEST_PROPERTIES)
     for testcase in root.iter("testcase"):
         for properties in testcase.findall("properties"):
             testcase.remove(properties)
     ElementTree.indent(root)
-    other = ElementTree.fromstring(junit_xml(results))
+    other = ElementTree.fromstring(junit_text(run_suites(results)))
     ElementTree.indent(other)
     assert ElementTree.tostring(root) == ElementTree.tostring(other)
 
@@ -119,23 +119,27 @@ def test_polarion_and_xray_find_the_test_case_and_xray_the_requirements(
         make_result(id="test-case", test_case="WSP-8"),
         make_result(id="neither"),
     ]
-    assert _test_properties(junit_xml(results, test_properties=True)) == {
+    assert _test_properties(junit_text(run_suites(results, with_properties=True))) == {
         "both": [("polarion-testcase-id", "WSP-7"), ("test_key", "WSP-7"), ("requirements", "BR-1,BR-2")],
         "requirements": [("requirements", "BR-10,BR-9")],
         "test-case": [("polarion-testcase-id", "WSP-8"), ("test_key", "WSP-8")],
         "neither": [],
     }
-    first = ElementTree.fromstring(junit_xml(results, test_properties=True)).findall("testsuite/testcase")[0]
+    first = ElementTree.fromstring(junit_text(run_suites(results, with_properties=True))).findall(
+        "testsuite/testcase"
+    )[0]
     assert first[0].tag == "properties"  # where pytest writes them
-    assert not any(_test_properties(junit_xml(results)).values())
-    suite = ElementTree.fromstring(junit_xml(results)).find("testsuite/properties/property")
+    assert not any(_test_properties(junit_text(run_suites(results))).values())
+    suite = ElementTree.fromstring(junit_text(run_suites(results))).find("testsuite/properties/property")
     assert suite is not None
     assert suite.attrib == {"name": "requirements", "value": "BR-1,BR-2,BR-9,BR-10"}
 
 
 def test_junitparser_reads_the_test_properties(make_result: MakeResult) -> None:
     junitparser = pytest.importorskip("junitparser")
-    text = junit_xml([make_result(test_case="WSP-7", requirements=("BR-1",))], test_properties=True)
+    text = junit_text(
+        run_suites([make_result(test_case="WSP-7", requirements=("BR-1",))], with_properties=True)
+    )
     ((testcase,),) = junitparser.JUnitXml.fromfile(io.StringIO(text.partition("\n")[2]))
     found = {
         each.name: each.value
@@ -162,7 +166,9 @@ def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_i
     other = _controller("tcp://rig:5025", connect="tcp://rig:5025")
     own = _controller("threshold", algorithm="threshold")
     parts = {"a": one, "b": own, "c": other, "d": one}
-    text = junit_xml([make_result(id=name, parts={"controller": part}) for name, part in parts.items()])
+    text = junit_text(
+        run_suites([make_result(id=name, parts={"controller": part}) for name, part in parts.items()])
+    )
     suites = {
         suite.get("name"): (
             [case.get("name") for case in suite.iter("testcase")],
@@ -195,7 +201,9 @@ def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_i
 
 def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> None:
     junitparser = pytest.importorskip("junitparser")
-    suites = list(junitparser.JUnitXml.fromfile(io.StringIO(junit_xml(results).partition("\n")[2])))
+    suites = list(
+        junitparser.JUnitXml.fromfile(io.StringIO(junit_text(run_suites(results)).partition("\n")[2]))
+    )
     counts = [(suite.tests, suite.failures, suite.errors, suite.skipped) for suite in suites]
     assert counts == [(7, 3, 2, 1), (1, 0, 1, 0)]
     found = {case.name: case for suite in suites for case in suite}

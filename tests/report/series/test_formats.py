@@ -15,8 +15,15 @@ import pytest
 
 from uictest.judging import series
 from uictest.judging.evaluation import CaseResult
-from uictest.report import RunContent, read_run, series_table, write_formats, write_reports
-from uictest.report.formats.junit import junit_xml
+from uictest.report import (
+    RunContent,
+    junit_text,
+    read_run,
+    run_suites,
+    series_table,
+    write_formats,
+    write_reports,
+)
 from uictest.report.formats.md import markdown_summary
 from uictest.report.series.lines import series_line, series_lines
 from uictest.report.series.wording import series_explanation, series_tally
@@ -130,7 +137,7 @@ def test_hostile_texts_stay_texts(
         [*series_table([result], 80), series_line(result), *series_explanation(result)]
     )
     assert "\x1b" not in markdown_summary(content)
-    ElementTree.fromstring(junit_xml([], series=[result]))
+    ElementTree.fromstring(junit_text(run_suites([], series=[result])))
 
 
 def test_a_finished_run_is_read_back_as_it_was(

@@ -8,14 +8,14 @@ from xml.etree import ElementTree
 
 from uictest.judging import series
 from uictest.judging.evaluation import CaseResult
-from uictest.report.formats.junit import junit_xml
+from uictest.report import junit_text, run_suites
 
 MakeSeries = Callable[..., series.SeriesResult]
 MakeResult = Callable[..., CaseResult]
 
 
 def suites(*results: series.SeriesResult) -> list[ElementTree.Element]:
-    return list(ElementTree.fromstring(junit_xml([], series=results)))
+    return list(ElementTree.fromstring(junit_text(run_suites([], series=results))))
 
 
 def test_every_criterion_is_a_testcase(make_series: MakeSeries) -> None:
@@ -64,5 +64,5 @@ def test_an_inconclusive_criterion_is_a_failure(make_series: MakeSeries) -> None
 
 
 def test_series_stand_behind_the_cases(make_result: MakeResult, make_series: MakeSeries) -> None:
-    root = ElementTree.fromstring(junit_xml([make_result()], series=[make_series()]))
+    root = ElementTree.fromstring(junit_text(run_suites([make_result()], series=[make_series()])))
     assert [suite.get("name") for suite in root] == ["uictest", "uictest series: acceptance"]

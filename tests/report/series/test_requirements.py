@@ -15,8 +15,8 @@ import pytest
 
 from uictest.judging import series
 from uictest.judging.evaluation import CaseResult
-from uictest.report import RunContent, read_run, write_formats, write_reports
-from uictest.report.formats.junit import FORMAT, junit_xml
+from uictest.report import RunContent, junit_text, read_run, run_suites, write_formats, write_reports
+from uictest.report.formats.junit import FORMAT
 from uictest.report.formats.md import markdown_summary
 from uictest.report.requirements import Evidence, verified_requirements
 
@@ -131,13 +131,13 @@ def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(
     named: series.SeriesResult,
 ) -> None:
     unexpected = replace(named, expect="fail")
-    suite = ElementTree.fromstring(junit_xml([], series=[unexpected], test_properties=True))[0]
+    suite = ElementTree.fromstring(junit_text(run_suites([], series=[unexpected], with_properties=True)))[0]
     of_criterion, outcome = suite.findall("testcase")
     ids = {"polarion-testcase-id": "WSP-TC-7", "test_key": "WSP-TC-7"}
     assert _properties(of_criterion) == {**ids, "requirements": "BR-9,BR-1"}
     assert _properties(outcome) == {**ids, "requirements": "BR-9"}
     assert _properties(suite) == {"requirements": "BR-1,BR-9"}
-    plain = ElementTree.fromstring(junit_xml([], series=[unexpected]))[0]
+    plain = ElementTree.fromstring(junit_text(run_suites([], series=[unexpected])))[0]
     assert _properties(plain) == {"requirements": "BR-1,BR-9"}
     assert not plain.findall("testcase/properties")
 

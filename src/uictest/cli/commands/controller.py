@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any
 
 import typer
 
 from uictest.cli import options
 from uictest.cli.app import command
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data, terminal_width
-from uictest.core import files
+from uictest.cli.findings import show_findings
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml
 from uictest.selftest import conformance
 
 controller = typer.Typer(rich_markup_mode=None, help="Check WSP controllers without the rig.")
-
-_CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
-"""Worst finding -> exit code; any other is `ExitCode.MET`."""
 
 Reference = Annotated[
     str,
@@ -71,14 +66,7 @@ def check(
     """
     file = options.junit_file(junit, Path())
     subject = _subject(reference, class_name, settings or (), time_limit, trusted or ())
-    examination = conformance.examine(subject)
-    if shown is options.PlainFormat.JSON:
-        data(conformance.findings_json(examination))
-    else:
-        data("\n".join(conformance.finding_table(examination, terminal_width(sys.stdout))))
-    if file is not None:
-        files.write_to(file, conformance.junit_xml(examination))
-    return _CODES.get(examination.status, ExitCode.MET)
+    return show_findings(conformance.examine(subject), shown, file)
 
 
 def _subject(

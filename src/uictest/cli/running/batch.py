@@ -108,10 +108,7 @@ def show_index_problem(problem: str) -> None:
 def write_junit(path: Path | None, content: report.RunContent) -> None:
     """Write the file of `--junitxml`, if there is to be one. Raises OSError."""
     if path is not None:
-        document = report.junit_xml(
-            content.results, content.baseline, content.series, uictest_version=content.uictest_version
-        )
-        files.write_to(path, document)
+        files.write_to(path, report.junit_text(report.suites_of_run(content)))
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:

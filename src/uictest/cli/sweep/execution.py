@@ -166,8 +166,8 @@ def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
         message(f"uictest: {problem}")
     _append_step_summary(finished.content)
     if junit is not None:
-        text = report.sweep_junit_xml(finished.result, run.selection.plan.file)
-        files.write_to(junit, text)
+        suite = report.sweep_suite(finished.result, run.selection.plan.file)
+        files.write_to(junit, report.junit_text([suite]))
     show_result(finished.result, finished.document, shown, quiet=quiet)
     if shown is Format.GITHUB:
         show_annotations(finished.content)

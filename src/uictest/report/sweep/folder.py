@@ -11,11 +11,12 @@ from typing import Any, Final
 
 from uictest.core import files
 from uictest.judging import evaluation
+from uictest.report.junit import junit_text
 from uictest.report.junit_properties import WITH_TEST_PROPERTIES
 from uictest.report.recording_path import require_names
 from uictest.report.run_contents import read_traces
 from uictest.report.sweep import formats
-from uictest.report.sweep.junit import sweep_junit_xml
+from uictest.report.sweep.junit import sweep_suite
 from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml
 from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
 from uictest.report.sweep.tables import csv_tables
@@ -94,9 +95,10 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     `file` is the sweep file as shown to users. Raises OSError.
     """
     document = evaluation.to_json(sweep_document(result))
-    texts = csv_tables(result) | {"junit.xml": sweep_junit_xml(result, file), SWEEP_RESULTS: document}
+    texts = csv_tables(result) | {SWEEP_RESULTS: document}
+    texts["junit.xml"] = junit_text([sweep_suite(result, file)])
     if result.requirements or result.test_case:
-        texts[WITH_TEST_PROPERTIES] = sweep_junit_xml(result, file, test_properties=True)
+        texts[WITH_TEST_PROPERTIES] = junit_text([sweep_suite(result, file, with_properties=True)])
     if result.k_dry:
         texts[K_DRY_FILE] = k_dry_yaml(result)
     if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:

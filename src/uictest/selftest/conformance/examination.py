@@ -1,70 +1,44 @@
 """Check a controller, and what was found."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Final, Literal
 
 from uictest.controllers import ControllerError
 from uictest.selftest.conformance.bench import Bench
 from uictest.selftest.conformance.checks import CHECKS, Check
 from uictest.selftest.conformance.subject import Subject
-
-Status = Literal["pass", "warning", "skipped", "fail", "error"]
-SEVERITY: Final[tuple[Status, ...]] = ("skipped", "pass", "warning", "fail", "error")
-"""From the least to the worst."""
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """The outcome of one check.
-
-    Attributes:
-        id: name of the check.
-        requirement: the sentence that it checks.
-        status: `error` where the controller did not answer; `warning` is no failure.
-        value: what was found, in `unit`; None where nothing was.
-        limit: largest value that passes.
-        unit: of both.
-        reason: what was found, in words.
-    """
-
-    id: str
-    requirement: str
-    status: Status
-    value: float | None
-    limit: float
-    unit: str
-    reason: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Examination:
-    """A controller and what the checks have found."""
-
-    subject: Subject
-    version: str
-    findings: tuple[Finding, ...]
-
-    @property
-    def status(self) -> Status:
-        """The worst of the findings."""
-        return max((finding.status for finding in self.findings), key=SEVERITY.index)
+from uictest.selftest.finding import Examination, Finding, Status
 
 
 def examine(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examination:
     """Check a controller; a crash, a hang or an exception of it is a finding with the status `error`."""
     with Bench(subject) as bench:
-        findings = tuple(_finding(check, bench) for check in checks)
-        return Examination(subject, bench.version, findings)
+        findings = tuple(_finding(check, bench, subject.name) for check in checks)
+        about = {f"controller.{name}": text for name, text in subject.description.items()}
+        about["controller.version"] = bench.version
+        return Examination("controller check", _title(subject, bench.version), about, findings)
 
 
-def _finding(check: Check, bench: Bench) -> Finding:
+def _title(subject: Subject, version: str) -> str:
+    described = subject.description
+    told = f", version {version}" if version else ""
+    digest = f", SHA-256 {described['sha256'][:12]}" if "sha256" in described else ""
+    return f"controller {described['name']} ({described['kind']}{told}{digest})"
+
+
+def _finding(check: Check, bench: Bench, controller: str) -> Finding:
     try:
         value, words = check.observe(bench)
+        status = _status(check, value)
     except ControllerError as error:
-        return Finding(check.id, check.requirement, "error", None, check.limit, check.unit, str(error))
-    status = _status(check, value)
-    return Finding(check.id, check.requirement, status, value, check.limit, check.unit, words)
+        value, words, status = None, str(error), "error"
+    return Finding(
+        *(check.id, controller, check.requirement, status),
+        expected=check.limit,
+        found=value,
+        tolerance=None,
+        unit=check.unit,
+        reason=words,
+    )
 
 
 def _status(check: Check, value: float | None) -> Status:

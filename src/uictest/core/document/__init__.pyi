@@ -1,0 +1,7 @@
+from .table import Cell as Cell, Column as Column, Document as Document, Lines as Lines, Table as Table
+from .testcases import (
+    Suite as Suite,
+    Testcase as Testcase,
+    TestcaseStatus as TestcaseStatus,
+    class_name as class_name,
+)
